@@ -1,5 +1,5 @@
 #pragma once
-/// The worlds that come with Vinerow.
+/// Registration of the built-in worlds.
 
 #include "engine/api/registry.h"
 

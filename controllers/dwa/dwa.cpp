@@ -21,7 +21,7 @@ std::vector<SensorMounting> find_rangers(const ControllerContext& context) {
   return rangers;
 }
 
-/// Axle angles out of a signal of named values, found by name once.
+/// Axle angles from a signal of named values, located by name once.
 class SteeringReader {
  public:
   void connect(Ports& ports, const std::string& signal) {
@@ -99,17 +99,17 @@ class Dwa final : public Guidance {
     state.pose = {estimate.X_WB.p.head<2>(), yaw_from_quaternion(estimate.X_WB.q)};
     const Eigen::Vector2d v_B = estimate.v_WB_B.head<2>();
     state.v_mps = std::copysign(v_B.norm(), v_B.x());
-    // Measured angles, else commanded ones, else what was asked for last.
+    // Measured angles, else commanded ones, else the last command.
     if (!encoders_.read(&state.steering) && !actuators_.read(&state.steering)) {
       state.steering = last_;
     }
     return state;
   }
 
-  /// Allocates, but only when there is something to tell.
+  /// Reports the oldest pending event; allocates only if there is one.
   void tell(Time now) {
-    DwaNews news;
-    if (!guide_.take_news(&news)) return;
+    DwaEvent news;
+    if (!guide_.take_event(&news)) return;
     Event event;
     event.source = source_;
     const double x = news.p_W.x(), y = news.p_W.y();
@@ -117,22 +117,22 @@ class Dwa final : public Guidance {
         std::isfinite(news.distance_m)
             ? fmt::format("by an obstacle that the map does not have, {:.2f} m ahead",
                           news.distance_m)
-            : "by what the map has: no motion from here leads on along the plan";
+            : "by obstacles of the map: no motion from here leads on along the plan";
     switch (news.kind) {
-      case DwaNews::Kind::kSeen:
+      case DwaEvent::Kind::kSeen:
         event.text = fmt::format(
             "sees an obstacle that the map does not have at ({:.2f}, {:.2f}), {:.2f} m from the "
             "vehicle's centre",
             x, y, news.distance_m);
         break;
-      case DwaNews::Kind::kReverse:
-        event.text = fmt::format("held up at ({:.2f}, {:.2f}) {}; goes back a little", x, y, what);
+      case DwaEvent::Kind::kReverse:
+        event.text = fmt::format("held up at ({:.2f}, {:.2f}) {}; drives back", x, y, what);
         break;
-      case DwaNews::Kind::kBlocked:
+      case DwaEvent::Kind::kBlocked:
         event.level = Event::Level::kWarning;
         event.text = fmt::format("blocked at ({:.2f}, {:.2f}) {}", x, y, what);
         break;
-      case DwaNews::Kind::kFollow:
+      case DwaEvent::Kind::kFollow:
         event.text = fmt::format("follows the plan again at ({:.2f}, {:.2f})", x, y);
         break;
     }
@@ -163,9 +163,9 @@ PartSpec dwa_spec() {
   PartSpec spec;
   spec.name = "dwa";
   spec.description =
-      "Dynamic window approach in (v, front, rear axle angle) with obstacles that ultrasound sees "
-      "(paper A, eq. 23 corrected); follows the plan where it is free, else passes, backs out or "
-      "stands.";
+      "Dynamic window approach in (v, front, rear axle angle) with obstacles that ultrasound "
+      "detects (paper A, eq. 23 corrected); follows the plan while it is free, else passes, backs "
+      "out or stops.";
   spec.parameters = dwa_table().specs();
   spec.default_rate_Hz = 10.0;
   spec.reads = {"estimate", "plan", "<ultrasound sensors>", "encoders", "actuators", "authority"};

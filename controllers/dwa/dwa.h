@@ -1,6 +1,7 @@
 #pragma once
 /// Guidance `dwa`: local planning of a four-wheel-steering vehicle by the dynamic window approach,
-/// with what ultrasonic rangers see beside the map. Laws: dwa_law.h, obstacle_memory.h.
+/// with obstacles that ultrasonic rangers detect and the map lacks. Laws: dwa_law.h,
+/// obstacle_memory.h.
 
 #include <memory>
 
@@ -10,7 +11,7 @@ namespace vinerow::controllers {
 
 PartSpec dwa_spec();
 /// @throws ConfigError for a vehicle without steered axles (SteeredVehicle) or max_speed_mps, or
-/// circles that do not hold its outline
+/// if the circles do not contain its outline
 std::unique_ptr<Guidance> make_dwa(const ParameterSet& parameters,
                                    const ControllerContext& context);
 

@@ -9,10 +9,10 @@
 namespace vinerow::controllers {
 namespace {
 
-constexpr double kSlow_mps = 0.03;       // less is standing
-constexpr double kFollowAgain_s = 1.0;   // free for this long: "follows the plan again"
-constexpr double kSeenAgain_s = 10.0;    // an obstacle after this long without is a new one
-constexpr double kMostClearance_m = 10;  // told where nothing is near
+constexpr double kSlow_mps = 0.03;      // slower is stationary
+constexpr double kFollowAgain_s = 1.0;  // free for this long: "follows the plan again"
+constexpr double kSeenAgain_s = 10.0;   // an obstacle after a longer gap is a new one
+constexpr double kMaxClearance_m = 10;  // reported if nothing is near
 
 }  // namespace
 
@@ -20,8 +20,8 @@ DwaGuide::DwaGuide(const DwaGuideParams& params, DiscOutline outline,
                    std::vector<Eigen::Vector2d> outline_B, const DistanceField& known)
     : params_(params),
       outline_B_(std::move(outline_B)),
-      rooms_(known, unknown_),
-      law_(params.law, std::move(outline), rooms_),
+      margins_(known, unknown_),
+      law_(params.law, std::move(outline), margins_),
       polygon_(DiscOutline::polygon(outline_B_)),
       plan_(params.plan),
       recovery_(params.recovery),
@@ -42,26 +42,26 @@ void DwaGuide::set_plan(const PlannedPath& plan, Time now) {
   free_since_ = now;
 }
 
-bool DwaGuide::take_news(DwaNews* news) {
-  if (news_count_ == 0) return false;
+bool DwaGuide::take_event(DwaEvent* news) {
+  if (event_count_ == 0) return false;
   *news = news_[0];
-  std::move(news_.begin() + 1, news_.begin() + news_count_, news_.begin());
-  --news_count_;
+  std::move(news_.begin() + 1, news_.begin() + event_count_, news_.begin());
+  --event_count_;
   return true;
 }
 
-void DwaGuide::tell(DwaNews::Kind kind, const Eigen::Vector2d& p_W, double distance_m) {
-  if (news_count_ < kNewsCapacity) news_[news_count_++] = {kind, p_W, distance_m};
+void DwaGuide::tell(DwaEvent::Kind kind, const Eigen::Vector2d& p_W, double distance_m) {
+  if (event_count_ < kEventCapacity) news_[event_count_++] = {kind, p_W, distance_m};
 }
 
-void DwaGuide::tell_what_is_seen(Time now, const Pose2& pose, const ObstacleMemory& memory) {
+void DwaGuide::report_obstacles(Time now, const Pose2& pose, const ObstacleMemory& memory) {
   if (memory.obstacles_W().empty()) return;
   if (!has_seen_ || (now - last_seen_).s() > kSeenAgain_s) {
     Eigen::Vector2d nearest = memory.obstacles_W().front();
     for (const Eigen::Vector2d& p : memory.obstacles_W()) {
       if ((p - pose.p).norm() < (nearest - pose.p).norm()) nearest = p;
     }
-    tell(DwaNews::Kind::kSeen, nearest, (nearest - pose.p).norm());
+    tell(DwaEvent::Kind::kSeen, nearest, (nearest - pose.p).norm());
   }
   has_seen_ = true;
   last_seen_ = now;
@@ -75,12 +75,12 @@ double DwaGuide::wanted_speed_mps() const {
 LocalCommand DwaGuide::step(Time now, const DwaState& state, const ObstacleMemory& memory) {
   VINEROW_ASSERT(has_plan());
   unknown_.build(state.pose.p, memory.obstacles_W());
-  tell_what_is_seen(now, state.pose, memory);
+  report_obstacles(now, state.pose, memory);
   plan_.locate(state.pose);
   switch (recovery_.state()) {
     case Recovery::State::kReverse:
       return drive_back(now, state);
-    case Recovery::State::kStand:
+    case Recovery::State::kStop:
       recovery_.stand(now, plan_.distance_m());
       return make_stop(state);
     case Recovery::State::kForward:
@@ -99,16 +99,16 @@ LocalCommand DwaGuide::drive_forward(Time now, const DwaState& state,
     return make_stop(state);
   }
   const double see_m = speed * params_.law.horizon_s + 0.5 * speed * speed / acceleration;
-  const double free_m = plan_.calc_free_m(rooms_, polygon_, state.pose, see_m);
+  const double free_m = plan_.calc_free_m(margins_, polygon_, state.pose, see_m);
   const bool is_near_end = plan_.remaining_m() <= params_.finish_m;
-  // Beyond where it is to stand, others may be.
+  // Places beyond the stop may be occupied by other vehicles.
   const bool is_free = free_m >= std::min({see_m, plan_.remaining_m(), stop_.left_m()});
   if (is_free && (params_.mode == DwaMode::kAssist || is_near_end)) {
     lane_left_m_ = 0.0;
     recovery_.forward(now, plan_.distance_m(), state.v_mps, true, true);
     if (is_off_plan_ && !recovery_.is_in_trouble() && (now - free_since_).s() >= kFollowAgain_s) {
       is_off_plan_ = false;
-      tell(DwaNews::Kind::kFollow, state.pose.p, 0.0);
+      tell(DwaEvent::Kind::kFollow, state.pose.p, 0.0);
     }
     return make_follow(state, speed, free_m);
   }
@@ -118,7 +118,7 @@ LocalCommand DwaGuide::drive_forward(Time now, const DwaState& state,
   const bool can_drive = choice.is_admissible && choice.v_mps > kSlow_mps;
   LocalCommand command =
       choice.is_admissible || choice.v_mps > kSlow_mps ? make_drive(choice) : make_stop(state);
-  // Following more slowly, so that it can stop before what is in the way.
+  // Follows more slowly, so that it can stop before the obstacle.
   const double late_m = params_.reaction_s * acceleration;
   const double slow_speed =
       std::min(speed, std::sqrt(late_m * late_m + 2.0 * acceleration * free_m) - late_m);
@@ -131,7 +131,7 @@ LocalCommand DwaGuide::drive_forward(Time now, const DwaState& state,
     is_following = !can_drive || calc_follow_score(slow_speed, free_m, task) >= choice.score;
     if (is_following) command = make_follow(state, slow_speed, free_m);
   }
-  // Only what leaves the plan or stands is worth a word when the plan is followed again.
+  // A return to the plan is reported only after leaving it or stopping.
   if (params_.mode == DwaMode::kAssist && !is_following) is_off_plan_ = true;
   const Recovery::Change change =
       recovery_.forward(now, plan_.distance_m(), state.v_mps, false, can_drive || is_following);
@@ -139,18 +139,18 @@ LocalCommand DwaGuide::drive_forward(Time now, const DwaState& state,
     return recovery_.state() == Recovery::State::kForward ? command : make_stop(state);
   }
   const double ahead_m = memory.nearest_ahead_m(state.pose, front_m_, half_width_m_);
-  tell(change == Recovery::Change::kReverse ? DwaNews::Kind::kReverse : DwaNews::Kind::kBlocked,
+  tell(change == Recovery::Change::kReverse ? DwaEvent::Kind::kReverse : DwaEvent::Kind::kBlocked,
        state.pose.p, ahead_m);
   return make_stop(state);
 }
 
 DwaChoice DwaGuide::choose_forward(const DwaState& state, const ObstacleMemory& memory,
                                    double speed_mps) {
-  // A way beside the plan is looked for only where something was seen: the map is the planner's.
+  // A path beside the plan is searched only past detected obstacles: the planner knows the map.
   if (memory.obstacles_W().empty()) {
     lane_left_m_ = 0.0;
   } else {
-    plan_.find_lane(rooms_, law_.outline(), lane_left_m_, &lane_left_m_);
+    plan_.find_lane(margins_, law_.outline(), lane_left_m_, &lane_left_m_);
   }
   lane_.copy_moved(plan_.window(), lane_left_m_);
   DwaTask task;
@@ -186,7 +186,7 @@ LocalCommand DwaGuide::drive_back(Time now, const DwaState& state) {
 double DwaGuide::calc_follow_score(double speed_mps, double free_m, const DwaTask& task) const {
   Rollout rollout;
   const int steps = std::min(
-      static_cast<int>(std::ceil(params_.law.horizon_s / params_.law.step_s)), Rollout::kMost);
+      static_cast<int>(std::ceil(params_.law.horizon_s / params_.law.step_s)), Rollout::kMax);
   for (int i = 0; i < steps; ++i) {
     const Pose2 pose =
         plan_.follow_pose(std::min(speed_mps * params_.law.step_s * (i + 1), free_m));
@@ -200,11 +200,11 @@ LocalCommand DwaGuide::make_follow(const DwaState& state, double speed_mps, doub
   LocalCommand command;
   command.mode = LocalCommand::Mode::kFollow;
   command.v_mps = speed_mps;
-  double least_m = rooms_.measure(polygon_, state.pose).least_m();
+  double min_m = margins_.measure(polygon_, state.pose).min_m();
   for (double s = 0.25; s <= free_m; s += 0.25) {
-    least_m = std::min(least_m, rooms_.measure(polygon_, plan_.follow_pose(s)).least_m());
+    min_m = std::min(min_m, margins_.measure(polygon_, plan_.follow_pose(s)).min_m());
   }
-  command.clearance_m = std::min(least_m, kMostClearance_m);
+  command.clearance_m = std::min(min_m, kMaxClearance_m);
   return command;
 }
 
@@ -214,7 +214,7 @@ LocalCommand DwaGuide::make_drive(const DwaChoice& choice) const {
   command.v_mps = choice.v_mps;
   command.front_axle_rad = choice.steering.front_rad;
   command.rear_axle_rad = choice.steering.rear_rad;
-  command.clearance_m = std::min(choice.room.least_m(), kMostClearance_m);
+  command.clearance_m = std::min(choice.room.min_m(), kMaxClearance_m);
   return command;
 }
 
@@ -222,7 +222,7 @@ LocalCommand DwaGuide::make_stop(const DwaState& state) const {
   LocalCommand command;
   command.front_axle_rad = state.steering.front_rad;
   command.rear_axle_rad = state.steering.rear_rad;
-  command.clearance_m = std::min(rooms_.measure(polygon_, state.pose).least_m(), kMostClearance_m);
+  command.clearance_m = std::min(margins_.measure(polygon_, state.pose).min_m(), kMaxClearance_m);
   return command;
 }
 

@@ -1,9 +1,10 @@
 #pragma once
-/// The local planner without signals: from pose, speed and steering to a LocalCommand.
+/// Local planner without signals: from pose, speed and steering to a LocalCommand.
 ///
-/// Each tick, in this order: where is the vehicle on the plan; is the way along the plan free over
-/// stopping distance and horizon (then the tracking controller may follow it); if not, is there a
-/// way beside the plan; the best of the sampled commands; or back along the trace.
+/// Each tick, in this order: locate the vehicle on the plan; check whether the plan is free over
+/// stopping distance and horizon (then the tracking controller may follow it); if not, search a
+/// free path beside the plan; choose the best of the sampled commands; or drive back along the
+/// trace.
 
 #include <array>
 
@@ -17,7 +18,7 @@
 namespace vinerow::controllers {
 
 enum class DwaMode {
-  kAssist,  ///< follow the plan where it is free
+  kAssist,  ///< follow the plan while it is free
   kPure     ///< always drive by samples (paper A)
 };
 
@@ -26,20 +27,20 @@ struct DwaGuideParams {
   DwaParams law;
   PlanAheadParams plan;
   RecoveryParams recovery;
-  double speed_mps = 0.8;  ///< where the plan wants none
+  double speed_mps = 0.8;  ///< if the plan wants none
   double speed_limit_mps = 1.6;
   double reverse_speed_mps = 0.4;
   double lookahead_m = 1.4;
-  double finish_m = 0.3;    ///< so near the end the tracking controller takes over
-  double reaction_s = 0.3;  ///< before braking begins
+  double finish_m = 0.3;    ///< nearer to the end the tracking controller takes over
+  double reaction_s = 0.3;  ///< delay before braking starts
 };
 
-/// Something to tell people.
-struct DwaNews {
+/// An event to report.
+struct DwaEvent {
   enum class Kind { kSeen, kReverse, kBlocked, kFollow };
   Kind kind = Kind::kSeen;
   Eigen::Vector2d p_W = Eigen::Vector2d::Zero();  ///< obstacle (kSeen) or vehicle
-  double distance_m = 0.0;  ///< to the obstacle; infinity: none that the map does not have
+  double distance_m = 0.0;  ///< to the obstacle; infinity: no obstacle that the map lacks
 };
 
 class DwaGuide {
@@ -53,14 +54,13 @@ class DwaGuide {
   /// Takes over a plan. Allocates.
   void set_plan(const PlannedPath& plan, Time now);
   bool has_plan() const { return !plan_.empty(); }
-  /// Where to stand still until told otherwise, along the plan; +infinity: nowhere. Standing there
-  /// is no jam.
+  /// Place along the plan to stop at until the next call; +infinity: none. A stop there is no jam.
   void set_stop(double stop_at_m) { stop_.set_place(stop_at_m); }
 
   /// One cycle. No heap. @pre has_plan()
   LocalCommand step(Time now, const DwaState& state, const ObstacleMemory& memory);
-  /// The oldest news not yet told. @returns false if there is none
-  bool take_news(DwaNews* news);
+  /// The oldest event not yet reported. @returns false if there is no further event
+  bool take_event(DwaEvent* news);
 
   int reversals() const { return recovery_.reversals(); }
   double distance_m() const { return plan_.distance_m(); }
@@ -74,15 +74,15 @@ class DwaGuide {
   LocalCommand make_drive(const DwaChoice& choice) const;
   LocalCommand make_stop(const DwaState& state) const;
   double calc_follow_score(double speed_mps, double free_m, const DwaTask& task) const;
-  void tell(DwaNews::Kind kind, const Eigen::Vector2d& p_W, double distance_m);
-  void tell_what_is_seen(Time now, const Pose2& pose, const ObstacleMemory& memory);
+  void tell(DwaEvent::Kind kind, const Eigen::Vector2d& p_W, double distance_m);
+  void report_obstacles(Time now, const Pose2& pose, const ObstacleMemory& memory);
 
   DwaGuideParams params_;
   std::vector<Eigen::Vector2d> outline_B_;
   PointField unknown_;
-  RoomFinder rooms_;
+  FreeSpaceFinder margins_;
   DwaLaw law_;
-  DiscOutline polygon_;  ///< following is checked with the true outline
+  DiscOutline polygon_;  ///< the true outline, for checks of following
   double front_m_ = 0.0;
   double half_width_m_ = 0.0;
   PlanAhead plan_;
@@ -96,9 +96,9 @@ class DwaGuide {
   Time free_since_;
   bool has_seen_ = false;
   Time last_seen_;
-  static constexpr int kNewsCapacity = 8;
-  std::array<DwaNews, kNewsCapacity> news_;
-  int news_count_ = 0;
+  static constexpr int kEventCapacity = 8;
+  std::array<DwaEvent, kEventCapacity> news_;
+  int event_count_ = 0;
 };
 
 }  // namespace vinerow::controllers

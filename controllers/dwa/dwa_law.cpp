@@ -10,10 +10,28 @@
 namespace vinerow::controllers {
 namespace {
 
-// Rounding of distances between cell centres: standing still must stay free.
-constexpr double kStandingSlack_m = 1e-3;
-// Of equals, the one that steers least: per rad of both axles, far below any weight of J.
+// Plan of DwaLaw::choose(), with a = acceleration_mps2, T = window_s and v_0, d_F0, d_R0 the
+// present motion. One pass over speeds x steers x steers samples:
+//   1. Sample (v, d_F, d_R): v within v_0 +- a T, each angle within its present value +- rate T,
+//      all within their limits.
+//   2. Roll it out at constant v. The rollout lasts at least v / (2 a), in which v covers the
+//      braking distance v^2 / (2 a).
+//   3. Admissible: every pose has the clearance `need`. Score: J minus a small term for steering.
+//   4. If no sample is admissible: brake on the rollout with the longest remainder of the free
+//      distance after braking, travel - v^2 / (2 a).
+//
+// One step of a rollout covers `length` = v step_s. It is an arc of curvature k that turns by
+// 2 half = length k, so its chord has the length `length` sin(half) / half and the direction
+// course + half.
+
+// Rounding of distances between cell centres, chosen: a stop must stay free.
+constexpr double kStationarySlack_m = 1e-3;
+// Prefers the least steering among samples of equal J; chosen far below any default weight of J.
 constexpr double kCalmness_per_rad = 0.01;
+// Rounding of horizon / step, in steps: a whole quotient must not gain a step.
+constexpr double kStepSlack = 1e-9;
+// Half the turn of a step below which sin(half) / half is 1 to within rounding.
+constexpr double kStraightHalf_rad = 1e-8;
 
 /// `count` values from low to high, both included.
 double spread(double low, double high, int i, int count) {
@@ -39,15 +57,15 @@ double calc_score(const DwaTerms& terms, const DwaCost& cost) {
 
 void calc_sweep(const AxleAngles& steering, const AxleAngles& target,
                 const SteeredVehicle& geometry, double step_s, SteeringSweep* out) {
-  const double most_rad = geometry.steer_rate_radps * step_s;
+  const double max_rad = geometry.steer_rate_radps * step_s;
   AxleAngles now = steering;
   out->count = 0;
   bool is_moving = true;
-  while (is_moving && out->count < Rollout::kMost) {
-    // The mean angles of the step; once the axles stand, the arc is exact.
-    const AxleAngles next = turn_axles(now, target, most_rad);
-    const RollingMotion motion = calc_motion({mean_angle(now.front_rad, next.front_rad, most_rad),
-                                              mean_angle(now.rear_rad, next.rear_rad, most_rad)},
+  while (is_moving && out->count < Rollout::kMax) {
+    // The mean angles of the step; once the axles rest, the arc is exact.
+    const AxleAngles next = turn_axles(now, target, max_rad);
+    const RollingMotion motion = calc_motion({mean_angle(now.front_rad, next.front_rad, max_rad),
+                                              mean_angle(now.rear_rad, next.rear_rad, max_rad)},
                                              geometry);
     out->steps[out->count++] = {motion.curvature_per_m, direction(motion.course_rad)};
     is_moving = next.front_rad != now.front_rad || next.rear_rad != now.rear_rad;
@@ -58,10 +76,10 @@ void calc_sweep(const AxleAngles& steering, const AxleAngles& target,
 void roll_out(const Pose2& start, double v_mps, const SteeringSweep& sweep, double horizon_s,
               double step_s, Rollout* out) {
   const int steps =
-      std::clamp(static_cast<int>(std::ceil(horizon_s / step_s - 1e-9)), 1, Rollout::kMost);
+      std::clamp(static_cast<int>(std::ceil(horizon_s / step_s - kStepSlack)), 1, Rollout::kMax);
   const double length_m = v_mps * step_s;
   Rollout::Node node{start.p, direction(start.yaw_rad), start.yaw_rad};
-  // Of one step, in B: where the centre goes (see advance()) and how the heading turns.
+  // Of one step, in B: displacement of the centre and rotation of the heading.
   Eigen::Vector2d move_B = Eigen::Vector2d::Zero(), turned = Eigen::Vector2d::UnitX();
   double turn_rad = 0.0;
   for (int i = 0; i < steps; ++i) {
@@ -70,8 +88,10 @@ void roll_out(const Pose2& start, double v_mps, const SteeringSweep& sweep, doub
       turn_rad = length_m * step.curvature_per_m;
       const double half = 0.5 * turn_rad;
       const Eigen::Vector2d by_half = direction(half);
-      const double chord_m = std::abs(half) < 1e-8 ? length_m : length_m * by_half.y() / half;
+      const double chord_m =
+          std::abs(half) < kStraightHalf_rad ? length_m : length_m * by_half.y() / half;
       move_B = chord_m * (by_half.x() * step.course + by_half.y() * left_of(step.course));
+      // Rotation by 2 half, by the formulas of the double angle.
       turned = by_half.x() * by_half + by_half.y() * left_of(by_half);
     }
     node.p += move_B.x() * node.ahead + move_B.y() * left_of(node.ahead);
@@ -102,18 +122,19 @@ DwaTerms DwaLaw::judge(const Rollout& rollout, const DwaTask& task) const {
   terms.path_m /= rollout.count;
   terms.heading_error_rad = wrap_angle(end.yaw_rad - path[near].yaw_rad);
   terms.goal_m = (end.p - task.goal_W).norm();
-  terms.clearance_m = rooms_.measure_cover(outline_, end.p, end.ahead).least_m();
+  terms.clearance_m = margins_.measure_cover(outline_, end.p, end.ahead).min_m();
   return terms;
 }
 
-Room DwaLaw::calc_need(const Pose2& pose, const Room& wanted) const {
-  const Room now = rooms_.measure(outline_, pose);
-  return {std::min(wanted.known_m, now.known_m - kStandingSlack_m),
-          std::min(wanted.unknown_m, now.unknown_m - kStandingSlack_m)};
+FreeSpace DwaLaw::calc_need(const Pose2& pose, const FreeSpace& wanted) const {
+  const FreeSpace now = margins_.measure(outline_, pose);
+  return {std::min(wanted.known_m, now.known_m - kStationarySlack_m),
+          std::min(wanted.unknown_m, now.unknown_m - kStationarySlack_m)};
 }
 
 DwaChoice DwaLaw::choose(const DwaState& state, const DwaTask& task) const {
   VINEROW_ASSERT(task.path != nullptr && !task.path->empty());
+  // The dynamic window: commands that can be reached within window_s.
   const double reach_mps = params_.acceleration_mps2 * params_.window_s;
   const double v_low = std::clamp(state.v_mps - reach_mps, task.v_low_mps, task.v_high_mps);
   const double v_high = std::clamp(state.v_mps + reach_mps, task.v_low_mps, task.v_high_mps);
@@ -139,18 +160,19 @@ DwaChoice DwaLaw::choose(const DwaState& state, const DwaTask& task) const {
       calc_sweep(state.steering, target, params_.geometry, params_.step_s, &sweep);
       for (int k = 0; k < params_.speeds; ++k) {
         const double v = spread(v_low, v_high, k, params_.speeds);
-        // Whatever the horizon, as far as it takes to stop.
+        // At least as far as the braking distance: v stop_s = v^2 / (2 a).
         const double stop_s = 0.5 * std::abs(v) / params_.acceleration_mps2;
         roll_out(state.pose, v, sweep, std::max(params_.horizon_s, stop_s), params_.step_s,
                  &rollout);
+        // Number of poses before the first that lacks clearance.
         int free = 0;
-        while (free < rollout.count && rooms_.meets(outline_, rollout.nodes[free].p,
-                                                    rollout.nodes[free].ahead, task.need)) {
+        while (free < rollout.count && margins_.meets(outline_, rollout.nodes[free].p,
+                                                      rollout.nodes[free].ahead, task.need)) {
           ++free;
         }
         const double travel_m = std::abs(v) * params_.step_s * free;
         if (free < rollout.count) {
-          // Something is in the way: only for braking, if nothing better is found.
+          // Blocked: kept for braking only, if no sample is admissible.
           const double stop_m = travel_m - 0.5 * v * v / params_.acceleration_mps2;
           if (!best.is_admissible && stop_m > best_stop_m) {
             best_stop_m = stop_m;
@@ -160,6 +182,7 @@ DwaChoice DwaLaw::choose(const DwaState& state, const DwaTask& task) const {
           }
           continue;
         }
+        // Largest score; of equal ones the first.
         const double calm = std::abs(target.front_rad - state.steering.front_rad) +
                             std::abs(target.rear_rad - state.steering.rear_rad);
         const double score =
@@ -169,11 +192,12 @@ DwaChoice DwaLaw::choose(const DwaState& state, const DwaTask& task) const {
       }
     }
   }
+  // Smallest clearance along the chosen rollout, for the report.
   roll_out(state.pose, best.v_mps, state.steering, best.steering, params_.geometry,
            params_.horizon_s, params_.step_s, &rollout);
-  best.room = rooms_.measure(outline_, state.pose);
+  best.room = margins_.measure(outline_, state.pose);
   for (int i = 0; best.is_admissible && i < rollout.count; ++i) {
-    const Room room = rooms_.measure(outline_, rollout.nodes[i].p, rollout.nodes[i].ahead);
+    const FreeSpace room = margins_.measure(outline_, rollout.nodes[i].p, rollout.nodes[i].ahead);
     best.room = {std::min(best.room.known_m, room.known_m),
                  std::min(best.room.unknown_m, room.unknown_m)};
   }

@@ -34,7 +34,7 @@ const ParameterTable<DwaPartParams>& dwa_table() {
       ParameterTable<P>()
           .choice("mode", guide(&Guide::mode),
                   {{"assist", DwaMode::kAssist}, {"pure", DwaMode::kPure}},
-                  "assist: follow the plan where it is free; pure: always drive by samples")
+                  "assist: follow the plan while it is free; pure: always drive by samples")
           .choice("footprint", &P::footprint,
                   {{"circles", DwaFootprint::kCircles},
                    {"polygon", DwaFootprint::kPolygon},
@@ -47,19 +47,19 @@ const ParameterTable<DwaPartParams>& dwa_table() {
           .choice("cost", cost(&DwaCost::as_printed), {{"corrected", false}, {"printed", true}},
                   "printed: J = alpha d_O + beta d_goal of eq. (23), which drives away")
           .number("speed_mps", "m/s", guide(&Guide::speed_mps), kPositive,
-                  "highest speed where the plan has none")
+                  "highest speed if the plan has no speed")
           .number("acceleration_mps2", "m/s2", law(&DwaParams::acceleration_mps2), kPositive,
-                  "speeding up and braking")
+                  "acceleration and deceleration")
           .number("window_s", "s", law(&DwaParams::window_s), kPositive,
-                  "the dynamic window is what this time allows")
+                  "the dynamic window contains the commands that can be reached within this time")
           .number("horizon_s", "s", law(&DwaParams::horizon_s), kPositive, "length of the rollouts")
           .number("step_s", "s", law(&DwaParams::step_s), kPositive,
-                  "time between poses of a rollout that are checked")
-          .integer("speed_samples", law(&DwaParams::speeds), between(2, 50), "speeds tried")
+                  "time between checked poses of a rollout")
+          .integer("speed_samples", law(&DwaParams::speeds), between(2, 50), "sampled speeds")
           .integer("steer_samples", law(&DwaParams::steers), between(3, 51),
-                   "angles tried per axle")
+                   "sampled angles per axle")
           .number("clearance_weight", "1/m", cost(&DwaCost::clearance_weight), between(0.0, 1e3),
-                  "alpha, of the room at the end")
+                  "alpha, of the clearance at the end")
           .number("goal_weight", "1/m", cost(&DwaCost::goal_weight), between(0.0, 1e3),
                   "beta, of the distance to the point ahead on the plan")
           .number("heading_weight", "1/rad", cost(&DwaCost::heading_weight), between(0.0, 1e3),
@@ -67,48 +67,48 @@ const ParameterTable<DwaPartParams>& dwa_table() {
           .number("path_weight", "1/m", cost(&DwaCost::path_weight), between(0.0, 1e3),
                   "eta, of the mean distance from the path")
           .number("clearance_saturation_m", "m", cost(&DwaCost::saturation_m), kPositive,
-                  "d_sat: more room is worth no more")
+                  "d_sat: clearance beyond this has no further value")
           .number("lookahead_m", "m", guide(&Guide::lookahead_m), between(0.2, 4.0),
-                  "how far ahead on the plan the goal is")
+                  "distance of the goal ahead on the plan")
           .number("margin_m", "m", plan(&PlanAheadParams::margin_m), between(0.0, 1.0),
-                  "room to keep to what the map knows")
+                  "clearance to obstacles of the map")
           .number("follow_margin_m", "m", plan(&PlanAheadParams::follow_margin_m),
                   between(-1.0, 1.0),
-                  "the same while following the plan, which was checked with a margin of its "
-                  "own; negative: following may cut so far into what the map has, for walls "
-                  "that are virtual")
+                  "the same while following the plan, which was checked with its own margin; "
+                  "negative: following may cut this far into occupied ground of the map, for "
+                  "virtual walls")
           .number("obstacle_margin_m", "m", plan(&PlanAheadParams::obstacle_margin_m),
-                  between(0.0, 1.0), "room to keep to what only the sensors saw")
-          .number("pass_m", "m", plan(&PlanAheadParams::lane_most_m), between(0.0, 2.0),
-                  "how far beside the plan a way past an obstacle is looked for")
+                  between(0.0, 1.0), "clearance to obstacles that only the sensors detected")
+          .number("pass_m", "m", plan(&PlanAheadParams::lane_max_m), between(0.0, 2.0),
+                  "largest distance beside the plan of a path past an obstacle")
           .number("fade_m", "m", plan(&PlanAheadParams::fade_m), kPositive,
-                  "length over which the tracking controller is taken to lose its error")
+                  "assumed length over which the tracking controller removes its error")
           .number("reverse_speed_mps", "m/s", guide(&Guide::reverse_speed_mps), kPositive,
-                  "speed backwards where it is blocked")
+                  "speed backwards when blocked")
           .number("reverse_s", "s", recovery(&RecoveryParams::reverse_s), between(0.0, 60.0),
-                  "longest way back where it is blocked")
+                  "longest drive back when blocked")
           .integer("max_recoveries", recovery(&RecoveryParams::max_recoveries), between(0, 100),
-                   "ways back before it stands")
+                   "drives back before it stops")
           .number("stall_s", "s", recovery(&RecoveryParams::stall_s), kPositive,
                   "without progress for this long it counts as blocked")
           .number("retry_s", "s", recovery(&RecoveryParams::retry_s), kPositive,
-                  "how often it tries again when it stands")
+                  "period of further tries after it has stopped")
           .number("look_back_s", "s", recovery(&RecoveryParams::look_back_s), between(0.0, 60.0),
-                  "longest way back of every fourth try, to see from afar what is there")
+                  "longest drive back of every fourth try, for a view from farther away")
           .number("finish_m", "m", guide(&Guide::finish_m), between(0.0, 2.0),
-                  "so near the plan's end the tracking controller takes over")
+                  "nearer to the plan's end than this the tracking controller takes over")
           .number("obstacle_range_m", "m", memory(&Memory::obstacle_range_m), between(0.0, 20.0),
-                  "echoes from farther are left out; 0 = no sensor is listened to")
+                  "echoes from farther are ignored; 0 = all sensors are ignored")
           .number("map_tolerance_m", "m", memory(&Memory::map_tolerance_m), kPositive,
-                  "an echo so near to something on the map comes from there")
+                  "an echo nearer than this to something on the map comes from there")
           .degrees("ground_slope_deg", memory(&Memory::ground_slope_rad), between(0.0, 45.0),
-                   "ground ahead may rise so much against the vehicle's: echoes of it are left out")
+                   "largest rise of the ground ahead against the vehicle's: its echoes are ignored")
           .integer("consistent_echoes", memory(&Memory::consistent_echoes), between(1, 20),
                    "readings of one sensor that must agree before they count")
           .integer("hits", memory(&Memory::hits), between(1, 20),
                    "readings that make a point an obstacle")
           .number("forget_s", "s", memory(&Memory::forget_s), kPositive,
-                  "points 3 m away are kept so long after their last echo");
+                  "time after the last echo for which points 3 m away are kept");
   return table;
 }
 
@@ -134,12 +134,12 @@ DwaPartParams read_dwa_params(const ParameterSet& parameters, const ControllerCo
   }
   const double longest_s =
       std::max(guide.law.horizon_s, 0.5 * guide.speed_limit_mps / guide.law.acceleration_mps2);
-  if (longest_s > guide.law.step_s * Rollout::kMost) {
+  if (longest_s > guide.law.step_s * Rollout::kMax) {
     throw ConfigError(fmt::format(
         "{}: rollouts of {} s (horizon_s, or stopping from {} m/s) need {:.0f} steps of "
-        "step_s = {} s, at most {} are kept",
+        "step_s = {} s, at most {} are possible",
         who(context), longest_s, guide.speed_limit_mps, std::ceil(longest_s / guide.law.step_s),
-        guide.law.step_s, Rollout::kMost));
+        guide.law.step_s, Rollout::kMax));
   }
   guide.plan.crab_slope = std::tan(geometry.max_axle_steer_rad);
   guide.reverse_speed_mps = std::min(guide.reverse_speed_mps, guide.speed_limit_mps);

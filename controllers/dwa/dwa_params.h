@@ -1,5 +1,5 @@
 #pragma once
-/// Parameters of guidance `dwa` as files name them.
+/// Parameters of guidance `dwa`, with their names in files.
 
 #include "controllers/dwa/dwa_guide.h"
 #include "engine/api/parameter_table_fwd.h"
@@ -19,8 +19,8 @@ struct DwaPartParams {
 
 const ParameterTable<DwaPartParams>& dwa_table();
 
-/// @throws ConfigError "rover.guidance (dwa) needs 'front_axle_m', which vehicle type 'x' does not
-/// tell (it tells: ...)", or crossed limits with their numbers
+/// @throws ConfigError "rover.guidance (dwa) needs 'front_axle_m', ..." if the vehicle type lacks
+/// the number, or crossed limits with their numbers
 DwaPartParams read_dwa_params(const ParameterSet& parameters, const ControllerContext& context);
 /// @throws ConfigError if the circles leave more of the outline uncovered than margin_m
 DiscOutline make_dwa_outline(const DwaPartParams& params, const ControllerContext& context);

@@ -1,5 +1,5 @@
 #pragma once
-/// How a vehicle with two steered axles rolls: crab and curve at once.
+/// Kinematics of a vehicle with two steered axles: crab and curve at once.
 ///
 /// With k and s of parts/axle_angles.h the velocity of the centre is v_x (1, s) and the yaw rate
 /// k v_x. Per metre that the centre travels it turns by k / sqrt(1 + s^2), in the direction atan(s)
@@ -24,17 +24,17 @@ inline RollingMotion calc_motion(const AxleAngles& steering, const SteeredVehicl
   return {std::atan(roll.drift), roll.curvature_per_m / std::sqrt(1.0 + roll.drift * roll.drift)};
 }
 
-/// Pose after the centre travelled `length_m` (negative: backwards) with steering at rest: exact.
+/// Exact pose after the centre has travelled `length_m` (negative: backwards), steering constant.
 inline Pose2 roll(const Pose2& pose, const RollingMotion& motion, double length_m) {
   const Pose2 moved = advance({pose.p, pose.yaw_rad + motion.course_rad}, length_m,
                               length_m * motion.curvature_per_m);
   return {moved.p, moved.yaw_rad - motion.course_rad};
 }
 
-/// Both axles move towards their targets, each by at most `most_rad`.
-inline AxleAngles turn_axles(const AxleAngles& now, const AxleAngles& target, double most_rad) {
-  return {now.front_rad + std::clamp(target.front_rad - now.front_rad, -most_rad, most_rad),
-          now.rear_rad + std::clamp(target.rear_rad - now.rear_rad, -most_rad, most_rad)};
+/// Moves both axles towards their targets, each by at most `max_rad`.
+inline AxleAngles turn_axles(const AxleAngles& now, const AxleAngles& target, double max_rad) {
+  return {now.front_rad + std::clamp(target.front_rad - now.front_rad, -max_rad, max_rad),
+          now.rear_rad + std::clamp(target.rear_rad - now.rear_rad, -max_rad, max_rad)};
 }
 
 }  // namespace vinerow::controllers

@@ -10,7 +10,7 @@ void LocalPath::add(const Pose2& pose, double distance_m) {
   const int n = size_++;
   samples_[n] = {pose.p, direction(pose.yaw_rad), {0, 0}, pose.yaw_rad, distance_m};
   if (n == 0) return;
-  // Across the way to the neighbours: a crabbing trace does not run along its headings.
+  // From the neighbours: a crabbing trace does not run along its headings.
   const int before = std::max(n - 2, 0);
   samples_[n - 1].along = (samples_[n].p - samples_[before].p).stableNormalized();
   samples_[n].along = (samples_[n].p - samples_[n - 1].p).stableNormalized();

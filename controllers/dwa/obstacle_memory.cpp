@@ -10,11 +10,11 @@
 namespace vinerow::controllers {
 namespace {
 
-// An arc's points lie off the true surface by a little; free beams do not count so near an echo.
+// An arc's points are slightly off the true surface; free beams do not count this near an echo.
 constexpr double kFreeBefore_m = 0.12;
-// The cone's rim is not surely seen.
+// The cone's rim is not detected with certainty.
 constexpr double kRim_rad = 0.0175;
-// Nearer than this from the vehicle's centre nothing is forgotten for its age.
+// Points nearer than this to the vehicle's centre do not expire.
 constexpr double kNear_m = 3.0;
 constexpr double kMerge_m = 0.8 * ObstacleMemory::kPitch_m;
 
@@ -54,7 +54,7 @@ void ObstacleMemory::place(Beam* beam, const SensorMounting& sensor, const Pose&
   beam->half_angle_rad = sample.half_angle_rad;
   beam->cos_free = std::cos(std::max(sample.half_angle_rad - kRim_rad, 0.0));
   beam->range_m = sample.range_m * level;
-  // The vehicle stands on the ground, so its own plane is the ground's but for ground_slope.
+  // The vehicle is on the ground, so its own plane is the ground's except for ground_slope.
   const double down_rad = std::asin(std::clamp(-axis_B.z(), -1.0, 1.0)) + sample.half_angle_rad +
                           params_.ground_slope_rad;
   const double height_m = height_m_ + sensor.X_BS.p.z();
@@ -66,7 +66,7 @@ void ObstacleMemory::place(Beam* beam, const SensorMounting& sensor, const Pose&
 bool ObstacleMemory::is_seen_through(const Eigen::Vector2d& p_W, const Beam& beam) const {
   const Eigen::Vector2d offset = p_W - beam.p_W;
   const double distance_m = offset.norm();
-  // What is told as free ends where echoes are no longer believed.
+  // Free space ends where echoes are no longer used.
   const double free_m = std::min(beam.range_m, params_.obstacle_range_m + 0.5) - kFreeBefore_m;
   return beam.has_value && distance_m < free_m &&
          offset.dot(beam.axis_W) > distance_m * beam.cos_free;
@@ -128,7 +128,7 @@ void ObstacleMemory::mark(const Eigen::Vector2d& p_W, Time now) {
     return;
   }
   if (count_ == kCapacity) {
-    // The one that was not seen for longest makes room.
+    // The point with the oldest echo is replaced.
     const auto oldest =
         std::min_element(points_.begin(), points_.end(),
                          [](const Point& a, const Point& b) { return a.seen < b.seen; });

@@ -1,21 +1,21 @@
 #pragma once
-/// Remembers as points what ultrasonic rangers saw and the map does not have.
+/// Memory of obstacles that ultrasonic rangers detect and the map lacks, as points.
 ///
-/// A reading says: something is on an arc across the cone, and nothing is in the cone before it.
-/// So an echo puts points along the arc, except where another sensor's cone says that there is
-/// nothing; cones that overlap carve the true place out of the arcs. An echo is left out if
+/// A reading means that something is on an arc across the cone and nothing is in the cone before
+/// it. So an echo adds points along the arc, except where another sensor's cone is free; cones that
+/// overlap narrow the arcs down to the true place. An echo is ignored if
 /// - it is farther than obstacle_range_m,
 /// - any part of its arc is within map_tolerance_m of something on the map (canopies, posts),
-/// - the ground may explain it: the cone's lower edge, tilted by ground_slope, meets the ground
+/// - it may come from the ground: the cone's lower edge, tilted by ground_slope, meets the ground
 ///   under the vehicle before it,
-/// - the sensor's readings before it do not agree with it (consistent_echoes in a row).
-/// A point counts after `hits` readings, and is forgotten when the cones see through it
-/// kMissesToClear times in a row, when the vehicle stands on it, or forget_s after its last hit if
-/// the vehicle is 3 m away by then. Beside and close before the vehicle no cone looks: a vehicle
-/// that stands before an obstacle must not forget it there.
+/// - the sensor's previous readings do not agree with it (consistent_echoes in a row).
+/// A point counts after `hits` readings. It is forgotten when the cones see through it
+/// kMissesToClear times in a row, when the vehicle is on it, or forget_s after its last hit if the
+/// vehicle is 3 m away by then. The cones do not cover the sides and the space close before the
+/// vehicle: a vehicle that has stopped before an obstacle must not forget it there.
 ///
-/// Everything happens in the horizontal plane, at the estimated pose at the time of the update;
-/// how far the vehicle moves between measurement and update (a sensor's delay) is not made up for.
+/// Everything happens in the horizontal plane, at the estimated pose at the time of the update. The
+/// motion of the vehicle between measurement and update (a sensor's delay) is not compensated.
 
 #include <span>
 #include <vector>
@@ -54,18 +54,18 @@ class ObstacleMemory {
 
   int sensor_count() const { return static_cast<int>(sensors_.size()); }
 
-  /// A sensor's reading; call before update(), only when it is new.
+  /// A sensor's reading; call before update(), and only if it is new.
   void read(int sensor, const RangeSample& sample);
-  /// Takes over what was read since the last call. No heap.
+  /// Processes the readings since the last call. No heap.
   void update(Time now, const Pose& X_WB);
   void clear();
 
-  /// Points that count. Valid until the next update.
+  /// Confirmed points. Valid until the next update.
   std::span<const Eigen::Vector2d> obstacles_W() const {
     return {confirmed_W_.data(), static_cast<std::size_t>(confirmed_count_)};
   }
-  /// Nearest point ahead within half_width_m of the vehicle's axis, m from x_m (of B); infinity if
-  /// there is none.
+  /// Distance to the nearest point ahead within half_width_m of the vehicle's axis, m from x_m (of
+  /// B); infinity without such a point.
   double nearest_ahead_m(const Pose2& pose, double x_m, double half_width_m) const;
 
  private:
@@ -74,7 +74,7 @@ class ObstacleMemory {
     Eigen::Vector2d axis_W = Eigen::Vector2d::UnitX();
     double range_m = 0.0;  ///< in the horizontal plane
     double half_angle_rad = 0.0;
-    double cos_free = 1.0;  ///< of the angle within which the cone is surely seen
+    double cos_free = 1.0;  ///< of the angle within which the cone detects with certainty
     double ground_m = 0.0;  ///< echoes from here on may be the ground
     double last_m = 0.0;
     int streak = 0;

@@ -10,8 +10,8 @@
 namespace vinerow::controllers {
 namespace {
 
-// The vehicle is looked for this far along the plan around where it was, and at first from its
-// start.
+// The vehicle is located within this distance along the plan around its last place, and at first
+// from the plan's start.
 constexpr double kSearchBack_m = 1.5;
 constexpr double kSearchAhead_m = 2.0;
 constexpr double kSearchFirst_m = 5.0;
@@ -34,7 +34,7 @@ void PlanAhead::locate(const Pose2& pose) {
   is_located_ = true;
   heading_error_rad_ = wrap_angle(pose.yaw_rad - at_.yaw_rad);
   window_.clear();
-  // Samples lie at whole pitches of the plan, so that they do not wander with the vehicle.
+  // Samples are at whole pitches of the plan, so that they do not move with the vehicle.
   const int first =
       static_cast<int>(std::ceil(std::max(at_.distance_m - kBehind_m, 0.0) / kPitch_m));
   const double last_m = std::min(at_.distance_m + kAhead_m, path_.length_m());
@@ -53,9 +53,9 @@ Pose2 PlanAhead::follow_pose(double ahead_m) const {
   return pose;
 }
 
-double PlanAhead::calc_free_m(const RoomFinder& rooms, const DiscOutline& outline,
+double PlanAhead::calc_free_m(const FreeSpaceFinder& rooms, const DiscOutline& outline,
                               const Pose2& pose, double length_m) const {
-  const Room now = rooms.measure(outline, pose);
+  const FreeSpace now = rooms.measure(outline, pose);
   const double end_m = std::min(length_m, remaining_m());
   double free_m = 0.0;
   for (int i = here_; i < window_.size(); ++i) {
@@ -63,12 +63,13 @@ double PlanAhead::calc_free_m(const RoomFinder& rooms, const DiscOutline& outlin
     if (ahead_m > end_m) break;
     const Pose2 follow = follow_pose(ahead_m);
     const Eigen::Vector2d ahead = direction(follow.yaw_rad);
-    const Room cheap{params_.follow_margin_m, params_.obstacle_margin_m};
+    const FreeSpace cheap{params_.follow_margin_m, params_.obstacle_margin_m};
     if (!rooms.meets(outline, follow.p, ahead, cheap)) {
-      const Room there = rooms.measure(outline, follow.p, ahead);
-      const Room plan = rooms.measure(outline, window_[i].p, window_[i].ahead);
-      const Room need{std::min({params_.follow_margin_m, plan.known_m, now.known_m}) - kRounding_m,
-                      std::min(params_.obstacle_margin_m, now.unknown_m - kRounding_m)};
+      const FreeSpace there = rooms.measure(outline, follow.p, ahead);
+      const FreeSpace plan = rooms.measure(outline, window_[i].p, window_[i].ahead);
+      const FreeSpace need{
+          std::min({params_.follow_margin_m, plan.known_m, now.known_m}) - kRounding_m,
+          std::min(params_.obstacle_margin_m, now.unknown_m - kRounding_m)};
       const double touches_m = std::min(params_.follow_margin_m, 0.0);
       const bool hits_map = there.known_m <= touches_m && now.known_m > touches_m;
       if (hits_map || !there.meets(need)) return free_m;
@@ -78,7 +79,7 @@ double PlanAhead::calc_free_m(const RoomFinder& rooms, const DiscOutline& outlin
   return end_m;
 }
 
-bool PlanAhead::is_lane_free(const RoomFinder& rooms, const DiscOutline& outline,
+bool PlanAhead::is_lane_free(const FreeSpaceFinder& rooms, const DiscOutline& outline,
                              double left_m) const {
   const double reach_m = std::abs(left_m - at_.lateral_error_m) / params_.crab_slope;
   for (int i = window_.index_at(at_.distance_m + reach_m); i < window_.size(); ++i) {
@@ -88,19 +89,20 @@ bool PlanAhead::is_lane_free(const RoomFinder& rooms, const DiscOutline& outline
     if (rooms.meets(outline, p, sample.ahead, {params_.margin_m, params_.obstacle_margin_m})) {
       continue;
     }
-    // Where the plan itself is nearer to the map than the margin, as near is allowed.
+    // If the plan itself is nearer to the map than the margin, that distance is allowed.
     const double known_m = rooms.measure(outline, sample.p, sample.ahead).known_m;
-    const Room need{std::min(params_.margin_m, known_m - kRounding_m), params_.obstacle_margin_m};
+    const FreeSpace need{std::min(params_.margin_m, known_m - kRounding_m),
+                         params_.obstacle_margin_m};
     if (!rooms.measure(outline, p, sample.ahead).meets(need)) return false;
   }
   return true;
 }
 
-bool PlanAhead::find_lane(const RoomFinder& rooms, const DiscOutline& outline, double before_m,
+bool PlanAhead::find_lane(const FreeSpaceFinder& rooms, const DiscOutline& outline, double before_m,
                           double* left_m) const {
-  // Changing one's mind costs half as much as the way itself.
+  // A change of the displacement costs half as much as the displacement itself.
   const auto cost = [&](double left) { return std::abs(left) + 0.5 * std::abs(left - before_m); };
-  const int count = static_cast<int>(params_.lane_most_m / params_.lane_step_m + 1e-9);
+  const int count = static_cast<int>(params_.lane_max_m / params_.lane_step_m + 1e-9);
   double best = std::numeric_limits<double>::infinity();
   *left_m = 0.0;
   for (int i = -count; i <= count; ++i) {

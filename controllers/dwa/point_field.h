@@ -1,9 +1,9 @@
 #pragma once
-/// How far the surroundings of the vehicle are from a handful of points: the local counterpart of
+/// Distance of the vehicle's surroundings from a few points: the local counterpart of
 /// DistanceField.
 ///
-/// A window of nodes around the vehicle; each point writes its exact distance into the nodes within
-/// reach, so that a question costs the same whatever the number of points. Between nodes bilinear:
+/// A window of nodes around the vehicle. Each point writes its exact distance into the nodes within
+/// reach, so that a query costs the same whatever the number of points. Between nodes bilinear:
 /// up to h^2 / (4 d) too far at distance d (h = 0.1 m: 0.02 m at 0.15 m, 0.005 m at 0.5 m).
 
 #include <Eigen/Core>
@@ -17,7 +17,7 @@ class PointField {
  public:
   static constexpr int kNodes = 96;          ///< per side
   static constexpr double kSpacing_m = 0.1;  ///< h
-  static constexpr double kReach_m = 1.3;    ///< farther than this counts as infinitely far
+  static constexpr double kReach_m = 1.3;    ///< larger distances count as infinite
 
   PointField();
 

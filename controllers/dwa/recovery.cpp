@@ -5,8 +5,8 @@
 
 namespace vinerow::controllers {
 namespace {
-constexpr double kStanding_mps = 0.05;
-// How many poses back the nearest one is looked for.
+constexpr double kStationary_mps = 0.05;
+// Number of recent poses among which the nearest one is searched.
 constexpr int kSearch = 20;
 }  // namespace
 
@@ -49,13 +49,13 @@ Recovery::Change Recovery::forward(Time now, double distance_m, double v_mps, bo
   if (is_in_trouble() && distance_m > jam_m_ + params_.past_m) {
     recoveries_ = tries_ = 0;
     is_looking_back_ = false;
-    is_told_ = false;
+    is_reported_ = false;
   }
   if (is_free || distance_m > progress_m_ + params_.progress_m) {
     progress_m_ = distance_m;
     progress_ = now;
   }
-  if (is_free || can_move || std::abs(v_mps) > kStanding_mps) moving_ = now;
+  if (is_free || can_move || std::abs(v_mps) > kStationary_mps) moving_ = now;
   const bool is_jammed =
       (now - progress_).s() > params_.stall_s || (now - moving_).s() > params_.stopped_s;
   if (!is_jammed) return Change::kNone;
@@ -66,18 +66,18 @@ Recovery::Change Recovery::forward(Time now, double distance_m, double v_mps, bo
     state_ = State::kReverse;
     is_reversing_ = false;
     until_ = now + duration_from_s(reverse_time_s());
-    return is_told_ ? Change::kNone : Change::kReverse;
+    return is_reported_ ? Change::kNone : Change::kReverse;
   }
-  state_ = State::kStand;
+  state_ = State::kStop;
   until_ = now + duration_from_s(params_.retry_s);
-  const bool is_news = !is_told_;
-  is_told_ = true;
-  return is_news ? Change::kStand : Change::kNone;
+  const bool is_new_event = !is_reported_;
+  is_reported_ = true;
+  return is_new_event ? Change::kStop : Change::kNone;
 }
 
 void Recovery::reverse(Time now, double distance_m, double v_mps, bool can_move) {
-  if (!is_reversing_ && v_mps < kStanding_mps) {
-    // The time counts from standing still.
+  if (!is_reversing_ && v_mps < kStationary_mps) {
+    // The time counts from the stop.
     is_reversing_ = true;
     until_ = now + duration_from_s(reverse_time_s());
   }

@@ -1,7 +1,7 @@
 #pragma once
-/// What to do when there is no way ahead: go back a little along the own trace and try again, a
-/// few times; then stand, and try again now and then. Every kLookBack-th try goes back farther
-/// first: from there the sensors see what lies beside their cones when they are close up.
+/// Recovery of a blocked vehicle: it drives back a little along its own trace and tries again, a
+/// few times. Then it stops, and tries again periodically. Every kLookBack-th try drives back
+/// farther first: from there the sensors see obstacles that are beside their cones at close range.
 
 #include <vector>
 
@@ -10,7 +10,7 @@
 
 namespace vinerow::controllers {
 
-/// The poses the vehicle came along. Fixed capacity: the last kCapacity * kPitch_m metres.
+/// Past poses of the vehicle. Fixed capacity: the last kCapacity * kPitch_m metres.
 class DrivenTrace {
  public:
   static constexpr int kCapacity = 90;
@@ -18,11 +18,11 @@ class DrivenTrace {
 
   DrivenTrace() : poses_(kCapacity) {}
   void clear() { count_ = 0; }
-  /// Forward: adds the pose if it is new.
+  /// While driving forward: adds the pose if it is new.
   void record(const Pose2& pose);
-  /// Backwards: forgets what the vehicle has driven back.
+  /// While driving backwards: removes the poses that the vehicle has passed.
   void drive_back(const Pose2& pose);
-  /// The way back, nearest first, headings as they were.
+  /// The path back, nearest first, with the original headings.
   void copy_back(LocalPath* path) const;
   int size() const { return count_; }
 
@@ -33,35 +33,35 @@ class DrivenTrace {
 
 struct RecoveryParams {
   double stall_s = 2.0;      ///< no progress for this long is a jam
-  double stopped_s = 0.5;    ///< so is standing with no admissible motion for this long
-  double reverse_s = 2.0;    ///< longest way back
-  int max_recoveries = 3;    ///< then it stands
-  double retry_s = 5.0;      ///< and tries again this often
-  double look_back_s = 6.0;  ///< longest way back of a look from afar
-  double progress_m = 0.05;  ///< less along the plan is none
-  double past_m = 1.0;       ///< this far past the place of a jam, it is forgotten
+  double stopped_s = 0.5;    ///< a stop without admissible motion for this long is a jam
+  double reverse_s = 2.0;    ///< longest drive back
+  int max_recoveries = 3;    ///< then it stops
+  double retry_s = 5.0;      ///< period of tries after that
+  double look_back_s = 6.0;  ///< longest drive back of every kLookBack-th try
+  double progress_m = 0.05;  ///< less along the plan is no progress
+  double past_m = 1.0;       ///< a jam is forgotten this far past its place
 };
 
-/// The state machine; knows times and distances only.
+/// State machine of the recovery; it uses times and distances only.
 class Recovery {
  public:
-  enum class State { kForward, kReverse, kStand };
-  enum class Change { kNone, kReverse, kStand };
+  enum class State { kForward, kReverse, kStop };
+  enum class Change { kNone, kReverse, kStop };
 
   explicit Recovery(const RecoveryParams& params) : params_(params) {}
   void reset(Time now);
 
   State state() const { return state_; }
   int reversals() const { return reversals_; }
-  /// True from the start of a jam until it lies past_m behind.
-  bool is_in_trouble() const { return recoveries_ > 0 || is_told_; }
+  /// True from the start of a jam until the vehicle is past_m past it.
+  bool is_in_trouble() const { return recoveries_ > 0 || is_reported_; }
 
   /// Every tick of kForward. @param distance_m  along the plan  @param is_free  the plan is
   /// followed freely  @param can_move  an admissible motion was found
   Change forward(Time now, double distance_m, double v_mps, bool is_free, bool can_move);
   /// Every tick of kReverse. @param can_move  backwards
   void reverse(Time now, double distance_m, double v_mps, bool can_move);
-  /// Every tick of kStand.
+  /// Every tick of kStop.
   void stand(Time now, double distance_m);
 
  private:
@@ -74,9 +74,9 @@ class Recovery {
   State state_ = State::kForward;
   static constexpr int kLookBack = 4;
   int recoveries_ = 0;
-  int tries_ = 0;      // from standing
+  int tries_ = 0;      // from a stop
   int reversals_ = 0;  // since reset()
-  bool is_told_ = false;
+  bool is_reported_ = false;
   double jam_m_ = 0.0;
   double progress_m_ = 0.0;
   Time progress_;

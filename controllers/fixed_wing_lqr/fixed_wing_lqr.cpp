@@ -65,7 +65,7 @@ PartSpec fixed_wing_lqr_spec() {
   spec.name = "fixed_wing_lqr";
   spec.description =
       "Linear quadratic regulator about the reference's steady flight (paper A, section 2, without "
-      "constraints and tube) for vehicles on wings.";
+      "constraints and tube) for fixed-wing vehicles.";
   spec.parameters = fixed_wing_lqr_table().specs();
   spec.default_rate_Hz = 20.0;
   spec.reads = {"estimate", "reference"};

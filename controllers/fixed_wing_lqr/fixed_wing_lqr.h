@@ -1,6 +1,6 @@
 #pragma once
-/// Controller `fixed_wing_lqr`: the unconstrained optimum about the reference's steady flight, as
-/// the baseline that the tube-based MPC is measured against. u = K x on both axes.
+/// Controller `fixed_wing_lqr`: the unconstrained optimum about the reference's steady flight, a
+/// baseline for the tube-based MPC. u = K x on both axes.
 
 #include <memory>
 

@@ -21,26 +21,26 @@ const ParameterTable<FixedWingPidParams>& fixed_wing_pid_table() {
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .number("height_gain", "1/s", of(&G::height_per_s), kGain,
-                  "climb rate wanted per height error")
+                  "wanted climb rate per height error")
           .number("climb_limit_mps", "m/s", of(&G::climb_limit_mps), kPositive,
-                  "largest climb rate towards the reference's height, beside its own")
+                  "largest climb rate towards the reference's height, in addition to its own")
           .number("climb_gain", "rad s/m", of(&G::climb_rad_per_mps), kGain,
-                  "pitch wanted per climb rate error")
+                  "wanted pitch per climb rate error")
           .number("climb_integral", "rad/m", of(&G::climb_integral_rad_per_m), kGain,
-                  "pitch wanted per second of climb rate error")
+                  "wanted pitch per second of climb rate error")
           .degrees("pitch_limit_deg", of(&G::pitch_limit_rad), kPositive,
-                   "largest pitch wanted, from the steady flight's")
+                   "largest wanted pitch, from the steady flight's")
           .degrees("incidence_limit_deg", of(&G::incidence_limit_rad), kPositive,
-                   "largest angle of attack wanted, from the steady flight's")
+                   "largest wanted angle of attack, from the steady flight's")
           .number("pitch_gain", "", of(&G::pitch), kGain, "elevator per pitch error")
           .number("pitch_rate_gain", "s", of(&G::pitch_rate_s), kGain, "elevator per pitch rate")
           .number("airspeed_gain", "s/m", of(&G::airspeed_per_mps), kGain,
                   "throttle per airspeed error")
           .number("airspeed_integral", "1/m", of(&G::airspeed_integral_per_m), kGain,
                   "throttle per second of airspeed error")
-          .number("heading_gain", "", of(&G::heading), kGain, "bank wanted per heading error")
+          .number("heading_gain", "", of(&G::heading), kGain, "wanted bank per heading error")
           .degrees("bank_limit_deg", of(&G::bank_limit_rad), kPositive,
-                   "largest bank wanted, from the steady flight's")
+                   "largest wanted bank, from the steady flight's")
           .number("bank_gain", "", of(&G::bank), kGain, "aileron per bank error")
           .number("bank_integral", "1/s", of(&G::bank_integral_per_s), kGain,
                   "aileron per second of bank error")
@@ -96,8 +96,8 @@ PartSpec fixed_wing_pid_spec() {
   PartSpec spec;
   spec.name = "fixed_wing_pid";
   spec.description =
-      "The usual autopilot (successive loop closure; Beard and McLain 2012, chapter 6, without "
-      "rudder) about the reference's steady flight, for vehicles on wings.";
+      "Usual autopilot (successive loop closure; Beard and McLain 2012, chapter 6, without rudder) "
+      "about the reference's steady flight, for fixed-wing vehicles.";
   spec.parameters = fixed_wing_pid_table().specs();
   spec.default_rate_Hz = 20.0;
   spec.reads = {"estimate", "reference"};

@@ -1,6 +1,5 @@
 #pragma once
-/// Controller `fixed_wing_pid`: the usual autopilot, one loop inside the other. See
-/// fixed_wing_pid_law.h.
+/// Controller `fixed_wing_pid`: the usual autopilot of cascaded loops. See fixed_wing_pid_law.h.
 
 #include <memory>
 

@@ -6,15 +6,16 @@
 namespace vinerow::controllers {
 namespace {
 
-/// What integrators may learn at most: as much as asymmetry and a wrong model ask for.
+/// Differences of controls below this are rounding.
 constexpr double kRounding = 1e-9;
-constexpr double kMostPitch_rad = 0.1, kMostThrottle = 0.2, kMostAileron_rad = 0.05;
+/// Limits of the integrators: enough for asymmetry and a wrong model.
+constexpr double kMaxPitch_rad = 0.1, kMaxThrottle = 0.2, kMaxAileron_rad = 0.05;
 
 double within(double value, double limit) {
   return std::clamp(value, -limit, limit);
 }
 
-/// Adds up an error unless an actuator at its stop would only be pushed further.
+/// Integrates an error unless that would push a saturated actuator further.
 void learn_from(double& learnt, double step, double most, bool is_stopped) {
   if (!is_stopped) learnt = within(learnt + step, most);
 }
@@ -33,7 +34,7 @@ AircraftControls FixedWingPidLaw::step(const AircraftDeviation& x, double climb_
   airspeed_error_mps_ = -u;
   const double wanted = within(gains_.climb_rad_per_mps * climb_error_mps_ + pitch_learnt_rad_,
                                gains_.pitch_limit_rad);
-  // No pitch that would bring the angle of attack nearer to the stall than its limit.
+  // Limits the pitch to that of the largest angle of attack, which keeps clear of the stall.
   const double highest = theta + gains_.incidence_limit_rad - w / airspeed_mps_;
   const double pitch = std::min(wanted, highest);
   is_near_stall_ = wanted > highest;
@@ -54,10 +55,10 @@ void FixedWingPidLaw::learn(const AircraftControls& asked, const AircraftControl
   const double climb = gains_.climb_integral_rad_per_m * period_s_ * climb_error_mps_;
   const double speed = gains_.airspeed_integral_per_m * period_s_ * airspeed_error_mps_;
   const double bank = gains_.bank_integral_per_s * period_s_ * bank_error_rad_;
-  learn_from(pitch_learnt_rad_, climb, kMostPitch_rad,
+  learn_from(pitch_learnt_rad_, climb, kMaxPitch_rad,
              stops(asked.elevator_rad, left.elevator_rad, -climb) || (is_near_stall_ && climb > 0));
-  learn_from(throttle_learnt_, speed, kMostThrottle, stops(asked.throttle, left.throttle, speed));
-  learn_from(aileron_learnt_rad_, bank, kMostAileron_rad,
+  learn_from(throttle_learnt_, speed, kMaxThrottle, stops(asked.throttle, left.throttle, speed));
+  learn_from(aileron_learnt_rad_, bank, kMaxAileron_rad,
              stops(asked.aileron_rad, left.aileron_rad, bank));
 }
 

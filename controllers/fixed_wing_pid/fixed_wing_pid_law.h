@@ -1,11 +1,11 @@
 #pragma once
-/// The usual autopilot of a vehicle on wings about the reference's steady flight, which is fed
+/// Usual autopilot of a fixed-wing vehicle about the reference's steady flight, which is fed
 /// forward:
 ///   height -> climb rate -> pitch -> elevator, pitch rate damped
 ///   airspeed -> throttle
 ///   heading -> bank -> aileron, roll and yaw rate damped
 /// Source of the structure: Beard, McLain, "Small unmanned aircraft", 2012, ch. 6 (successive loop
-/// closure); here without rudder. Gains are chosen for an aircraft of about 1 kg and 12 m/s.
+/// closure), here without rudder. Gains are chosen for an aircraft of about 1 kg and 12 m/s.
 
 #include "controllers/parts/aircraft/aircraft_ports.h"
 #include "engine/math/angles.h"
@@ -36,13 +36,14 @@ class FixedWingPidLaw {
   FixedWingPidLaw(const FixedWingGains& gains, double airspeed_mps, double period_s)
       : gains_(gains), airspeed_mps_(airspeed_mps), period_s_(period_s) {}
 
-  /// Forgets what the integrators learnt.
+  /// Sets the integrators to zero.
   void reset();
   /// One cycle. No heap. @param x  deviation from steady flight
   /// @param climb_mps  climb rate beyond the reference's
   /// @returns deviations of the controls from the trim's
   AircraftControls step(const AircraftDeviation& x, double climb_mps);
-  /// What the actuators left of it: integrators stop where an actuator or the propeller does.
+  /// Updates the integrators. They stop while an actuator is at its limit or the propeller is off.
+  /// @param asked  the last step()  @param left  its part that the actuators reach
   void learn(const AircraftControls& asked, const AircraftControls& left);
 
  private:

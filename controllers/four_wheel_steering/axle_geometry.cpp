@@ -34,7 +34,7 @@ Rolling calc_rolling(const AxleGeometry& geometry, const AxleAngles& axles) {
     const Eigen::Vector2d p = geometry.wheel_B(i);
     const double along = 1.0 - rolling.curvature_per_m * p.y();
     const double across = rolling.drift + rolling.curvature_per_m * p.x();
-    // A wheel that is passed by the ICR rolls backwards instead of turning round.
+    // A wheel that the ICR has passed rolls backwards instead of turning by 180 deg.
     const double sign = along < 0.0 ? -1.0 : 1.0;
     rolling.wheel_rad[i] = std::atan2(sign * across, sign * along);
     rolling.reach[i] = sign * std::hypot(along, across);

@@ -6,8 +6,8 @@
 namespace vinerow::controllers {
 namespace {
 
-constexpr double kStraight_per_m = 0.05;  // bends wider than 20 m are driven like straights
-constexpr double kLargestMiss_m = 0.006;  // that averaging a step of curvature may cost
+constexpr double kStraight_per_m = 0.05;  // curves wider than 20 m are driven like straights
+constexpr double kLargestMiss_m = 0.006;  // lateral error from averaging a step of curvature
 
 /// A step averaged over the length v * swing misses the path by step (v swing)^2 / 24.
 double calc_step_speed(double step_per_m, double swing_s) {

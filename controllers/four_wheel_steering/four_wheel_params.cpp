@@ -5,7 +5,7 @@
 namespace vinerow::controllers {
 namespace {
 
-// The ramp of a swing is not straight in the angle (tan), and feedback needs some of the rate too.
+// The ramp of a swing is not linear in the angle (tan), and feedback needs part of the rate too.
 constexpr double kSwingReserve = 1.1;
 
 }  // namespace
@@ -20,30 +20,30 @@ const ParameterTable<FourWheelParams>& four_wheel_table() {
           .choice("form", steering(&SteeringParams::form),
                   {{"corrected", SteeringForm::kCorrected}, {"printed", SteeringForm::kPrinted}},
                   "steering law: corrected signs and curvature feed-forward, or eq. 24-26 of "
-                  "paper A letter by letter (diverges)")
+                  "paper A as printed (diverges)")
           .boolean("feed_forward", &P::feed_forward,
-                   "add the path's curvature (form: corrected); false shows what the paper's "
-                   "law leaves in turns")
+                   "add the path's curvature (form: corrected); false shows the error of the "
+                   "paper's law in turns")
           .number("lateral_gain_rad_per_m", "rad/m", steering(&SteeringParams::lateral_gain_radpm),
                   between(0.0, 20.0), "K_s: steering of the virtual wheel per lateral error")
           .number("heading_gain_per_m", "1/m", steering(&SteeringParams::heading_gain_per_m),
                   between(0.0, 20.0), "K_theta: curvature per heading error")
           .number("course_share", "", steering(&SteeringParams::course_share), between(0.0, 1.0),
-                  "share of a heading error that the virtual wheel takes off the direction of "
-                  "travel at once; 0 = paper A")
+                  "share of a heading error that the virtual wheel subtracts from the direction "
+                  "of travel at once; 0 = paper A")
           .number("slip_learn_s", "s", &P::slip_learn_s, between(0.0, 1e3),
-                  "time over which side slip and missing curvature are learnt; 0 = off. Needs "
-                  "an estimate with lateral velocity and yaw rate")
+                  "time constant of the estimates of side slip and missing curvature; 0 = off. "
+                  "Needs an estimate with lateral velocity and yaw rate")
           .number("response_s", "s", &P::response_s, between(0.0, 1.0),
-                  "time by which the vehicle lags behind its steering; the servos' lag is known")
+                  "lag of the vehicle behind its steering, without the lag of the servos")
           .number("speed_mps", "m/s", drive(&DriveLimits::speed_mps), kPositive,
                   "speed on straights")
           .number("turn_speed_mps", "m/s", drive(&DriveLimits::turn_speed_mps), kPositive,
-                  "speed on bends of less than 20 m radius")
+                  "speed on curves of less than 20 m radius")
           .number("acceleration_mps2", "m/s2", drive(&DriveLimits::acceleration_mps2), kPositive,
-                  "speeding up and planned braking; unplanned braking is twice as hard")
+                  "acceleration and planned braking; unplanned braking is twice as hard")
           .number("goal_tolerance_m", "m", &P::goal_tolerance_m, kPositive,
-                  "the mission ends this far before the path's end")
+                  "distance before the path's end at which the mission ends")
           .choice("speeds", inside(&P::wheels, &WheelSpeedsParams::rule),
                   {{"qp", SpeedRule::kQp},
                    {"qp_printed", SpeedRule::kQpPrinted},
@@ -54,7 +54,7 @@ const ParameterTable<FourWheelParams>& four_wheel_table() {
           .number("rolling_weight", "", qp(&WheelSpeedParams::rolling_weight), kPositive,
                   "rho of the velocity QP: weight of the rolling speeds")
           .number("wheel_acceleration_mps2", "m/s2", &P::wheel_acceleration_mps2, between(0.0, 1e3),
-                  "limit of each rim's acceleration inside the QP; 0 = none. Where it leaves "
+                  "limit of each rim's acceleration inside the QP; 0 = none. If the QP then has "
                   "no solution the vehicle stops")
           .include(&P::watch, path_watch_table());
   return table;

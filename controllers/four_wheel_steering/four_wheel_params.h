@@ -20,7 +20,7 @@ struct FourWheelParams {
   PathReferenceParams reference;
   DriveLimits drive;
   WheelSpeedsParams wheels;
-  double response_s = 0.03;              ///< of the vehicle behind its steering, beside the servos
+  double response_s = 0.03;              ///< lag of the vehicle, in addition to the steering servos
   double wheel_acceleration_mps2 = 0.0;  ///< of each rim; 0: no limit
   double slip_learn_s = 0.4;
   double goal_tolerance_m = 0.05;
@@ -30,7 +30,7 @@ struct FourWheelParams {
 
 const ParameterTable<FourWheelParams>& four_wheel_table();
 
-/// With what follows from the vehicle and the cycle. @param who  begins errors
+/// Also derives values from the vehicle and the cycle. @param who  part name in errors
 FourWheelParams read_four_wheel_params(const ParameterSet& parameters, const SteeredDrive& vehicle,
                                        double cycle_s, const std::string& who);
 

@@ -32,7 +32,7 @@ std::string describe(const ControllerContext& context) {
   return who;
 }
 
-/// What is to be driven this cycle.
+/// Motion to drive in this cycle.
 struct Drive {
   AxleAngles axles;
   double speed_mps = 0.0;
@@ -82,7 +82,7 @@ class FourWheelSteering final : public Controller, public MayFail {
       axles_.command(drive.axles);
       ramp_speed(drive.speed_mps);
     }
-    // The axles turn on while the wheels run: the middle of the cycle counts.
+    // The axles turn while the wheels run: the angles in the middle of the cycle count.
     const Rolling rolling = calc_rolling(vehicle_.geometry, axles_.predict(0.5 * params_.cycle_s));
     speed_mps_ = limit_speed(rolling, speed_mps_, vehicle_.rim_max_mps);
     const bool had_failed = wheels_.has_failed();
@@ -100,7 +100,7 @@ class FourWheelSteering final : public Controller, public MayFail {
  private:
   void take_plan(Time now) {
     const std::string slower =
-        tell_plan_too_fast(plan_.value(), params_.drive.speed_mps, "speed_mps");
+        describe_too_fast_plan(plan_.value(), params_.drive.speed_mps, "speed_mps");
     if (!slower.empty()) event_.write(now, {Event::Level::kWarning, part_, slower});
     tracker_.set_path(plan_.value());
     state_ = {};
@@ -116,21 +116,21 @@ class FourWheelSteering final : public Controller, public MayFail {
            !watch_.is_lost();
   }
 
-  /// Standing still keeps the axles where they are: turning them on the spot wears the tyres.
+  /// At rest the axles keep their angles: turning them on the spot wears the tyres.
   Drive decide() {
     Drive drive{axles_.wanted(), 0.0};
     if (estimate_.has_value()) learn();
-    most_mps_ = std::numeric_limits<double>::infinity();
+    max_mps_ = std::numeric_limits<double>::infinity();
     if (can_follow()) drive = follow();
     if (local_.has_value() && !state_.finished && !watch_.is_lost()) {
       drive = obey(local_.value(), drive);
     }
-    drive.speed_mps = std::min(drive.speed_mps, most_mps_);
+    drive.speed_mps = std::min(drive.speed_mps, max_mps_);
     if (stop_.is_holding() && drive.speed_mps == 0.0) drive.axles = axles_.wanted();
     return drive;
   }
 
-  /// What the local planner makes of the way along the plan.
+  /// Applies the local planner's command to the motion along the plan.
   Drive obey(const LocalCommand& local, Drive drive) const {
     switch (local.mode) {
       case LocalCommand::Mode::kFollow:
@@ -167,14 +167,14 @@ class FourWheelSteering final : public Controller, public MayFail {
     state_.remaining_m = path.length_m() - reference.at.distance_m;
     state_.waypoint = reference.at.segment;
     state_.finished = state_.remaining_m < params_.goal_tolerance_m;
-    // A local planner that drives by itself may do so as long as it likes.
+    // A local planner that drives by itself may take any distance.
     const bool is_driven = local_.has_value() && local_.value().mode == LocalCommand::Mode::kDrive;
     watch_.update({X_WB.p.head<2>(), path.pose_at(state_.distance_m, state_.waypoint).p,
                    state_.distance_m, path.length_m(),
                    is_driven ? 0.0 : std::max(speed_mps_, 0.0) * params_.cycle_s});
     if (watch_.is_lost()) return {axles_.wanted(), 0.0};
     stop_.set_place(read_stop_at_m(authority_));
-    most_mps_ = stop_.update(state_.distance_m);
+    max_mps_ = stop_.update(state_.distance_m);
     if (state_.finished) return {axles_.wanted(), 0.0};
 
     SteeringInput input;
@@ -194,7 +194,7 @@ class FourWheelSteering final : public Controller, public MayFail {
             towards * profile_.speed_at(path, reference.at.segment, reference.at.distance_m)};
   }
 
-  /// Speeds up with the acceleration given, slows down twice as hard, through zero if need be.
+  /// Accelerates with the given acceleration and brakes twice as hard, through zero if necessary.
   void ramp_speed(double wanted_mps) {
     const double step = params_.drive.acceleration_mps2 * params_.cycle_s;
     if (state_.finished) {
@@ -212,7 +212,7 @@ class FourWheelSteering final : public Controller, public MayFail {
         now, {Event::Level::kError, part_,
               fmt::format("no wheel speeds for {:.3f} m/s at axle angles {:.4f} and {:.4f} rad "
                           "(velocity QP: {}, slip tolerance {:g} m/s, rim speeds {:.3f} {:.3f} "
-                          "{:.3f} {:.3f} m/s): stops and stays",
+                          "{:.3f} {:.3f} m/s): stops and stays stopped",
                           speed_mps_, axles_.actual().front_rad, axles_.actual().rear_rad,
                           to_string(wheels_.status()), params_.wheels.qp.slip_mps, rim[0], rim[1],
                           rim[2], rim[3])});
@@ -248,8 +248,8 @@ class FourWheelSteering final : public Controller, public MayFail {
   PathWatch watch_;
   WheelSpeeds wheels_;
   FollowerState state_;
-  double speed_mps_ = 0.0;                                     ///< commanded, of B's origin
-  double most_mps_ = std::numeric_limits<double>::infinity();  ///< that the authority allows
+  double speed_mps_ = 0.0;                                    ///< commanded, of B's origin
+  double max_mps_ = std::numeric_limits<double>::infinity();  ///< that the authority allows
   NamedValues actuator_values_, steering_values_;
   std::uint64_t seen_plan_ = 0;
   SignalReader<Odometry> estimate_;
@@ -271,8 +271,7 @@ PartSpec four_wheel_steering_spec() {
   spec.description =
       "Follows a path with two steered axles and four driven wheels: proportional steering of "
       "Mammarella et al. 2022 (eq. 24-26, corrected or as printed) and wheel speeds by the "
-      "velocity "
-      "QP (eq. 30-33); obeys a local planner where there is one.";
+      "velocity QP (eq. 30-33); obeys a local planner if there is one.";
   spec.parameters = four_wheel_table().specs();
   spec.default_rate_Hz = 50.0;
   spec.reads = {"estimate", "plan", "local_command", "encoders", "authority"};

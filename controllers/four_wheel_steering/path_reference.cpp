@@ -9,13 +9,13 @@
 namespace vinerow::controllers {
 namespace {
 
-constexpr double kSearchBehind_m = 0.5;  // a noisy position may lie behind the last one
+constexpr double kSearchBehind_m = 0.5;  // a noisy position may be behind the last one
 constexpr double kSearchAhead_m = 1.0;
-constexpr double kFirstSearch_m = 3.0;  // where to look for a vehicle that just got its path
-constexpr double kLeastWindow_m = 0.05;
+constexpr double kFirstSearch_m = 3.0;  // range for a vehicle that has just received its path
+constexpr double kMinWindow_m = 0.05;
 constexpr int kSamples = 4;  // per half window
 
-/// Heading of the path averaged over the window less its heading in the middle, rad.
+/// Heading of the path averaged over the window minus its heading in the middle, rad.
 double calc_heading_lead(const Path& path, double middle_m, double window_m, int hint) {
   const double part_m = 0.5 * window_m / kSamples;
   double lead = 0.0;
@@ -46,7 +46,7 @@ PathReference PathTracker::update(const Pose2& pose, double speed_mps) {
   segment_ = reference.at.segment;
 
   const double speed = std::max(speed_mps, 0.0);
-  const double window_m = std::max(speed * params_.swing_s, kLeastWindow_m);
+  const double window_m = std::max(speed * params_.swing_s, kMinWindow_m);
   const double ahead_m = distance_m_ + speed * params_.response_s;
   reference.curvature_per_m =
       path_.turn_between_rad(ahead_m - 0.5 * window_m, ahead_m + 0.5 * window_m, segment_) /
@@ -58,7 +58,7 @@ PathReference PathTracker::update(const Pose2& pose, double speed_mps) {
 }
 
 double calc_slope_factor(const Eigen::Quaterniond& q_WB, double yaw_rad) {
-  constexpr double kSteepest = 0.7;  // no ground is steeper than this normal's z tells
+  constexpr double kSteepest = 0.7;  // normal's z of the steepest possible ground
   const Eigen::Vector3d n = q_WB * Eigen::Vector3d::UnitZ();
   const double n_z = std::max(n.z(), kSteepest);
   const double rise = -(n.x() * std::cos(yaw_rad) + n.y() * std::sin(yaw_rad)) / n_z;

@@ -14,7 +14,7 @@ void SlipLearning::update(const Rolling& rolling, const Eigen::Vector2d& v_B, do
                           double dt_s) {
   if (learn_s_ <= 0.0 || std::abs(v_B.x()) < kCrawl_mps) return;
   const double share = 1.0 - std::exp(-dt_s / learn_s_);
-  // Exactly zero is what estimators tell that do not measure it.
+  // Estimators that do not measure the lateral velocity output exactly zero.
   if (v_B.y() != 0.0) {
     const double slip = std::atan(v_B.y() / v_B.x()) - rolling.side_slip_rad();
     slip_rad_ += share * (slip - slip_rad_);

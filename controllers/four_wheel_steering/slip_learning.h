@@ -1,9 +1,9 @@
 #pragma once
-/// How the vehicle slips beside what its axle angles say, learnt while it drives.
+/// Estimator of the vehicle's slip relative to its axle angles, while it drives.
 ///
-/// On a side slope tyres give way: the centre travels at an angle to where the axles point, and the
-/// vehicle may turn less or more than they say. Both are differences of two directions of the same
-/// motion, so no steering command enters them and learning closes no loop:
+/// On a side slope tyres yield: the centre travels at an angle to the direction of the axles, and
+/// the vehicle may turn less or more than they imply. Both are differences of two directions of the
+/// same motion, so no steering command enters them and the estimate closes no loop:
 ///   slip      = atan(v_y / v_x) - atan(s)         direction of travel
 ///   curvature = yaw rate / v - k / sqrt(1 + s^2)
 /// each through a first-order low-pass.
@@ -16,10 +16,10 @@ namespace vinerow::controllers {
 
 class SlipLearning {
  public:
-  /// @param learn_s  time constant; 0 = learns nothing, both stay zero
+  /// @param learn_s  time constant; 0: both stay zero
   explicit SlipLearning(double learn_s) : learn_s_(learn_s) {}
 
-  /// @param rolling  of the axle angles that the vehicle has now
+  /// @param rolling  of the present axle angles
   /// @param v_B  velocity of B's origin, m/s  @param yaw_rate_radps  about B's z
   void update(const Rolling& rolling, const Eigen::Vector2d& v_B, double yaw_rate_radps,
               double dt_s);

@@ -29,7 +29,7 @@ void demand_actuators(const VehicleDescription& description, const std::string& 
   }
 }
 
-/// The limit that the actuator has on both sides.
+/// The smaller of the actuator's limits on both sides.
 double actuator_limit(const VehicleDescription& description, const char* name,
                       const std::string& who) {
   const ActuatorSpec& spec = description.actuators[description.actuator_index(name, who)];
@@ -66,7 +66,7 @@ SteeredDrive read_steered_vehicle(const VehicleDescription& description, const s
     wheel_radps = std::min(wheel_radps, actuator_limit(description, kActuators[i], who));
   }
   vehicle.rim_max_mps = wheel_radps * wheeled.wheel_radius_m;
-  // Past 60 deg the inner wheel of any usual track stands across.
+  // Beyond 60 deg the inner wheel of any usual track is across the direction of travel.
   constexpr double kLargest_rad = 1.05;
   if (vehicle.max_axle_steer_rad <= 0.0 || vehicle.max_axle_steer_rad > kLargest_rad ||
       vehicle.rim_max_mps <= 0.0) {

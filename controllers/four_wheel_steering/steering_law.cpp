@@ -6,8 +6,23 @@
 namespace vinerow::controllers {
 namespace {
 
-/// Range of gamma for which |sin g + a kappa| <= tan(max) cos g and the same with -b kappa, from
-/// sin g -+ tan(max) cos g = sin(g -+ max) / cos(max).
+// Kinematics of the corrected form: with tan dF = (sin g + a kappa) / cos g and
+// tan dR = (sin g - b kappa) / cos g, the numbers of axle_angles.h are
+//   k = (tan dF - tan dR) / (a + b) = kappa / cos g,
+//   s = (b tan dF + a tan dR) / (a + b) = tan g.
+// So g is the direction of travel seen from B, and kappa = k / sqrt(1 + s^2) the curvature of the
+// track.
+//
+// Limits: |tan dF| <= tan(max) is |sin g + a kappa| <= tan(max) cos g. With
+// sin g -+ tan(max) cos g = sin(g -+ max) / cos(max) its two sides are
+//   -max - asin(a kappa cos(max)) <= g <= max - asin(a kappa cos(max)),
+// and the same with -b for the rear axle. Both together are the range of g for a kappa.
+//
+// Largest curvature: both axles at opposite limits, k = 2 tan(max) / (a + b) and
+// s = tan(max) (b - a) / (a + b), so
+//   1 / kappa^2 = ((a + b) / (2 tan(max)))^2 + ((b - a) / 2)^2.
+
+/// Range of gamma.
 struct Range {
   double low, high;
 };
@@ -21,6 +36,7 @@ Range calc_steer_range(const AxleGeometry& geometry, double max_axle_rad, double
           std::min(max_axle_rad - front, max_axle_rad - rear)};
 }
 
+/// Eq. 24-26 as printed, each angle clamped separately.
 AxleAngles steer_as_printed(const AxleGeometry& geometry, const SteeringParams& params,
                             const SteeringInput& input) {
   const double gamma = -params.lateral_gain_radpm * input.lateral_error_m;
@@ -36,7 +52,7 @@ AxleAngles steer_as_printed(const AxleGeometry& geometry, const SteeringParams& 
 }  // namespace
 
 double calc_largest_curvature(const AxleGeometry& geometry, double max_axle_rad) {
-  // Both axles at their limit; with a != b the origin then travels at an angle.
+  // Both axles at their limit; if a != b, the origin then travels at an angle.
   const double half_base = 0.5 * geometry.wheel_base_m() / std::tan(max_axle_rad);
   const double half_skew = 0.5 * (geometry.rear_m - geometry.front_m);
   return 1.0 / std::sqrt(half_base * half_base + half_skew * half_skew);
@@ -49,6 +65,7 @@ SteeringCommand steer(const AxleGeometry& geometry, const SteeringParams& params
     command.axles = steer_as_printed(geometry, params, input);
     return command;
   }
+  // Curvature first: the heading determines the path in the end.
   const double largest = calc_largest_curvature(geometry, params.max_axle_rad);
   const double kappa =
       std::clamp(input.reference_per_m - params.heading_gain_per_m * input.heading_error_rad -
@@ -57,7 +74,7 @@ SteeringCommand steer(const AxleGeometry& geometry, const SteeringParams& params
   const double wanted = -params.lateral_gain_radpm * input.lateral_error_m -
                         params.course_share * input.heading_error_rad - input.slip_rad;
   const Range range = calc_steer_range(geometry, params.max_axle_rad, kappa);
-  // At the largest curvature the range is one point, up to rounding.
+  // Gamma gets the remaining range. At the largest curvature it is one point, up to rounding.
   const double gamma = range.low < range.high ? std::clamp(wanted, range.low, range.high)
                                               : 0.5 * (range.low + range.high);
   const double cosine = std::cos(gamma), sine = std::sin(gamma);

@@ -1,22 +1,22 @@
 #pragma once
-/// From lateral and heading error to the two axle angles.
+/// Steering law from lateral and heading error to the two axle angles.
 ///
 /// Source: paper A (Mammarella et al. 2022), eq. 24-26: a virtual wheel at the centre of mass is
 /// steered by gamma (it acts on the lateral error d_e, positive left), and the vehicle turns by the
-/// curvature kappa (it acts on the heading error theta_e = theta - theta_ref). Two readings:
+/// curvature kappa (it acts on the heading error theta_e = theta - theta_ref). Two forms:
 ///
 ///   corrected  gamma = -K_s d_e, kappa = kappa_ref - K_theta theta_e,
 ///              tan dF = (sin g + a kappa) / cos g,  tan dR = (sin g - b kappa) / cos g
 ///   printed    kappa = -K_theta theta_e,  tan dR = (b kappa - sin g) / cos g
 ///
-/// The printed rear angle is the negative of the right one: it holds only for a rear angle counted
-/// clockwise, and tracking diverges without that. Without kappa_ref every turn leaves a steady
-/// heading error kappa_ref / K_theta. In the corrected form small errors obey, per metre driven,
+/// The printed rear angle has the wrong sign: it holds only for a rear angle counted clockwise, and
+/// otherwise tracking diverges. Without kappa_ref every turn leaves a steady heading error
+/// kappa_ref / K_theta. In the corrected form small errors obey, per metre driven,
 /// d_e' = theta_e - K_s d_e and theta_e' = -K_theta theta_e: poles -K_s and -K_theta.
 ///
-/// Beyond the paper: `course_share` c adds -c theta_e to gamma, so that a heading error pushes the
-/// centre off the path less (c = 1: not at all); the poles stay. What the vehicle was seen to slip
-/// (slip_learning.h) is taken off both commands.
+/// Beyond the paper: `course_share` c adds -c theta_e to gamma, so that a heading error moves the
+/// centre off the path less (c = 1: not at all); the poles stay. The estimated slip
+/// (slip_learning.h) is subtracted from both commands.
 
 #include "controllers/four_wheel_steering/axle_geometry.h"
 
@@ -36,8 +36,8 @@ struct SteeringInput {
   double lateral_error_m = 0.0;       ///< d_e, positive: left of the path
   double heading_error_rad = 0.0;     ///< theta_e
   double reference_per_m = 0.0;       ///< kappa_ref
-  double slip_rad = 0.0;              ///< direction of travel beyond what the axles say
-  double slip_curvature_per_m = 0.0;  ///< likewise of the curvature
+  double slip_rad = 0.0;              ///< direction of travel minus that of the axle angles
+  double slip_curvature_per_m = 0.0;  ///< the same for the curvature
 };
 
 struct SteeringCommand {
@@ -47,9 +47,9 @@ struct SteeringCommand {
 };
 
 /// The axle angles, within +-max_axle_rad.
-/// Where both cannot be had, the corrected form keeps the curvature (up to the largest there is)
-/// and gives gamma what is left: heading decides where the vehicle goes in the end. The printed
-/// form cuts each angle by itself.
+/// If both commands together exceed the limit, the corrected form keeps the curvature (up to the
+/// largest possible) and gives gamma the remainder: in the end the heading determines the path of
+/// the vehicle. The printed form clamps each angle separately.
 SteeringCommand steer(const AxleGeometry& geometry, const SteeringParams& params,
                       const SteeringInput& input);
 

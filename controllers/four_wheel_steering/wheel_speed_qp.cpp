@@ -7,12 +7,25 @@
 namespace vinerow::controllers {
 namespace {
 
-// Names a minimiser of the printed cost without changing its value noticeably.
+// The cost in the form of QpSolver, up to a constant:
+//   (alpha v - beta)^2 + rho |v - v_rb|^2 = 1/2 v'H v + f'v,
+//   H = 2 (alpha alpha' + rho I),  f = -2 (beta alpha + rho v_rb).
+// Two-sided form: alpha_i = 1 / reach_i, beta = 4 v_x, so alpha v = beta demands that the mean of
+// v_i / reach_i is the forward speed v_x. Printed form: alpha_i = |k / reach_i|, beta = 4 |k| v_x,
+// or 1 and 4 v if the axles are parallel, and v_rb = 0 with a negligible weight.
+// Rows of A (eq. 33), with d_i the wheel angles in the order fl, fr, rl, rr:
+//   cos(d_fl) v_fl - cos(d_rl) v_rl,  cos(d_fr) v_fr - cos(d_rr) v_rr   along the body,
+//   sin(d_fl) v_fl - sin(d_fr) v_fr,  sin(d_rl) v_rl - sin(d_rr) v_rr   across the body.
+
+// Weight of |v|^2 that makes the minimiser of the printed cost unique. Chosen: too small to change
+// the value of the cost noticeably.
 constexpr double kPrintedWeight = 1e-9;
-// Below, the printed rule calls the axles parallel (ICR further than 10^6 m).
+// Curvature below which the printed rule takes the axles as parallel (ICR farther than 10^6 m).
+// Chosen.
 constexpr double kParallel_per_m = 1e-6;
-// A wheel under the ICR has no direction; its share of the mean is left out in effect.
-constexpr double kLeastReach = 1e-3;
+// Smallest reach of a wheel. Chosen: a wheel near the ICR hardly moves, and 1 / reach must stay
+// finite.
+constexpr double kMinReach = 1e-3;
 
 }  // namespace
 
@@ -44,8 +57,8 @@ void WheelSpeedQp::set_problem(const Rolling& rolling, double speed_mps) {
       alpha_.setOnes();
       beta_ = 4.0 * speed_mps;
     } else {
-      // Eq. 28 takes the distance without sign.
-      alpha_ = (rolling.reach / k).cwiseAbs().cwiseMax(kLeastReach).cwiseInverse();
+      // Eq. 28 has the distance without sign.
+      alpha_ = (rolling.reach / k).cwiseAbs().cwiseMax(kMinReach).cwiseInverse();
       beta_ = 4.0 * std::abs(k) * rolling.forward_mps(speed_mps);
     }
     H_ = 2.0 * (alpha_ * alpha_.transpose());
@@ -54,13 +67,14 @@ void WheelSpeedQp::set_problem(const Rolling& rolling, double speed_mps) {
   } else {
     for (int i = 0; i < kWheels; ++i) {
       const double reach = rolling.reach[i];
-      alpha_[i] = 1.0 / std::copysign(std::max(std::abs(reach), kLeastReach), reach);
+      alpha_[i] = 1.0 / std::copysign(std::max(std::abs(reach), kMinReach), reach);
     }
     beta_ = 4.0 * rolling.forward_mps(speed_mps);
     H_ = 2.0 * (alpha_ * alpha_.transpose());
     H_.diagonal().array() += 2.0 * params_.rolling_weight;
     f_ = -2.0 * (beta_ * alpha_ + params_.rolling_weight * rolling_mps_);
   }
+  // Limit of wheel acceleration: a box about the last speeds.
   if (params_.rim_change_max_mps > 0.0) {
     lower_ = (last_mps_.array() - params_.rim_change_max_mps).max(-params_.rim_max_mps);
     upper_ = (last_mps_.array() + params_.rim_change_max_mps).min(params_.rim_max_mps);

@@ -1,21 +1,22 @@
 #pragma once
-/// Wheel speeds that agree with the wheel angles: the velocity QP of paper A, eq. 30-33.
+/// Wheel speeds that are consistent with the wheel angles: the velocity QP of paper A, eq. 30-33.
 ///
 /// Variables v are the rim speeds (front left, front right, rear left, rear right), m/s:
 ///
 ///   minimise    (alpha v - beta)^2 + rho |v - v_rb|^2
-///   subject to  -eps <= A v <= eps, |v_i| <= rim_max, and near the last speeds if asked
+///   subject to  -eps <= A v <= eps, |v_i| <= rim_max, and optionally near the last speeds
 ///
-/// A (eq. 33): velocity along the body of front and rear wheel of a side, velocity across of left
-/// and right wheel of an axle. alpha v = beta asks for the wanted speed: the mean over the wheels
-/// of v_i / reach_i is the forward speed. That is eq. 31 for parallel axles and eq. 32 times the
-/// ICR's distance elsewhere (alpha_i = 1 / r_i = k / reach_i, beta = 4 Omega), so one formula
-/// without a switch. The speed is cut beforehand so that the rolling speeds v_rb keep the rim
-/// limit: then v_rb costs nothing and is the optimum, unless the limit of wheel acceleration binds.
+/// A (eq. 33): difference of the velocities along the body of front and rear wheel of a side, and
+/// of the velocities across it of left and right wheel of an axle. alpha v = beta demands the
+/// wanted speed: the mean over the wheels of v_i / reach_i is the forward speed. That is eq. 31 for
+/// parallel axles and otherwise eq. 32 times the ICR's distance (alpha_i = 1 / r_i = k / reach_i,
+/// beta = 4 Omega), so one formula covers both. The speed is reduced beforehand so that the rolling
+/// speeds v_rb keep the rim limit: then v_rb costs nothing and is the optimum, unless the limit of
+/// wheel acceleration is active.
 ///
-/// As printed the cost has rank 1 and the rows are one-sided, A v <= eps: for straight driving at 1
-/// m/s [.4 .4 1.6 1.6] costs nothing and is allowed. `WheelSpeedForm::kPrinted` solves that, with a
-/// weight on |v|^2 too small to matter, only because some minimiser must be named.
+/// As printed the cost has rank 1 and the rows are one-sided, A v <= eps: for straight driving at
+/// 1 m/s [.4 .4 1.6 1.6] costs nothing and is allowed. `WheelSpeedForm::kPrinted` solves that
+/// problem, with a negligible weight on |v|^2 that makes the minimiser unique.
 
 #include <Eigen/Core>
 
@@ -39,14 +40,14 @@ class WheelSpeedQp {
   explicit WheelSpeedQp(const WheelSpeedParams& params);
 
   /// Sets the problem for these axle angles and speed, and solves it. No heap.
-  /// @param speed_mps  of B's origin, signed; limit_speed() it before unless it is to be tested
+  /// @param speed_mps  of B's origin, signed; within limit_speed() except in tests
   QpStatus solve(const Rolling& rolling, double speed_mps);
 
-  /// Of the last solve(), m/s. Only meaningful if it was kSolved.
+  /// Of the last solve(), m/s. Valid only if it was kSolved.
   Eigen::Vector4d rim_mps() const { return solver_.x(); }
   int iterations() const { return solver_.iterations(); }
 
-  /// What the next solve() calls the last speeds (for the limit of change).
+  /// The last speeds for the next solve() (for the limit of change).
   void set_last(const Eigen::Vector4d& rim_mps) { last_mps_ = rim_mps; }
 
   /// (alpha v - beta)^2 of the problem set last.

@@ -33,7 +33,7 @@ const Eigen::Vector4d& WheelSpeeds::update(const Rolling& rolling, double speed_
     return rim_mps_;
   }
   const bool stands = speed_mps == 0.0 && rim_mps_.isZero(0.0);
-  // Without a limit of change, rest is at rest; with one, the wheels may still be turning.
+  // Without a limit of change, zero speed is at rest; with one, the wheels may still be turning.
   if (stands || (speed_mps == 0.0 && params_.qp.rim_change_max_mps <= 0.0)) {
     rim_mps_.setZero();
     return rim_mps_;
@@ -46,7 +46,7 @@ const Eigen::Vector4d& WheelSpeeds::update(const Rolling& rolling, double speed_
     return rim_mps_;
   }
   rim_mps_ = qp_.rim_mps();
-  // What the solver leaves of nothing is nothing.
+  // Residues of the solver at rest count as zero.
   constexpr double kNothing_mps = 1e-9;
   if (speed_mps == 0.0 && rim_mps_.cwiseAbs().maxCoeff() < kNothing_mps) rim_mps_.setZero();
   cost_ = qp_.cost(rim_mps_);

@@ -1,20 +1,20 @@
 #pragma once
-/// Wheel speeds of each cycle: by the QP or all equal; a safe stop when the QP has no answer.
+/// Wheel speeds of each cycle: by the QP or all equal; a safe stop if the QP has no solution.
 
 #include "controllers/four_wheel_steering/wheel_speed_qp.h"
 
 namespace vinerow::controllers {
 
 enum class SpeedRule {
-  kQp,         ///< wheel_speed_qp.h as it must be
+  kQp,         ///< wheel_speed_qp.h, corrected form
   kQpPrinted,  ///< as printed in paper A
-  kEqual       ///< every wheel turns like the vehicle's middle: what slip costs without the QP
+  kEqual       ///< all wheels have the speed of the vehicle's middle: shows the slip without the QP
 };
 
 struct WheelSpeedsParams {
   SpeedRule rule = SpeedRule::kQp;
   WheelSpeedParams qp;
-  double stop_mps2 = 0.5;  ///< how fast a safe stop slows the fastest rim
+  double stop_mps2 = 0.5;  ///< deceleration of the fastest rim in a safe stop
   double cycle_s = 0.02;
 };
 
@@ -23,7 +23,7 @@ class WheelSpeeds {
   explicit WheelSpeeds(const WheelSpeedsParams& params);
 
   /// Rim speeds for the coming cycle, m/s; exactly zero for zero speed. No heap.
-  /// Once the QP had no answer they go to zero, in their last ratio, and stay there.
+  /// After the QP had no solution they ramp down to zero, in their last ratio, and stay there.
   /// @param speed_mps  of B's origin, already within the rim limit
   const Eigen::Vector4d& update(const Rolling& rolling, double speed_mps);
 

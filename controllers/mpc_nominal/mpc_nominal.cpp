@@ -13,7 +13,7 @@ const ParameterTable<AircraftTubeParams>& mpc_nominal_table() {
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .integer("horizon", &P::horizon, between(1, 60),
-                   "N: ticks of the controller that it looks ahead")
+                   "N: prediction horizon in ticks of the controller")
           .include(&P::weights, aircraft_weight_table())
           .include(&P::limits, aircraft_limit_table());
   return table;
@@ -25,8 +25,9 @@ PartSpec mpc_nominal_spec() {
   PartSpec spec;
   spec.name = kType;
   spec.description =
-      "Linear model predictive control about the reference's steady flight for vehicles on wings, "
-      "without a tube: what `trmpc` is compared with.";
+      "Linear model predictive control about the reference's steady flight for fixed-wing "
+      "vehicles, "
+      "without a tube: the baseline of `trmpc`.";
   spec.parameters = mpc_nominal_table().specs();
   describe_aircraft_mpc_signals(spec);
   return spec;

@@ -1,7 +1,7 @@
 #pragma once
-/// Controller `mpc_nominal`: ordinary linear model predictive control of vehicles on wings, the
-/// same model, weights, horizon and limits as `trmpc` but no gusts in mind: limits are not
-/// tightened and the prediction starts at the state.
+/// Controller `mpc_nominal`: ordinary linear model predictive control of fixed-wing vehicles, with
+/// the model, weights, horizon and limits of `trmpc` but without gusts: limits are not tightened
+/// and the prediction starts at the state.
 
 #include <memory>
 

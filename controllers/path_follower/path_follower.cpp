@@ -17,7 +17,7 @@
 namespace vinerow::controllers {
 namespace {
 
-/// All parameters of the controller; where two laws take one, it stands in the first of them.
+/// All parameters of the controller; one that two laws use is in the first of them.
 struct FollowerParams {
   PathFollowerParams law;
   SlipEstimateParams slip;
@@ -43,42 +43,44 @@ const ParameterTable<FollowerParams>& follower_table() {
           .number("speed_mps", "m/s", speed(&SpeedLimits::speed_mps), kPositive,
                   "speed on straights (7 km/h)")
           .number("lookahead_s", "s", law(&Law::lookahead_s), kPositive,
-                  "length over which errors die out, per speed")
+                  "length over which errors decay, per speed")
           .number("lookahead_min_m", "m", law(&Law::lookahead_min_m), kPositive,
-                  "least such length")
+                  "smallest such length")
           .number("lookahead_max_m", "m", law(&Law::lookahead_max_m), kPositive,
                   "largest such length")
           .number("damping", "", law(&Law::damping), kPositive,
-                  "damping ratio of the way back to the path")
+                  "damping ratio of the return to the path")
           .number("integral", "", law(&Law::integral), between(0.0, 1.0),
-                  "weight of the summed lateral error, against steady drift on slopes")
+                  "weight of the integrated lateral error, against steady drift on slopes")
           .number("response_s", "s", law(&Law::response_s), between(0.0, 2.0),
-                  "time that the vehicle's yaw rate lags behind the command")
+                  "lag of the vehicle's yaw rate behind the command")
           .number("acceleration_mps2", "m/s2", speed(&SpeedLimits::acceleration_mps2), kPositive,
-                  "speeding up and braking")
+                  "acceleration and deceleration")
           .number("lateral_acceleration_mps2", "m/s2",
-                  speed(&SpeedLimits::lateral_acceleration_mps2), kPositive, "slows down in turns")
+                  speed(&SpeedLimits::lateral_acceleration_mps2), kPositive,
+                  "limits the speed in turns")
           .number("turn_rate_radps", "rad/s", speed(&SpeedLimits::yaw_rate_radps), kPositive,
-                  "yaw rate of the planned turns: slows down so that v kappa stays below")
+                  "yaw rate of the planned turns: limits the speed so that v kappa stays below")
           .number("yaw_rate_max_radps", "rad/s", law(&Law::yaw_rate_max_radps), kPositive,
                   "limit of the commanded yaw rate")
           .number("min_turning_radius_m", "m", law(&Law::max_curvature_per_m), kPositive,
-                  "tightest curve commanded", kInverse)
+                  "radius of the tightest commanded curve", kInverse)
           .number("speed_gain", "", &P::speed_gain, between(0.0, 5.0),
-                  "share of a speed too high or low that the wheels are told to make up")
+                  "share of a speed error that the wheel speeds compensate")
           .number("wheel_yaw_max_radps", "rad/s", &P::wheel_yaw_max_radps, kPositive,
-                  "limit of the yaw rate that the wheels stand for: tyres that spin hold no slope")
+                  "limit of the yaw rate of the wheel speeds: spinning tyres hold no slope")
           .number("turn_effectiveness", "", &P::turn_effectiveness, between(0.2, 1.25),
-                  "yaw rate driven per yaw rate of the wheels, at the start; default what the "
-                  "vehicle tells (track_m / effective_track_m), else 1")
+                  "yaw rate of the vehicle per yaw rate of the wheels, at the start; default from "
+                  "the vehicle (track_m / effective_track_m), else 1")
           .number("slide_arm_m", "m", inside(&P::slip, &SlipEstimateParams::arm_m),
                   between(-0.6, 0.6),
-                  "the vehicle turns about a point this far ahead of its centre, at the start")
+                  "distance ahead of its centre of the point that the vehicle turns about, at the "
+                  "start")
           .number("slip_learn_s", "s", inside(&P::slip, &SlipEstimateParams::learn_time_s),
                   between(0.0, 1e3),
-                  "time over which slip and slide are learnt; 0 = kept as at the start")
+                  "time constant of the estimates of slip and slide; 0 = constant")
           .number("goal_tolerance_m", "m", law(&Law::goal_tolerance_m), kPositive,
-                  "the mission ends this far before the path's end")
+                  "distance before the path's end at which the mission ends")
           .include(&P::watch, path_watch_table())
           .rule(find_fault_in_lookahead);
   return table;
@@ -91,7 +93,7 @@ FollowerParams read_params(const ParameterSet& parameters, const ControllerConte
   params.law.speed.corner_m = params.law.lookahead_min_m;
   const VehicleDescription& vehicle = *context.vehicle_description;
   if (vehicle.ackermann) {
-    // Its wheels do not slide: it turns about a point on its rear axle's line, and stays there.
+    // Its wheels do not slide: it turns about a point on its rear axle's line, always.
     params.slip.arm_m = -vehicle.ackermann->rear_axle_m;
     params.slip.learns_arm = false;
   }
@@ -125,7 +127,7 @@ class PathFollower final : public Controller, public MayFail {
       law_.set_path(ports_.plan());
       watch_.reset();
       fault_ = ports_.find_fault_in_plan();
-      const std::string slower = tell_plan_too_fast(ports_.plan(), speed_mps_, "speed_mps");
+      const std::string slower = describe_too_fast_plan(ports_.plan(), speed_mps_, "speed_mps");
       if (!slower.empty()) ports_.tell(now, Event::Level::kWarning, slower);
     }
     VelocityCommand command;
@@ -138,7 +140,7 @@ class PathFollower final : public Controller, public MayFail {
       command = law_.step(ports_.pose(), slip_.slide(), overspeed_mps_);
       if (law_.has_path() && !law_.finished()) watch(command.v_mps);
     }
-    // The wheels turn harder than the vehicle is to turn, by what slips away.
+    // The wheels turn harder than the vehicle should, to compensate for slip.
     commanded_mps_ = command.v_mps;
     wheels_ = command;
     if (command.v_mps > 0.0)
@@ -183,9 +185,8 @@ PartSpec path_follower_spec() {
   spec.name = "path_follower";
   spec.description =
       "Follows straights and arcs by their own curvature plus feedback of lateral and heading "
-      "error "
-      "over a lookahead that grows with speed; brakes for turns; learns how a skid-steered vehicle "
-      "slips.";
+      "error over a lookahead that grows with speed; brakes for turns; estimates the slip of a "
+      "skid-steered vehicle.";
   spec.parameters = follower_table().specs();
   spec.default_rate_Hz = 40.0;
   spec.reads = {"estimate", "plan", "authority"};

@@ -1,6 +1,6 @@
 #pragma once
 /// Controller `path_follower`: curvature feed-forward, dynamic lookahead, speed profile, slip
-/// learning.
+/// estimation.
 
 #include <memory>
 

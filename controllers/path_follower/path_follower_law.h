@@ -1,24 +1,24 @@
 #pragma once
-/// Path following with the path's own curvature fed forward.
+/// Path following law with feed-forward of the path's curvature.
 ///
 /// Along a path with curvature kappa_ref the lateral error e (positive left) and heading error psi
 /// obey e' = sin(psi), psi' = kappa - kappa_ref per metre driven (small e). The law
 ///   kappa = kappa_ref - sin(psi) 2 zeta / L - e / L^2
-/// makes that a linear oscillator per metre with natural length L and damping zeta: errors die out
+/// makes that a linear oscillator per metre with natural length L and damping zeta: errors decay
 /// over about L whatever the speed. L is the dynamic lookahead: it grows with speed, because a
 /// vehicle's response takes time and not distance, and shrinks in turns, where the speed profile
-/// brakes. kappa_ref is the mean over the way of the coming cycle, so that a perfect vehicle ends
-/// each cycle on the path; with a response time it is taken that much further ahead.
+/// brakes. kappa_ref is the mean over the distance of the coming cycle, so that a perfect vehicle
+/// ends each cycle on the path; a response time moves it further ahead.
 ///
 /// psi is measured from the heading that keeps the velocity, not the nose, on the path. A
 /// skid-steered vehicle slides outwards in a turn, beta = -arm w / v + beta_0: it turns about a
 /// point `arm` ahead of its centre, and slides down a slope by beta_0. So the wanted heading leads
-/// the path's by arm * kappa_ref (smoothed, because the nose cannot swing at once) less beta_0.
-/// Feeding the course itself back instead would be unstable: turning harder first pushes the centre
-/// the other way.
+/// the path's by arm * kappa_ref (smoothed, because the nose cannot swing at once) minus beta_0.
+/// Feedback of the course itself would be unstable: a harder turn first pushes the centre the other
+/// way.
 ///
-/// At a sharp corner (path_corners.h) the vehicle comes to its end of the stretch as to a goal,
-/// turns on the spot and goes on: the place on the path never runs ahead of the corner before.
+/// At a sharp corner (path_corners.h) the vehicle treats the end of the stretch as a goal, turns on
+/// the spot and continues: its place on the path never runs ahead of the corner before that.
 
 #include <limits>
 #include <vector>
@@ -42,10 +42,10 @@ struct PathFollowerParams {
   double lookahead_max_m = 3.0;
   double damping = 1.0;          ///< zeta
   double integral = 0.0;         ///< of e over distance, as a share of 1/L^3
-  double integral_max_m = 0.15;  ///< lateral offset the integral may stand for
+  double integral_max_m = 0.15;  ///< largest lateral offset of the integral
   double response_s = 0.0;
   double smoothing_m = 0.5;  ///< half the length over which the lead of the heading builds up
-  double settle_m = 0.5;     ///< braking for a turn is over this far before it
+  double settle_m = 0.5;     ///< distance before a turn at which braking for it has ended
   double max_curvature_per_m = 2.0;
   double yaw_rate_max_radps = 1.2;
   double goal_tolerance_m = 0.05;
@@ -60,12 +60,12 @@ class PathFollowerLaw {
 
   /// Takes over a path. Allocates. A path without length is finished at once.
   void set_path(const PlannedPath& plan);
-  /// Where to stand still until told otherwise, along the path; +infinity: nowhere.
+  /// Place along the path to stop at until the next call; +infinity: none.
   void set_stop(double stop_at_m) { stop_.set_place(stop_at_m); }
 
   /// One cycle. No heap.
-  /// @param slide         how the vehicle slides; zero for pure rolling
-  /// @param overspeed_mps  by how much it is faster than commanded
+  /// @param slide         sideslip of the vehicle; zero for pure rolling
+  /// @param overspeed_mps  speed minus commanded speed
   VelocityCommand step(const Pose2& pose, const Sideslip& slide = {}, double overspeed_mps = 0.0);
 
   bool has_path() const { return has_path_; }
@@ -74,8 +74,8 @@ class PathFollowerLaw {
   FollowerState state() const { return state_; }
 
  private:
-  /// Where the stretch between two sharp corners that the vehicle is on begins and ends.
-  double stretch_begin_m() const {
+  /// Start and end of the vehicle's stretch between two sharp corners.
+  double stretch_start_m() const {
     return corners_passed_ == 0 ? -std::numeric_limits<double>::infinity()
                                 : corners_m_[corners_passed_ - 1];
   }
@@ -84,7 +84,7 @@ class PathFollowerLaw {
                                                 : corners_m_[corners_passed_];
   }
   Path::Nearest find_place(const Pose2& pose) const;
-  /// Stands and turns towards the next stretch.
+  /// Turns on the spot towards the next stretch.
   VelocityCommand turn_on_the_spot(const Path::Nearest& at, double heading_error_rad);
   double calc_lookahead_m(double speed_mps) const;
   double calc_speed(const Path::Nearest& at, double heading_error_rad);
@@ -103,7 +103,7 @@ class PathFollowerLaw {
   bool finished_ = false;
   double distance_m_ = 0.0;
   double speed_mps_ = 0.0;
-  double integral_m_ = 0.0;  ///< lateral offset that the integral stands for
+  double integral_m_ = 0.0;  ///< as lateral offset
 };
 
 }  // namespace vinerow::controllers

@@ -6,13 +6,13 @@
 namespace vinerow::controllers {
 namespace {
 
-constexpr double kKnee_radps = 0.15;  // yaw rate at which turning begins to tell something
+constexpr double kKnee_radps = 0.15;  // yaw rate at which a turn begins to contain information
 constexpr double kCrawl_mps = 0.3;    // below, angles of the velocity are noise
-constexpr double kLeastEffectiveness = 0.2, kMostEffectiveness = 1.25;
+constexpr double kMinEffectiveness = 0.2, kMaxEffectiveness = 1.25;
 constexpr double kLargestArm_m = 0.6;
 constexpr double kLargestDrift_rad = 0.3;
 
-/// Share of the way to an input in one step of a first-order low-pass.
+/// Share of an input that one step of a first-order low-pass takes over.
 double low_pass_share(double dt_s, double time_s) {
   return time_s > 0.0 ? 1.0 - std::exp(-dt_s / time_s) : 1.0;
 }
@@ -24,21 +24,21 @@ double weight_of(double yaw_rate_radps) {
 
 }  // namespace
 
-void SlipEstimate::update(double asked_radps, double measured_radps, const Eigen::Vector2d& v_B,
+void SlipEstimate::update(double commanded_radps, double measured_radps, const Eigen::Vector2d& v_B,
                           double dt_s) {
   if (params_.learn_time_s <= 0.0) return;
-  lagged_radps_ += low_pass_share(dt_s, params_.response_s) * (asked_radps - lagged_radps_);
+  lagged_radps_ += low_pass_share(dt_s, params_.response_s) * (commanded_radps - lagged_radps_);
   const double share = low_pass_share(dt_s, params_.filter_s);
-  asked_radps_ += share * (lagged_radps_ - asked_radps_);
+  commanded_radps_ += share * (lagged_radps_ - commanded_radps_);
   measured_radps_ += share * (measured_radps - measured_radps_);
   v_B_ += share * (v_B - v_B_);
 
   const double learn = dt_s / params_.learn_time_s;
   constexpr double kNoTurn_radps = 1e-3;
-  if (std::abs(asked_radps_) > kNoTurn_radps) {
-    const double seen = std::clamp(measured_radps_ / asked_radps_, 0.0, 2.0);
-    effectiveness_ += learn * weight_of(asked_radps_) * (seen - effectiveness_);
-    effectiveness_ = std::clamp(effectiveness_, kLeastEffectiveness, kMostEffectiveness);
+  if (std::abs(commanded_radps_) > kNoTurn_radps) {
+    const double seen = std::clamp(measured_radps_ / commanded_radps_, 0.0, 2.0);
+    effectiveness_ += learn * weight_of(commanded_radps_) * (seen - effectiveness_);
+    effectiveness_ = std::clamp(effectiveness_, kMinEffectiveness, kMaxEffectiveness);
   }
   if (v_B_.x() < kCrawl_mps) return;
   const double turning = weight_of(measured_radps_);

@@ -8,7 +8,7 @@
 namespace vinerow::controllers {
 namespace {
 
-constexpr double kSmooth_rad = 0.17;  // 10 deg: what is less is no corner
+constexpr double kSmooth_rad = 0.17;  // 10 deg: smaller jumps are no corners
 
 double calc_bend_speed(const SpeedLimits& limits, double curvature_per_m) {
   return std::min(std::sqrt(limits.lateral_acceleration_mps2 / curvature_per_m),

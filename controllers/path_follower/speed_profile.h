@@ -1,5 +1,5 @@
 #pragma once
-/// How fast a path may be driven: lateral acceleration and yaw rate in turns, braking before them.
+/// Speed profile of a path: lateral acceleration and yaw rate in turns, braking before them.
 
 #include <vector>
 
@@ -12,26 +12,26 @@ struct SpeedLimits {
   double acceleration_mps2 = 0.8;          ///< along the path, both ways
   double lateral_acceleration_mps2 = 1.0;  ///< v^2 |kappa|
   double yaw_rate_radps = 0.6;             ///< v |kappa|
-  double goal_speed_mps = 0.1;             ///< left at the path's end and at sharp corners
-  double corner_m = 0.6;                   ///< way over which lesser corners are rounded
+  double goal_speed_mps = 0.1;             ///< at the path's end and at sharp corners
+  double corner_m = 0.6;                   ///< distance over which lesser corners are rounded
 };
 
 /// Largest speed at each place, so that braking with the given acceleration meets every slower
 /// stretch ahead: v(s)^2 = v(s_end)^2 + 2 a (s_end - s), swept backwards over the segments once per
-/// plan. A sharp corner (path_corners.h) is a goal of its own; a lesser one is passed as slowly as
-/// a bend that turns by as much over `corner_m`.
+/// plan. A sharp corner (path_corners.h) is a goal of its own. A lesser corner limits the speed
+/// like a curve that turns by the same angle over `corner_m`.
 class SpeedProfile {
  public:
   SpeedProfile() = default;
   SpeedProfile(const Path& path, const SpeedLimits& limits);
 
-  /// @param segment  that holds the distance
+  /// @param segment  that contains the distance
   double speed_at(const Path& path, int segment, double distance_m) const;
 
  private:
   struct Stretch {
     double cap_mps;  ///< on the stretch itself
-    double end_mps;  ///< where it ends
+    double end_mps;  ///< at its end
   };
   double acceleration_mps2_ = 1.0;
   std::vector<Stretch> stretches_;

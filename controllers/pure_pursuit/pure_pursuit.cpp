@@ -16,7 +16,7 @@
 namespace vinerow::controllers {
 namespace {
 
-/// The law's parameters as files have them, and what stands beside the law.
+/// The law's parameters as in files, and those outside the law.
 struct PursuitParams {
   PurePursuitParams law;
   PathWatchParams watch;
@@ -43,20 +43,21 @@ const ParameterTable<PursuitParams>& pursuit_table() {
           .degrees("largest_angle_deg", law(&Law::largest_angle_rad), kPositive,
                    "theta_max of the speed law (eq. 7)")
           .number("min_turning_radius_m", "m", &P::min_turning_radius_m, between(0.0, 1e3),
-                  "limits the commanded yaw rate to speed / radius (table 1); 0 = no limit: wheels "
-                  "that slip turn a vehicle less than told, so give 0 under physics")
+                  "limits the commanded yaw rate to speed / radius (table 1); 0 = no limit: with "
+                  "wheels that slip a vehicle turns less than commanded, so use 0 with physics")
           .number("turn_gain", "", law(&Law::turn_gain), kPositive,
                   "share of the steering angle turned in one cycle; 1 = eq. 6, less for "
                   "vehicles with inertia")
           .number("goal_tolerance_m", "m", law(&Law::goal_tolerance_m), kPositive,
-                  "the mission ends this near the last waypoint (or one cycle's way)")
+                  "distance before the last waypoint at which the mission ends (or the distance of "
+                  "one cycle)")
           .number("stop_mps2", "m/s2", &P::stop_mps2, kPositive,
-                  "braking before sharp corners and where a movement authority ends; the paper's "
-                  "law has neither")
+                  "braking before sharp corners and before the end of a movement authority; the "
+                  "paper's law has neither")
           .include(&P::watch, path_watch_table())
           .boolean("aim_at_goal", law(&Law::aim_at_goal),
-                   "aim at the last waypoint once it is within lookahead_m; false = literally "
-                   "the paper, which may never arrive");
+                   "aim at the last waypoint once it is within lookahead_m; false = as in the "
+                   "paper, which may never arrive");
   return table;
 }
 
@@ -104,7 +105,7 @@ class PurePursuit final : public Controller, public MayFail {
 
  private:
   void take_plan(Time now) {
-    const std::string slower = tell_plan_too_fast(ports_.plan(), speed_mps_, "speed_mps");
+    const std::string slower = describe_too_fast_plan(ports_.plan(), speed_mps_, "speed_mps");
     if (!slower.empty()) ports_.tell(now, Event::Level::kWarning, slower);
     law_.set_path(ports_.plan());
     stop_.reset();
@@ -113,7 +114,7 @@ class PurePursuit final : public Controller, public MayFail {
     if (law_.has_path()) polyline_ = PolylineDistance(law_.points());
   }
 
-  /// No farther than the movement authority.
+  /// Limits the command to the movement authority.
   VelocityCommand limit(VelocityCommand command, const FollowerState& state) {
     stop_.set_place(ports_.stop_at_m());
     command.v_mps = std::min(command.v_mps, stop_.update(state.distance_m));
@@ -173,8 +174,8 @@ PartSpec pure_pursuit_spec() {
   spec.name = "pure_pursuit";
   spec.description =
       "Lookahead follower of Martelli, Mocera, Soma 2024 (eq. 1-7): local goal point on the "
-      "lookahead "
-      "circle, current index, steering threshold; wheel speeds of a speed-steered vehicle.";
+      "lookahead circle, current index, steering threshold; wheel speeds of a speed-steered "
+      "vehicle.";
   spec.parameters = pursuit_table().specs();
   spec.default_rate_Hz = 40.0;
   spec.reads = {"estimate", "plan", "authority"};

@@ -1,5 +1,5 @@
 #pragma once
-/// Controller `pure_pursuit`: paper B's follower on a speed-steered vehicle.
+/// Controller `pure_pursuit`: paper B's follower for a speed-steered vehicle.
 
 #include <memory>
 

@@ -12,7 +12,7 @@ namespace vinerow::controllers {
 namespace {
 
 constexpr double kSpotGain_per_s = 2.0;  // turning on the spot: yaw rate per heading error
-constexpr double kSpotMost_radps = 0.8;
+constexpr double kSpotMax_radps = 0.8;
 constexpr double kTurned_rad = 0.087;  // 5 deg: the law takes over
 constexpr double kCornerSpeed_mps = 0.1;
 
@@ -65,7 +65,7 @@ void PurePursuitLaw::advance_index(const Eigen::Vector2d& p) {
 
 Eigen::Vector2d PurePursuitLaw::find_local_goal(const Eigen::Vector2d& p) const {
   const int last = stretch_last();
-  // Near the end the circle has nothing ahead to meet.
+  // Near the end the circle may have no intersection ahead.
   const bool is_near_its_end =
       distance_m_[last] - distance_m_[index_] <= params_.lookahead_m + longest_segment_m_;
   const bool aims = params_.aim_at_goal || !is_last_stretch();
@@ -100,8 +100,8 @@ std::optional<VelocityCommand> PurePursuitLaw::turn_on_the_spot(double yaw_rad) 
   const double theta = wrap_angle(std::atan2(along.y(), along.x()) - yaw_rad);
   is_turning_ = std::abs(theta) > kTurned_rad;
   if (!is_turning_) return std::nullopt;
-  const double most_radps = std::min(params_.yaw_rate_limit_radps, kSpotMost_radps);
-  return VelocityCommand{0.0, std::clamp(kSpotGain_per_s * theta, -most_radps, most_radps)};
+  const double max_radps = std::min(params_.yaw_rate_limit_radps, kSpotMax_radps);
+  return VelocityCommand{0.0, std::clamp(kSpotGain_per_s * theta, -max_radps, max_radps)};
 }
 
 VelocityCommand PurePursuitLaw::step(const Pose2& pose) {

@@ -1,27 +1,26 @@
 #pragma once
-/// The path-following law of paper B: lookahead circle, local goal point, speeds (section 2.4).
+/// Path-following law of paper B: lookahead circle, local goal point, speeds (section 2.4).
 ///
 /// Source: Martelli, Mocera, Soma, AgriEngineering 6(3), 2024, eq. 5-7 and figures 8-13. One cycle:
-///   1. a waypoint is crossed when it is nearer than D_th; the current index is the last one
-///   crossed;
-///   2. the local goal point (LGP) is the first intersection of the lookahead circle with a segment
-///   from
-///      the current index on; of two on one segment the one nearer the segment's end; where there
-///      is none, the waypoint of the current index;
-///   3. theta = phi - gamma (eq. 5), brought into (-pi, pi]: without that the mission is lost as
-///   soon as
-///      headings pass 180 deg;
-///   4. |theta| below the threshold counts as zero;
-///   5. v = v_t (1 - |theta| / theta_max) (eq. 7, with |theta|: a turn to the right must not speed
-///   up);
+///   1. A waypoint is crossed when it is nearer than D_th; the current index is the last one
+///      crossed.
+///   2. The local goal point (LGP) is the first intersection of the lookahead circle with a segment
+///      from the current index on; of two on one segment, the one nearer the segment's end. Without
+///      an intersection it is the waypoint of the current index.
+///   3. theta = phi - gamma (eq. 5), wrapped to (-pi, pi]: without that the mission fails as soon
+///   as
+///      headings pass 180 deg.
+///   4. |theta| below the threshold counts as zero.
+///   5. v = v_t (1 - |theta| / theta_max) (eq. 7, with |theta|: a turn to the right must not raise
+///      the speed).
 ///   6. yaw rate = theta / t (eq. 6), limited to v_t / R_min (table 1).
-/// Settled here: D_th equals the lookahead distance and the last waypoint is aimed at once it is
-/// within the lookahead distance. Other choices loop about a waypoint or never reach the goal
-/// (docs/papers/paper_b.md).
+/// Open in the paper and chosen here: D_th equals the lookahead distance, and the law aims at the
+/// last waypoint once it is within the lookahead distance. Other choices loop about a waypoint or
+/// never reach the goal (docs/papers/paper_b.md).
 ///
 /// The paper's paths have no sharp corners, and its law circles about them. Here a sharp corner
 /// (path_corners.h) is the goal of the stretch before it: the vehicle brakes, turns on the spot and
-/// goes on with the stretch behind it.
+/// continues with the next stretch.
 
 #include <optional>
 #include <vector>
@@ -55,7 +54,7 @@ class PurePursuitLaw {
   void set_path(const PlannedPath& path);
 
   /// One cycle. No heap.
-  /// @returns what to drive; zero once the goal is reached or while there is no path
+  /// @returns the command; zero once the goal is reached or while there is no path
   VelocityCommand step(const Pose2& pose);
 
   bool has_path() const { return !points_.empty(); }
@@ -68,7 +67,7 @@ class PurePursuitLaw {
   const std::vector<Eigen::Vector2d>& points() const { return points_; }
   const Eigen::Vector2d& local_goal() const { return local_goal_; }
 
-  /// First and last waypoint of the stretch between two sharp corners that it is on.
+  /// First and last waypoint of the vehicle's stretch between two sharp corners.
   int stretch_first() const { return stretch_ == 0 ? 0 : stretch_ends_[stretch_ - 1]; }
   int stretch_last() const { return stretch_ends_[stretch_]; }
   bool is_last_stretch() const { return stretch_ + 1 == stretch_ends_.size(); }
@@ -76,7 +75,7 @@ class PurePursuitLaw {
  private:
   void advance_index(const Eigen::Vector2d& p);
   double calc_corner_speed(const Eigen::Vector2d& p) const;
-  /// Towards the stretch that begins. @returns nothing once it looks there
+  /// Turn towards the next stretch. @returns nullopt once the vehicle faces it
   std::optional<VelocityCommand> turn_on_the_spot(double yaw_rad);
   Eigen::Vector2d find_local_goal(const Eigen::Vector2d& p) const;
   bool is_at_goal(const Eigen::Vector2d& p) const;
@@ -94,7 +93,7 @@ class PurePursuitLaw {
   Eigen::Vector2d local_goal_ = Eigen::Vector2d::Zero();
 };
 
-/// Where a circle meets a segment: the share of the segment in [0, 1], the larger one of two.
+/// Intersection of a circle with a segment: the share of the segment in [0, 1], the larger of two.
 /// @returns nullopt if the circle misses the segment (paper B, figure 10, cases a and b)
 std::optional<double> intersect_circle(const Eigen::Vector2d& centre, double radius_m,
                                        const Eigen::Vector2d& from, const Eigen::Vector2d& to);

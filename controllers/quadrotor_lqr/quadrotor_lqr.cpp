@@ -30,8 +30,10 @@ const ParameterTable<QuadrotorLqrParams>& quadrotor_lqr_table() {
                   "weight of squared thrust per mass")
           .numbers("torque_weight", "s4/rad2", law(&Law::torque_weight), kPositive,
                    "weight of squared torques per inertia: roll and pitch, yaw")
-          .number("disturbance_s", "s", law(&Law::disturbance_s), between(0.0, 100.0),
-                  "time to learn wind and load (0 = off, steady wind then leaves an error)")
+          .number(
+              "disturbance_s", "s", law(&Law::disturbance_s), between(0.0, 100.0),
+              "time constant of the estimate of wind and load (0 = off, steady wind then leaves "
+              "an error)")
           .include(&P::limits, flight_limit_table());
   return table;
 }
@@ -63,7 +65,7 @@ class QuadrotorLqr final : public Controller {
       return;
     }
     if (!was_flying_) {
-      // A flight that does not begin with a take-off begins in the air.
+      // A flight that does not start with a take-off starts in the air.
       law_.reset(ports_.reference().phase != ReferenceTrajectory::Phase::kTakeOff);
       was_flying_ = true;
     }
@@ -87,7 +89,7 @@ PartSpec quadrotor_lqr_spec() {
   spec.name = "quadrotor_lqr";
   spec.description =
       "Linear quadratic regulator of the hover model (paper A, section 4.2, without constraints) "
-      "for rotorcraft, with the reference fed forward and a disturbance estimate.";
+      "for rotorcraft, with feed-forward of the reference and a disturbance estimate.";
   spec.parameters = quadrotor_lqr_table().specs();
   spec.default_rate_Hz = 50.0;
   spec.reads = {"estimate", "reference"};

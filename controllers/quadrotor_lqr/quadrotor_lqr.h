@@ -1,6 +1,6 @@
 #pragma once
-/// Controller `quadrotor_lqr`: the unconstrained optimum about hover, as the baseline that
-/// predictive control is measured against.
+/// Controller `quadrotor_lqr`: the unconstrained optimum about hover, a baseline for predictive
+/// control.
 
 #include <memory>
 

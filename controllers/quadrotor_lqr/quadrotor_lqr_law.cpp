@@ -13,7 +13,7 @@
 namespace vinerow::controllers {
 namespace {
 
-/// Weights of the wrench states, per acceleration: only so that no state is free.
+/// Weights of the wrench states, per acceleration: small, but no state is without weight.
 constexpr double kWrenchWeight = 1e-6;
 
 Eigen::MatrixXd make_gain(const RotorcraftModel& craft, const LqrParams& params,
@@ -64,7 +64,7 @@ void QuadrotorLqrLaw::set_up_limits(const FlightLimits& limits) {
   Eigen::Matrix<double, 2, 4> errors;
   errors << gain_.block<2, 2>(1, kHoverPosition), gain_.block<2, 2>(1, kHoverVelocity);
   tilt_of_errors_ = tilt.inverse() * errors;
-  // The speed at which an error is won back is where the shares of position and speed cancel.
+  // The speed of a correction is where the shares of position and speed cancel.
   const double per_m = tilt_of_errors_(1, 0), per_mps = tilt_of_errors_(1, 2);
   max_error_m_.x() = limits.correction_mps * per_mps / per_m;
   max_error_m_.y() = max_error_m_.x();
@@ -95,7 +95,7 @@ Wrench QuadrotorLqrLaw::step(const TrajectoryPoint& at, const Odometry& odometry
   const double weight_N = craft_.mass_kg * craft_.gravity_mps2;
   const double yaw = state.x(kHoverAngle + 2);
 
-  // What the reference asks for: acceleration of the rotors beside weight, torques.
+  // Feed-forward: acceleration of the rotors without weight, torques.
   const Eigen::Vector3d v_ref = frame.from_W(at.v_W);
   const Eigen::Vector3d a_ref = frame.from_W(at.a_W - disturbance_.acceleration_W()) +
                                 craft_.rotor_drag_Ns_per_m / craft_.mass_kg * v_ref;
@@ -106,7 +106,7 @@ Wrench QuadrotorLqrLaw::step(const TrajectoryPoint& at, const Odometry& odometry
   const double lift = std::max(craft_.gravity_mps2 + a_ref.z(), 0.1 * craft_.gravity_mps2);
   const Eigen::Vector2d tilt_ref(-std::atan2(a_ref.y(), lift), std::atan2(a_ref.x(), lift));
 
-  // Errors, bounded. Those of horizontal position and velocity act through the wanted tilt.
+  // Bounded errors. Those of horizontal position and velocity act through the wanted tilt.
   Eigen::Vector3d p_error = state.x.segment<3>(kHoverPosition);
   const double away_m = p_error.head<2>().norm();
   if (away_m > max_error_m_.x()) p_error.head<2>() *= max_error_m_.x() / away_m;

@@ -1,19 +1,19 @@
 #pragma once
 /// Linear quadratic regulator of a rotorcraft about hover, in the frame that is turned with the
-/// wanted heading (HoverFrame), with the reference fed forward and disturbances estimated.
+/// wanted heading (HoverFrame), with feed-forward of the reference and estimated disturbances.
 ///
 ///   u = u_ref - K (x - x_ref)
 ///
 /// x_ref, u_ref are the tilts, thrust and torques that the reference's acceleration, the drag and
-/// the estimated disturbances ask for, so nothing is left for K in a steady wind. K by the discrete
-/// Riccati equation of the sampled HoverModel, 16 states where the rotors lag (their wrench is
-/// predicted), else 12. Weights of inputs are per acceleration, so one set of weights gives
-/// vehicles of any mass and inertia the same closed loop.
+/// the estimated disturbances require, so K has no steady error to correct in a steady wind. K is
+/// the solution of the discrete Riccati equation of the sampled HoverModel, with 16 states if the
+/// rotors lag (their wrench is predicted), else 12. Weights of inputs are per acceleration, so one
+/// set of weights gives vehicles of any mass and inertia the same closed loop.
 ///
-/// Exact LQR inside the limits. Outside: the torque rows of K are read as a tilt wanted for
+/// Exact LQR inside the limits. Outside, the torque rows of K are read as a wanted tilt for
 /// position and velocity, tilt_wanted = tilt_ref - (K_tilt)^-1 K_p,v e, and a gain on the tilt's
-/// error; that tilt is cut to its limit, and errors of position and heading to those won back at
-/// the limits of speed.
+/// error. That tilt is clamped to its limit, and errors of position and heading to those corrected
+/// at the limits of speed.
 
 #include <Eigen/Core>
 #include <string>
@@ -37,22 +37,22 @@ struct LqrParams {
   /// ((rad/s2)^-2).
   double thrust_weight = 0.08;
   Eigen::Vector2d torque_weight = {0.0015, 0.019};
-  double disturbance_s = 0.5;  ///< time constant of the estimate; 0: none
+  double disturbance_s = 0.5;  ///< time constant of the estimate; 0: no estimate
   double period_s = 0.02;
 };
 
 class QuadrotorLqrLaw {
  public:
-  /// @throws ConfigError "<who>: no LQR gain: ..." where weights or model have none
+  /// @throws ConfigError "<who>: no LQR gain: ..." if none exists for the weights and the model
   QuadrotorLqrLaw(const RotorcraftModel& craft, const RotorMixer& mixer, const FlightLimits& limits,
                   const LqrParams& params, const std::string& who);
 
-  /// Forgets disturbances; the rotors rest or make the vehicle hover.
+  /// Resets the disturbances; the rotors are at rest or at hover speed.
   void reset(bool hovering);
-  /// One cycle. No heap. @param learn  false: disturbances are kept as they are
+  /// One cycle. No heap. @param learn  false: the disturbances stay constant
   /// @returns the wanted wrench in B
   Wrench step(const TrajectoryPoint& at, const Odometry& odometry, bool learn);
-  /// What the mixer made of it, for the prediction of the rotors.
+  /// The rotor speeds of the mixer, for the prediction of the rotors.
   void command(const std::vector<double>& speeds_radps);
 
   /// 4 x 16 or 4 x 12.

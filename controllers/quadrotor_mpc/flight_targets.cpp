@@ -8,7 +8,7 @@
 namespace vinerow::controllers {
 namespace {
 
-constexpr double kLeastLift = 0.3;
+constexpr double kMinLift = 0.3;
 
 }  // namespace
 
@@ -30,7 +30,7 @@ void FlightTargets::update(const HoverFrame& frame, const std::vector<Trajectory
     r.segment<3>(kHoverVelocity) = frame.from_W(at.v_W);
     const Eigen::Vector3d push =
         frame.from_W(at.a_W) + drag_per_s * r.segment<3>(kHoverVelocity) - acceleration_H;
-    const double lift = std::max(g + push.z(), kLeastLift * g);
+    const double lift = std::max(g + push.z(), kMinLift * g);
     r.segment<3>(kHoverAngle) << -std::atan2(push.y(), lift), std::atan2(push.x(), lift),
         at.yaw_rad - frame.yaw_rad();
     if (k == 0) {
@@ -40,7 +40,7 @@ void FlightTargets::update(const HoverFrame& frame, const std::vector<Trajectory
     r[kHoverWrench] = craft_.mass_kg * push.z();
     r.segment<3>(kHoverWrench + 1) = -torque_H;
   }
-  // Rates of the tilt: central differences. A jump of the curvature becomes a swing of two ticks.
+  // Rates of the tilt: central differences, so a jump of the curvature takes two ticks.
   for (int k = 0; k <= last; ++k) {
     const int before = std::max(k - 1, 0), after = std::min(k + 1, last);
     states_.block<2, 1>(kHoverRate, k) =

@@ -1,11 +1,11 @@
 #pragma once
-/// The reference as states and inputs of the model: where to be, and what tilt, rates, thrust and
-/// torques that takes, drag and learnt disturbances included. Feeding these forward is what keeps
-/// accelerations, turns and wind from leaving an offset.
+/// Reference as states and inputs of the model: position, and the tilt, rates, thrust and torques
+/// that it requires, drag and estimated disturbances included. This feed-forward avoids an offset
+/// from accelerations, turns and wind.
 ///
-/// The vehicle is pushed by lift tan(tilt), lift = g plus what climbs, the model by g tilt. The
-/// tilt wanted is that of the vehicle, and what the model misses there now is handed over as a
-/// known acceleration; else every steady wind would leave some of the third power of the tilt.
+/// The vehicle is accelerated by lift tan(tilt), lift = g plus the climb acceleration, the model by
+/// g tilt. The wanted tilt is that of the vehicle, and the difference in the model now is passed on
+/// as a known acceleration; otherwise every steady wind would leave an offset of the order tilt^3.
 
 #include <Eigen/Core>
 #include <vector>
@@ -23,11 +23,11 @@ class FlightTargets {
   void update(const HoverFrame& frame, const std::vector<TrajectoryPoint>& preview,
               const Eigen::Vector3d& acceleration_H, const Eigen::Vector3d& torque_H);
 
-  /// Ahead or behind by more than the limit of speed should take a while to win back: moves the
-  /// places along x by `excess_m` now, which dies out within a second or two, and the speeds along.
+  /// Makes the correction of a large error along the path gradual: moves the positions along x by
+  /// `excess_m` now, which decays within a second or two, and the speeds accordingly.
   void lead_back(double excess_m);
 
-  /// Along x and y of H, what the model misses at the tilt wanted now, m/s2.
+  /// Acceleration along x and y of H that the model lacks at the tilt wanted now, m/s2.
   const Eigen::Vector2d& missed_mps2() const { return missed_mps2_; }
   const Eigen::MatrixXd& states() const { return states_; }  ///< 16 x (horizon + 1)
   const Eigen::MatrixXd& inputs() const { return inputs_; }  ///< 4 x horizon

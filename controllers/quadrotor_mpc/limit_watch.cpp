@@ -15,19 +15,19 @@ bool LimitWatch::keeps(const FlightDeviation& deviation, double share) const {
          std::abs(deviation.speed_mps) <= share * limits_.speed_mps;
 }
 
-LimitWatch::News LimitWatch::update(const FlightDeviation& deviation, double now_s) {
+LimitWatch::PendingEvent LimitWatch::update(const FlightDeviation& deviation, double now_s) {
   constexpr double kBackShare = 0.9;
   if (!is_outside_ && !keeps(deviation, 1.0)) {
     is_outside_ = true;
     left_at_s_ = now_s;
-    return News::kLeft;
+    return PendingEvent::kLeft;
   }
   if (is_outside_ && keeps(deviation, kBackShare)) {
     is_outside_ = false;
     outside_s_ = now_s - left_at_s_;
-    return News::kBack;
+    return PendingEvent::kBack;
   }
-  return News::kNone;
+  return PendingEvent::kNone;
 }
 
 std::string LimitWatch::describe(const FlightDeviation& deviation) const {

@@ -60,7 +60,7 @@ class QuadrotorMpc final : public Controller {
     look_ahead(now);
     const Wrench& wanted = law_.step(ports_.estimate(), preview_, ports_.has_lifted_off());
     ports_.write(now, wanted);
-    // Of what lies on the ground limits of the flight tell nothing.
+    // On the ground the limits of the flight do not apply.
     if (!ports_.is_done()) report(now);
     write(now);
   }
@@ -68,7 +68,7 @@ class QuadrotorMpc final : public Controller {
   bool finished() const override { return ports_.has_ended(); }
 
  private:
-  /// A flight that does not begin with a take-off begins in the air.
+  /// A flight that does not start with a take-off starts in the air.
   void start() {
     was_flying_ = true;
     watch_.reset();
@@ -77,8 +77,8 @@ class QuadrotorMpc final : public Controller {
                                                                      : law_.reset_hovering();
   }
 
-  /// The reference at the controller's own ticks. Past its end, which an old one or a longer
-  /// horizon meets, it goes on as it ended; one that has ended already holds its place.
+  /// The reference at the controller's own ticks. Past its end, which a late reference or a longer
+  /// horizon reaches, it continues with its last motion; one at rest holds its place.
   void look_ahead(Time now) {
     const ReferenceTrajectory& reference = ports_.reference();
     const Time end =
@@ -102,38 +102,38 @@ class QuadrotorMpc final : public Controller {
   FlightDeviation deviation() const {
     const HoverState& state = law_.state();
     double altitude_m = state.x[kHoverPosition + 2];
-    // A landing asks for ever less height until the ground is felt.
+    // A landing reference sinks on until the touchdown is detected.
     if (ports_.reference().phase == ReferenceTrajectory::Phase::kLand) {
       altitude_m = std::min(altitude_m, 0.0);
     }
     return {state.tilt_rad(), state.x[kHoverPosition + 1], altitude_m, law_.speed_error_mps()};
   }
 
-  /// One event a tick at most: a failure of the solver is told first.
+  /// At most one event per tick; a failure of the solver comes first.
   void report(Time now) {
     const bool fails = law_.status() != QpStatus::kSolved;
     if (fails != has_failed_) {
       has_failed_ = fails;
       if (fails) {
         tell(now, Event::Level::kError,
-             fmt::format("no optimal inputs (QP: {}): the last good ones are used",
+             fmt::format("no optimal inputs (QP: {}): the last valid ones are used",
                          to_string(law_.status())));
       } else {
         tell(now, Event::Level::kInfo, "optimal inputs again");
       }
       return;
     }
-    if (!ports_.has_lifted_off()) return;  // the ground decides
+    if (!ports_.has_lifted_off()) return;  // the ground determines the state
     const FlightDeviation off = deviation();
     switch (watch_.update(off, now.s())) {
-      case LimitWatch::News::kNone:
+      case LimitWatch::PendingEvent::kNone:
         break;
-      case LimitWatch::News::kLeft:
+      case LimitWatch::PendingEvent::kLeft:
         tell(now, Event::Level::kWarning,
              fmt::format("state outside its bounds: {}; soft constraints take over",
                          watch_.describe(off)));
         break;
-      case LimitWatch::News::kBack:
+      case LimitWatch::PendingEvent::kBack:
         tell(now, Event::Level::kInfo,
              fmt::format("state back inside its bounds after {:.2f} s", watch_.outside_s()));
         break;

@@ -1,6 +1,6 @@
 #pragma once
-/// Controller `quadrotor_mpc`: linear model predictive control of paper A, section 4.2, with the
-/// paper's gaps filled and its offset under wind removed by a disturbance observer.
+/// Controller `quadrotor_mpc`: linear model predictive control of paper A, section 4.2. It fills
+/// the paper's gaps and removes its offset under wind by a disturbance observer.
 
 #include <memory>
 
@@ -11,7 +11,7 @@ namespace vinerow::controllers {
 
 PartSpec quadrotor_mpc_spec();
 
-/// @throws ConfigError if the vehicle is no rotorcraft, or its rotors cannot hover or do not lag
+/// @throws ConfigError if the vehicle is no rotorcraft, or its rotors cannot hover or lack a lag
 std::unique_ptr<Controller> make_quadrotor_mpc(const ParameterSet& parameters,
                                                const ControllerContext& context);
 

@@ -61,9 +61,9 @@ void QuadrotorMpcLaw::reset_hovering() {
   rotors_.set_speeds(speeds_radps_);
 }
 
-// Far off, the problem sees the reference moved towards the vehicle: the errors that it weighs stay
-// of a size for which the weights were chosen. The limit of speed is for keeping the speed while on
-// the spot; who is ahead or behind is led back at a speed of its own.
+// Far from the reference, the problem gets a reference moved towards the vehicle, so that its
+// errors stay of the size for which the weights were chosen. The limit of speed is for keeping the
+// speed near the reference; a vehicle ahead or behind returns at a speed of its own.
 void QuadrotorMpcLaw::pull_reference() {
   const double distance_m = x_.segment<3>(kHoverPosition).norm();
   if (distance_m > kPull_m) x_.segment<3>(kHoverPosition) *= kPull_m / distance_m;
@@ -95,7 +95,7 @@ const Wrench& QuadrotorMpcLaw::step(const Odometry& odometry,
   status_ = mpc_.solve(x_, targets_.states(), targets_.inputs(), d_, no_input_);
 
   wanted_ = calc_body_wrench(mpc_.u(), state_, weight_N_);
-  // The box was one of H; turned into B its corners may stick out.
+  // The box of limits is in H; in B its corners may be outside.
   wanted_.thrust_N = std::min(wanted_.thrust_N, max_thrust_N_);
   wanted_.torque_B = wanted_.torque_B.cwiseMax(-max_torque_Nm_).cwiseMin(max_torque_Nm_);
   mixer_.mix(wanted_, speeds_radps_);

@@ -1,4 +1,4 @@
-// The problem of quadrotor_mpc_law.h from numbers and parameters.
+// The problem of quadrotor_mpc_law.h, from model and parameters.
 
 #include <fmt/format.h>
 
@@ -15,11 +15,11 @@ namespace vinerow::controllers {
 namespace {
 
 constexpr int kStates = HoverModel::kStatesWithLag;
-// The weights are meant per tick of this length.
+// The weights apply per tick of this length.
 constexpr double kWeightPeriod_s = 0.05;
 
 Eigen::MatrixXd make_state_weight(const MpcWeights& weights) {
-  // The acting wrench costs next to nothing: enough to make Q positive definite.
+  // The acting wrench has a tiny weight: enough to make Q positive definite.
   const Eigen::Vector4d wrench(1e-4, 1e-3, 1e-3, 1e-2);
   Eigen::VectorXd diagonal(kStates);
   diagonal << weights.position, weights.velocity, weights.angle, weights.rate, wrench;
@@ -55,11 +55,11 @@ void set_input_limits(const RotorcraftModel& craft, const RotorMixer& mixer,
                       const QuadrotorMpcParams& params, LinearMpcProblem& problem) {
   const double weight_N = craft.mass_kg * craft.gravity_mps2;
   const Eigen::Vector3d torque = params.torque_share * mixer.torque_limits_at_hover();
-  const double most_N = std::min(params.max_thrust * weight_N, craft.max_thrust_N());
+  const double max_N = std::min(params.max_thrust * weight_N, craft.max_thrust_N());
   problem.input_lower.resize(HoverModel::kInputs);
   problem.input_upper.resize(HoverModel::kInputs);
   problem.input_lower << (params.min_thrust - 1.0) * weight_N, -torque;
-  problem.input_upper << most_N - weight_N, torque;
+  problem.input_upper << max_N - weight_N, torque;
 }
 
 }  // namespace

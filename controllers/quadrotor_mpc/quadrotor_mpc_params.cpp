@@ -11,7 +11,7 @@ const ParameterTable<QuadrotorMpcParams>& quadrotor_mpc_table() {
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .integer("horizon", &P::horizon, between(2, 60),
-                   "N: ticks of the controller that it looks ahead")
+                   "N: prediction horizon in ticks of the controller")
           .numbers("position_weight", "1/m2", weights(&MpcWeights::position), kPositive,
                    "Q of the position error along the wanted heading, to its left and up")
           .numbers("velocity_weight", "s2/m2", weights(&MpcWeights::velocity), kNotNegative,
@@ -35,16 +35,17 @@ const ParameterTable<QuadrotorMpcParams>& quadrotor_mpc_table() {
           .number("tilt_limit_weight", "1/rad2", &P::tilt_weight, kPositive,
                   "cost of leaving the limit of tilt, 1/2 w s^2")
           .number("torque_share", "", &P::torque_share, between(0.05, 1.0),
-                  "limit of each torque, as a fraction of what the rotors have in hover")
+                  "limit of each torque, as a share of the torque limits at hover")
           .number("min_thrust", "weights", &P::min_thrust, between(0.0, 0.95),
-                  "least thrust; keeps room for torques")
+                  "smallest thrust; leaves a range for torques")
           .number("max_thrust", "weights", &P::max_thrust, between(1.05, 20.0),
-                  "largest thrust, cut to what the rotors have")
-          .number("disturbance_s", "s", &P::disturbance_s, between(0.0, 100.0),
-                  "time in which an unknown force is learnt; longer for noisy estimates, 0 = "
-                  "never (then wind leaves an offset)")
+                  "largest thrust, clamped to that of the rotors")
+          .number(
+              "disturbance_s", "s", &P::disturbance_s, between(0.0, 100.0),
+              "time constant of the estimate of unknown forces; longer for noisy estimates, 0 = "
+              "off (then wind leaves an offset)")
           .boolean("learn_torque", &P::learns_torque,
-                   "learn unknown torques too, e.g. of a load beside the centre");
+                   "estimate unknown torques too, e.g. of an off-centre load");
   return table;
 }
 

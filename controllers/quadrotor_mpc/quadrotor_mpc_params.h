@@ -9,7 +9,7 @@
 namespace vinerow::controllers {
 
 /// Weights of the cost, per tick of 0.05 s; other periods scale them, so that the cost per second
-/// stays. Axes of H: along the wanted heading, left, up.
+/// is the same. Axes of H: along the wanted heading, left, up.
 struct MpcWeights {
   Eigen::Vector3d position = {40, 60, 120};     ///< 1/m2
   Eigen::Vector3d velocity = {8, 8, 12};        ///< 1/(m/s)2

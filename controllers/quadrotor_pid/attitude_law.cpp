@@ -30,7 +30,7 @@ Eigen::Quaterniond calc_wanted_attitude(const Eigen::Vector3d& F_W, double yaw_r
 Eigen::Vector3d calc_wanted_rates(const Eigen::Quaterniond& q_WB, const Eigen::Quaterniond& wanted,
                                   double yaw_rate_radps, const AttitudeParams& params) {
   const Eigen::Quaterniond tilt = calc_tilt_turn(q_WB, wanted);
-  // What is left after the tilt is a turn about the thrust: q_WB tilt yaw = wanted.
+  // The remainder after the tilt is a rotation about the thrust: q_WB tilt yaw = wanted.
   const Eigen::Quaterniond yaw = (q_WB * tilt).conjugate() * wanted;
   const double tilt_rad = 2.0 * std::atan2(tilt.vec().norm(), tilt.w());
   double yaw_rad = 2.0 * std::atan2(yaw.z(), yaw.w());

@@ -1,10 +1,10 @@
 #pragma once
-/// From the wanted force and heading to wanted body rates, tilt before yaw.
+/// Attitude law from wanted force and heading to wanted body rates, tilt before yaw.
 ///
 /// Source: Brescianini, Hehn, D'Andrea, "Nonlinear quadrocopter attitude control", technical
-/// report, ETH Zurich, 2013: the reduced attitude (direction of thrust) is reached by the shortest
-/// turn, the full attitude's yaw follows with a smaller weight, so that a large yaw error does not
-/// bend the way of the tilt. PX4's attitude controller does the same.
+/// report, ETH Zurich, 2013. The reduced attitude (direction of thrust) is reached by the shortest
+/// rotation; the yaw of the full attitude follows with a smaller weight, so that a large yaw error
+/// does not disturb the tilt. PX4's attitude controller does the same.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -20,7 +20,7 @@ struct AttitudeParams {
   double yaw_rate_limit_radps = 1.05;
 };
 
-/// Attitude whose z axis points along F_W and whose x axis lies above the heading.
+/// Attitude whose z axis is along F_W and whose x axis is above the heading.
 /// @param F_W  z part > 0
 Eigen::Quaterniond calc_wanted_attitude(const Eigen::Vector3d& F_W, double yaw_rad);
 

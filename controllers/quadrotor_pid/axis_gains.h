@@ -1,5 +1,5 @@
 #pragma once
-/// Gains of the three axes from those that are given by pairs.
+/// Gains of three axes from parameters with two values.
 
 #include <Eigen/Core>
 

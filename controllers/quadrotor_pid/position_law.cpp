@@ -59,14 +59,14 @@ void PositionLaw::integrate(const Eigen::Vector3d& v_error, const Eigen::Vector3
                             const Eigen::Vector3d& limited_N, double lost_thrust_N) {
   Eigen::Vector3d growth =
       params_.period_s * spread(params_.velocity_i_per_s2).cwiseProduct(v_error);
-  // Along a horizontal force that is cut already only what shortens it counts.
+  // Along a horizontal force that is already limited only a reduction is integrated.
   const Eigen::Vector2d along = wanted_N.head<2>();
   if (along.norm() > limited_N.head<2>().norm() * (1.0 + 1e-9)) {
     const Eigen::Vector2d direction = along.normalized();
     const double outwards = growth.head<2>().dot(direction);
     if (outwards > 0.0) growth.head<2>() -= outwards * direction;
   }
-  // What the rotors do not reach of the thrust, and what the limit has cut off.
+  // The part of the thrust that the rotors do not reach, and the part beyond the limit.
   const double lost_N = wanted_N.z() - limited_N.z() + lost_thrust_N;
   const double noise_N = 1e-6 * craft_.mass_kg * craft_.gravity_mps2;
   if (std::abs(lost_N) > noise_N && lost_N * growth.z() > 0.0) growth.z() = 0.0;

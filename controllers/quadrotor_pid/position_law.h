@@ -1,14 +1,14 @@
 #pragma once
-/// From where a quadrotor should be to the force that its rotors should make: position P, velocity
-/// PID, feed-forward of velocity, acceleration and drag in still air, limits of tilt and thrust.
+/// Position law from the reference to the wanted force of the rotors: position P, velocity PID,
+/// feed-forward of velocity, acceleration and drag in still air, limits of tilt and thrust.
 ///
-///   v_wanted = v_ref + k_p (p_ref - p)                       the second part bounded
+///   v_wanted = v_ref + k_p (p_ref - p)                       the second term bounded
 ///   a_wanted = a_ref + k_v (v_wanted - v) + I - k_d dv/dt
 ///   F        = m (a_wanted + g z) + drag v_ref
 ///
-/// All in W, so heading does not matter. The vertical part of F comes first; what tilt and thrust
-/// leave goes to the horizontal part, whose direction is kept. The integral does not grow along
-/// what the limits cut off.
+/// All in W, so the heading has no influence. The vertical part of F comes first; the horizontal
+/// part gets what tilt and thrust limits leave, and keeps its direction. The integral does not grow
+/// in the direction that the limits cut off.
 
 #include <Eigen/Core>
 
@@ -36,8 +36,9 @@ class PositionLaw {
   PositionLaw(const RotorcraftModel& craft, const PositionParams& params);
 
   void reset();
-  /// One cycle. No heap. @param p_W,v_W  of the vehicle @param integrate  false: the integral rests
-  /// @param lost_thrust_N  wanted less reached thrust of the last cycle
+  /// One cycle. No heap. @param p_W,v_W  of the vehicle @param integrate  false: the integral is
+  /// held
+  /// @param lost_thrust_N  wanted minus reached thrust of the last cycle
   /// @returns force of the rotors in W, N; its z part > 0
   Eigen::Vector3d step(const TrajectoryPoint& at, const Eigen::Vector3d& p_W,
                        const Eigen::Vector3d& v_W, double lost_thrust_N, bool integrate);

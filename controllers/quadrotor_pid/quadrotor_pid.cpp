@@ -13,7 +13,7 @@
 namespace vinerow::controllers {
 namespace {
 
-/// What files say; the limits are shared by the loops.
+/// Parameters as in files; the loops share the limits.
 struct QuadrotorPidParams {
   PositionParams position;
   AttitudeParams attitude;
@@ -114,7 +114,7 @@ class QuadrotorPid final : public Controller {
   bool finished() const override { return ports_.has_ended(); }
 
  private:
-  /// Keeps the vertical part of the force at the tilt that there is.
+  /// Thrust that keeps the vertical part of the force at the present tilt.
   double thrust_for(const Eigen::Vector3d& F_W, double upright) const {
     const double least = std::cos(limits_.tilt_rad);
     return std::clamp(F_W.z() / std::max(upright, least), limits_.min_thrust_N,
@@ -132,7 +132,7 @@ class QuadrotorPid final : public Controller {
   PositionLaw position_;
   AttitudeParams attitude_;
   RateLaw rate_;
-  Wrench lost_;  ///< wanted less reached, last cycle
+  Wrench lost_;  ///< wanted minus reached, last cycle
 };
 
 }  // namespace
@@ -142,8 +142,8 @@ PartSpec quadrotor_pid_spec() {
   spec.name = "quadrotor_pid";
   spec.description =
       "Cascade of position P, velocity PID, attitude (tilt before yaw, Brescianini, Hehn, D'Andrea "
-      "2013) and rate PID for rotorcraft, with the reference's velocity, acceleration and yaw rate "
-      "fed forward.";
+      "2013) and rate PID for rotorcraft, with feed-forward of the reference's velocity, "
+      "acceleration and yaw rate.";
   spec.parameters = quadrotor_pid_table().specs();
   spec.default_rate_Hz = 250.0;
   spec.reads = {"estimate", "reference"};

@@ -1,6 +1,5 @@
 #pragma once
-/// Controller `quadrotor_pid`: the cascade that autopilots fly with, as the baseline that optimal
-/// control is measured against.
+/// Controller `quadrotor_pid`: the usual cascade of autopilots, a baseline for optimal control.
 
 #include <memory>
 

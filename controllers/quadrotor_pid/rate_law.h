@@ -1,11 +1,11 @@
 #pragma once
-/// From wanted body rates to torques: PID on the rates, whose output is an angular acceleration, so
-/// that gains hold for any inertia.
+/// Rate law from wanted body rates to torques: PID on the rates, whose output is an angular
+/// acceleration, so that gains hold for any inertia.
 ///
 ///   torque = J (k_p e + I - k_d dw/dt) + w x J w        e = wanted rates - w
 ///
-/// k_d stands for a rotor lag shorter by 1 + k_d. The integral does not grow along an axis whose
-/// torque the rotors did not reach in the last cycle.
+/// k_d has the effect of a rotor lag shorter by 1 + k_d. The integral does not grow along an axis
+/// whose torque the rotors did not reach in the last cycle.
 
 #include <Eigen/Core>
 
@@ -28,7 +28,7 @@ class RateLaw {
   RateLaw(const RotorcraftModel& craft, const RateParams& params);
 
   void reset();
-  /// One cycle. No heap. @param lost_torque_Nm  wanted less reached of the last cycle
+  /// One cycle. No heap. @param lost_torque_Nm  wanted minus reached of the last cycle
   /// @returns torque in B, N m
   Eigen::Vector3d step(const Eigen::Vector3d& wanted_radps, const Eigen::Vector3d& w_B,
                        const Eigen::Vector3d& lost_torque_Nm, bool integrate);

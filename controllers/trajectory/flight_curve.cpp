@@ -8,13 +8,13 @@ namespace vinerow::controllers {
 namespace {
 
 constexpr double kShortest_m = 1e-6;
-// A chord of more than this share of the diameter does not fit the arc its point claims.
+// A longer chord, as a share of the diameter, does not fit the stated arc.
 constexpr double kLargestChordShare = 0.999;
-// Steeper than this is up or down; a path over the ground hardly is.
+// Steeper segments count as vertical; a path over the ground is hardly this steep.
 constexpr double kSteep = 3.0;
 
-CurvePiece make_piece(const PathPoint& from, const PathPoint& to) {
-  CurvePiece piece;
+CurveSegment make_piece(const PathPoint& from, const PathPoint& to) {
+  CurveSegment piece;
   const Eigen::Vector2d chord = (to.p_W - from.p_W).head<2>();
   const double chord_m = chord.norm();
   piece.rise_m = to.p_W.z() - from.p_W.z();
@@ -34,7 +34,7 @@ CurvePiece make_piece(const PathPoint& from, const PathPoint& to) {
   return piece;
 }
 
-bool is_joint_smooth(const CurvePiece& a, const CurvePiece& b, double sharp_rad) {
+bool is_joint_smooth(const CurveSegment& a, const CurveSegment& b, double sharp_rad) {
   if (a.is_vertical() != b.is_vertical()) return false;
   if (a.is_vertical()) return (a.rise_m > 0.0) == (b.rise_m > 0.0);
   return std::abs(wrap_angle(b.start.yaw_rad - a.end_yaw_rad())) <= sharp_rad;
@@ -42,11 +42,11 @@ bool is_joint_smooth(const CurvePiece& a, const CurvePiece& b, double sharp_rad)
 
 }  // namespace
 
-bool CurvePiece::is_vertical() const {
+bool CurveSegment::is_vertical() const {
   return std::abs(rise_m) > kSteep * plan_length_m;
 }
 
-Eigen::Vector3d CurvePiece::at(double at_m) const {
+Eigen::Vector3d CurveSegment::at(double at_m) const {
   const double share = length_m > 0.0 ? at_m / length_m : 0.0;
   const double along_m = share * plan_length_m;
   const Pose2 pose = advance(start, along_m, along_m * curvature_per_m);
@@ -62,10 +62,10 @@ std::vector<CurveRun> make_curve_runs(const PlannedPath& plan, double sharp_rad)
       continue;
     }
     if ((to.p_W - from->p_W).norm() < kShortest_m) {
-      from = &to;  // the same place, but the stretch from here on may be of another kind
+      from = &to;  // the same place, but the stretch from here may be of another kind
       continue;
     }
-    const CurvePiece piece = make_piece(*from, to);
+    const CurveSegment piece = make_piece(*from, to);
     if (runs.empty() || !is_joint_smooth(runs.back().pieces.back(), piece, sharp_rad)) {
       runs.push_back({{}, piece.is_vertical(), 0.0});
     }

@@ -1,7 +1,7 @@
 #pragma once
-/// A plan with heights as an exact curve in space: arcs by curvature seen from above, straight in
-/// height between two points, straight up and down; parted into runs that a vehicle can fly without
-/// stopping.
+/// Plan with heights as an exact curve in space: arcs by curvature in plan view, linear in height
+/// between two points, straight up and down. It is divided into runs that a vehicle can fly without
+/// a stop.
 
 #include <Eigen/Core>
 #include <vector>
@@ -12,32 +12,32 @@
 
 namespace vinerow::controllers {
 
-/// Between two points of a plan.
-struct CurvePiece {
+/// Segment between two points of a plan.
+struct CurveSegment {
   Pose2 start;
   double start_height_m = 0.0;
-  double plan_length_m = 0.0;  ///< seen from above; 0: straight up or down
+  double plan_length_m = 0.0;  ///< in plan view; 0: straight up or down
   double rise_m = 0.0;
   double curvature_per_m = 0.0;
   double length_m = 0.0;   ///< in space
-  double speed_mps = 0.0;  ///< 0: none wanted
+  double speed_mps = 0.0;  ///< 0: no wanted speed
   PathKind kind = PathKind::kTransit;
 
   bool is_vertical() const;
-  /// @param at_m  distance in space from the piece's start
+  /// @param at_m  distance in space from the segment's start
   Eigen::Vector3d at(double at_m) const;
   double end_yaw_rad() const { return start.yaw_rad + plan_length_m * curvature_per_m; }
 };
 
-/// Pieces that join smoothly: all of them straight up or down the same way, or none of them and no
-/// bend between two sharper than `sharp_rad`.
+/// Segments that join smoothly: either all of them straight up or all straight down, or none of
+/// them vertical and no bend between two of them sharper than `sharp_rad`.
 struct CurveRun {
-  std::vector<CurvePiece> pieces;
+  std::vector<CurveSegment> pieces;
   bool is_vertical = false;
   double length_m = 0.0;
 };
 
-/// @returns empty where the plan has no length
+/// @returns empty if the plan has no length
 std::vector<CurveRun> make_curve_runs(const PlannedPath& plan, double sharp_rad);
 
 }  // namespace vinerow::controllers

@@ -7,7 +7,7 @@
 namespace vinerow::controllers {
 namespace {
 
-// The vehicle begins to turn when it is this far above the ground.
+// Height above the ground at which the vehicle starts to turn.
 constexpr double kTurnAbove_m = 0.3;
 
 ReferenceTrajectory::Phase phase_of_kind(PathKind kind) {
@@ -25,11 +25,11 @@ ReferenceTrajectory::Phase phase_of_kind(PathKind kind) {
   return ReferenceTrajectory::Phase::kTransit;
 }
 
-/// A landing goes on below the plan's end, until the ground is felt.
+/// Continues a landing below the plan's end, for the detection of the touchdown.
 void extend_landing(std::vector<CurveRun>& runs, double by_m) {
   CurveRun& last = runs.back();
   if (!last.is_vertical || last.pieces.back().rise_m >= 0.0) return;
-  CurvePiece piece = last.pieces.back();
+  CurveSegment piece = last.pieces.back();
   piece.start_height_m += piece.rise_m;
   piece.rise_m = -by_m;
   piece.plan_length_m = 0.0;
@@ -98,7 +98,7 @@ void FlightTrajectory::add_rest(double duration_s, Phase phase) {
   now_s_ = stage.end_s;
 }
 
-/// @param next_yaw_rad  where the first way that is not up or down leads, this one or a later
+/// @param next_yaw_rad  direction of the first run that is not vertical, this one or a later one
 void FlightTrajectory::add_run(int run, bool is_first, bool is_last,
                                std::optional<double> next_yaw_rad, const FlightOptions& options) {
   const SmoothRun& curve = runs_[run];
@@ -115,7 +115,7 @@ void FlightTrajectory::add_run(int run, bool is_first, bool is_last,
     if (!is_first && has_flown_rows_) stage.phase = Phase::kReturn;
     if (is_last && goes_down) stage.phase = Phase::kLand;
   }
-  // Turning on the spot before a run, or while it goes up or down.
+  // Turns on the spot before a run, or during a vertical run.
   const double before_s = stage.follows ? 0.0 : law.time_of(is_first ? kTurnAbove_m : 0.0);
   if (next_yaw_rad) {
     yaw_ = make_yaw_move(now_s_ + before_s, yaw_.end_rad(), *next_yaw_rad, limits.yaw_rate_radps,
@@ -179,7 +179,7 @@ FlightTrajectory::Sample FlightTrajectory::at(double time_s) const {
 
 double FlightTrajectory::time_of(double distance_m) const {
   if (distance_m <= 0.0) return 0.0;
-  // Holding a place may last for ever; nothing beyond its beginning is farther.
+  // A hold may last forever; no distance is reached after its start.
   double low_s = 0.0, high_s = 0.0;
   for (const Stage& stage : stages_) {
     if (std::isinf(stage.end_s)) break;

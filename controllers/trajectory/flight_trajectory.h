@@ -1,6 +1,6 @@
 #pragma once
-/// A whole flight as a function of time: runs of the smoothed curve with their time laws, and rests
-/// between them, where the rotors spin up, the vehicle turns or holds its place.
+/// Whole flight as a function of time: runs of the smoothed curve with their time laws, and rests
+/// between them, in which the rotors spin up, the vehicle turns or holds its place.
 
 #include <optional>
 #include <vector>
@@ -12,7 +12,7 @@
 
 namespace vinerow::controllers {
 
-/// Holding a place before the last run, the landing.
+/// Hold before the last run, the landing.
 struct FlightHold {
   double duration_s = 0.0;  ///< infinite: never lands
   std::optional<double> yaw_rad;
@@ -21,8 +21,8 @@ struct FlightHold {
 struct FlightOptions {
   TrajectoryLimits limits;
   double spin_up_s = 1.0;                 ///< rest on the ground before the take-off
-  double landing_reserve_m = 1.0;         ///< how far below the plan's end the landing goes on
-  double sharp_rad = rad_from_deg(20.0);  ///< sharper bends are flown by a stop
+  double landing_reserve_m = 1.0;         ///< continuation of the landing below the plan's end
+  double sharp_rad = rad_from_deg(20.0);  ///< the vehicle stops at sharper bends
   std::optional<FlightHold> hold;
 };
 
@@ -36,20 +36,20 @@ class FlightTrajectory {
   };
 
   FlightTrajectory() = default;
-  /// Allocates. @param yaw_rad  the vehicle's before the take-off
+  /// Allocates. @param yaw_rad  of the vehicle before the take-off
   FlightTrajectory(const PlannedPath& plan, double yaw_rad, const FlightOptions& options);
 
-  /// True where the plan has no length.
+  /// True if the plan has no length.
   bool empty() const { return stages_.empty(); }
   double duration_s() const { return stages_.back().end_s; }
-  /// Of the plan; without what the landing is continued by.
+  /// Of the plan, without the continuation of the landing.
   double length_m() const { return length_m_; }
   double end_height_m() const { return end_height_m_; }
 
   /// Clamped to [0, duration_s()]. No heap. @pre !empty()
   Sample at(double time_s) const;
-  /// When a distance along the plan is reached, s; at once where it is not positive, and at the end
-  /// where it is farther than the plan. No heap. @pre !empty()
+  /// Time at which a distance along the plan is reached, s; zero if it is not positive, and the end
+  /// if it exceeds the plan. No heap. @pre !empty()
   double time_of(double distance_m) const;
 
  private:
@@ -71,7 +71,7 @@ class FlightTrajectory {
   std::vector<SmoothRun> runs_;
   std::vector<TimeLaw> laws_;
   std::vector<Stage> stages_;
-  YawMove yaw_;  // the last turn on the spot, while the flight is put together
+  YawMove yaw_;  // the last turn on the spot, during construction
   Eigen::Vector3d p_W_ = Eigen::Vector3d::Zero();
   double now_s_ = 0.0, now_m_ = 0.0;
   bool has_flown_rows_ = false;

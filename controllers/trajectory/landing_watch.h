@@ -1,5 +1,5 @@
 #pragma once
-/// Feels the ground: the vehicle stands although it should go down.
+/// Detector of the touchdown: the vehicle is stationary although the reference sinks.
 
 namespace vinerow::controllers {
 
@@ -7,9 +7,9 @@ class LandingWatch {
  public:
   struct Params {
     double landing_speed_mps = 0.3;
-    double stand_s = 0.5;    ///< how long it has to stand
-    double zone_m = 1.0;     ///< not higher than this above the plan's end
-    double give_up_s = 2.0;  ///< standing anywhere after the reference has come to its end
+    double stationary_s = 0.5;  ///< required duration without motion
+    double zone_m = 1.0;        ///< largest height above the plan's end
+    double give_up_s = 2.0;     ///< stationary anywhere for this long after the reference's end
   };
   LandingWatch() = default;
   explicit LandingWatch(const Params& params) : params_(params) {}
@@ -18,18 +18,18 @@ class LandingWatch {
     double wanted_mps = 0.0;    ///< vertical speed of the reference
     double vertical_mps = 0.0;  ///< of the vehicle
     double above_end_m = 0.0;   ///< of the vehicle above the plan's end
-    bool is_over = false;       ///< the reference has come to its end
+    bool is_over = false;       ///< the reference has ended
   };
-  /// @returns true once the vehicle stands
+  /// @returns true once the vehicle has landed
   bool has_landed(const Seen& seen, double dt_s) {
-    constexpr double kStandingShare = 0.25;  // of the landing speed
-    const bool stands = seen.vertical_mps > -kStandingShare * params_.landing_speed_mps &&
+    constexpr double kStationaryShare = 0.25;  // of the landing speed
+    const bool stands = seen.vertical_mps > -kStationaryShare * params_.landing_speed_mps &&
                         seen.vertical_mps < params_.landing_speed_mps;
     const bool should_sink = seen.wanted_mps < -0.5 * params_.landing_speed_mps;
     const bool counts = stands && should_sink && seen.above_end_m < params_.zone_m;
     stood_s_ = counts ? stood_s_ + dt_s : 0.0;
     over_s_ = stands && seen.is_over ? over_s_ + dt_s : 0.0;
-    return stood_s_ >= params_.stand_s || over_s_ >= params_.give_up_s;
+    return stood_s_ >= params_.stationary_s || over_s_ >= params_.give_up_s;
   }
 
  private:

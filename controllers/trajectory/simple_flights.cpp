@@ -5,7 +5,7 @@
 namespace vinerow::controllers {
 namespace {
 
-// Nearer than this a vehicle is at a place.
+// A vehicle nearer than this is at a place.
 constexpr double kAt_m = 0.05;
 
 PathPoint make_point(const Eigen::Vector3d& p_W, PathKind kind) {
@@ -27,7 +27,7 @@ bool has_vertical(const PlannedPath& plan) {
 }
 
 PlannedPath lift_plan(const PlannedPath& plan, const Eigen::Vector3d& start_W, double height_m,
-                      double standing_m) {
+                      double rest_height_m) {
   PlannedPath flight;
   const Eigen::Vector3d first = plan.points.front().p_W;
   flight.points.push_back(make_point(start_W, PathKind::kVertical));
@@ -41,7 +41,8 @@ PlannedPath lift_plan(const PlannedPath& plan, const Eigen::Vector3d& start_W, d
   }
   flight.points.back().kind = PathKind::kVertical;
   const Eigen::Vector3d last = plan.points.back().p_W;
-  flight.points.push_back(make_point(at_height(last, last.z() + standing_m), PathKind::kVertical));
+  flight.points.push_back(
+      make_point(at_height(last, last.z() + rest_height_m), PathKind::kVertical));
   return flight;
 }
 

@@ -27,7 +27,7 @@ SmoothRun::SmoothRun(const CurveRun& run, double blend_m) : is_vertical_(run.is_
       piece_start_m += run.pieces[piece].length_m;
       ++piece;
     }
-    const CurvePiece& on = run.pieces[piece];
+    const CurveSegment& on = run.pieces[piece];
     points.push_back(on.at(std::min(at_m - piece_start_m, on.length_m)));
     kinds_.push_back(on.kind);
     speeds_mps_.push_back(on.speed_mps);

@@ -1,12 +1,11 @@
 #pragma once
-/// A run of the flight curve with its bends rounded: what the vehicle is to fly, as a function of
-/// the distance along the plan.
+/// Run of the flight curve with rounded bends, as a function of the distance along the plan.
 ///
-/// The curve is averaged along itself over `blend_m` and again over half of it. Straights stay as
-/// they are, corners become short arcs, and where an arc begins the curvature rises over blend_m
-/// instead of at once: the reference's remark that steps of curvature drive the yaw torque into its
-/// limit. An arc of radius R lies blend_m^2 (1 + 1/4) / (24 R) further inside (0.8 m at 1.77 m:
-/// 19 mm), and half of that where it meets a straight.
+/// The curve is averaged along itself over `blend_m` and again over half of it. Straights stay
+/// straight, corners become short arcs, and at the start of an arc the curvature rises over blend_m
+/// instead of at once: the reference notes that steps of curvature drive the yaw torque into its
+/// limit. An arc of radius R moves blend_m^2 (1 + 1/4) / (24 R) inwards (0.8 m at 1.77 m: 19 mm),
+/// and half of that where it meets a straight.
 
 #include "controllers/trajectory/flight_curve.h"
 #include "controllers/trajectory/uniform_spline.h"
@@ -16,9 +15,9 @@ namespace vinerow::controllers {
 class SmoothRun {
  public:
   struct Sample {
-    Eigen::Vector3d p_W, first, second;  ///< and derivatives by the distance
+    Eigen::Vector3d p_W, first, second;  ///< and its derivatives with respect to the distance
     double yaw_rad = 0.0;                ///< direction of travel, continuous along the run
-    double yaw_per_m = 0.0;              ///< its derivative by the distance
+    double yaw_per_m = 0.0;              ///< its derivative with respect to the distance
   };
 
   /// Allocates. @pre the run has a length
@@ -31,7 +30,7 @@ class SmoothRun {
   double start_yaw_rad() const { return yaw_rad_.front(); }
   double end_yaw_rad() const { return yaw_rad_.back(); }
 
-  /// Knots and what the plan wants between a knot and the next.
+  /// Knots, and kind and speed of the plan between a knot and the next.
   int knots() const { return static_cast<int>(yaw_rad_.size()); }
   double step_m() const { return spline_.step(); }
   PathKind kind_at(double at_m) const { return kinds_[spline_.piece_at(at_m)]; }

@@ -12,10 +12,30 @@
 namespace vinerow::controllers {
 namespace {
 
+// Plan. The run is a curve p(s) with yaw(s) over its distance s; a speed here is v = ds/dt.
+//   1. limit_speeds(), at each knot the smallest of
+//        |p'| v <= wanted speed,       p'_z v <= climb, -p'_z v <= descent,
+//        |p''_n| v^2 <= lateral acceleration, p''_n the part of p'' normal to the path,
+//        |yaw'| v <= yaw rate,         |yaw''| v^2 <= yaw acceleration,
+//      `stretch` = |p'|, `bend` = |p''_n|, `turn` = |yaw'|, `change` = |yaw''|.
+//   2. limit_acceleration(), forwards and backwards over the knots, ds apart:
+//        v_i^2 <= v_{i-1}^2 + 2 a ds,  v_i^2 <= v_{i+1}^2 + 2 a ds,  v = 0 at both ends.
+//   3. widen(): the average over ease_s in step 5 mixes speeds from ease_s / 2 before and after, so
+//      each limit of step 1 also applies to the distance v ease_s / 2 around its knot. Then step 2
+//      again.
+//   4. sample_distances(): s(t) every kStep_s, with constant acceleration between knots.
+//   5. Moving average of s(t) over ease_s, then a spline through it.
+
+// Sampling time of s(t). Chosen: 25 samples within the default ease_s of 0.5 s.
 constexpr double kStep_s = 0.02;
-constexpr double kReserve = 0.97;  // of the limits: for what lies between knots and is averaged
+// Share of the limits that is used. Chosen: a reserve for places between knots and for the average.
+constexpr double kReserve = 0.97;
+// Derivatives below this are zero, up to rounding, and limit nothing.
 constexpr double kTiny = 1e-9;
-constexpr double kLongest_s = 2e5;  // 10 million samples
+// Longest duration of a run. Chosen: 10 million samples.
+constexpr double kLongest_s = 2e5;
+// Accuracy of time_of(). Chosen far below kStep_s.
+constexpr double kTimeTolerance_s = 1e-6;
 
 double wanted_speed_mps(PathKind kind, const TrajectoryLimits& limits) {
   switch (kind) {
@@ -31,7 +51,7 @@ double wanted_speed_mps(PathKind kind, const TrajectoryLimits& limits) {
   return limits.transit_speed_mps;
 }
 
-/// Distances per second that no limit forbids, at the knots.
+/// Largest ds/dt that every limit allows, at the knots.
 std::vector<double> limit_speeds(const SmoothRun& run, const TrajectoryLimits& limits,
                                  double slow_from_m) {
   std::vector<double> most;
@@ -55,7 +75,7 @@ std::vector<double> limit_speeds(const SmoothRun& run, const TrajectoryLimits& l
     if (turn > kTiny) speed = std::min(speed, kReserve * limits.yaw_rate_radps / turn);
     const double before = run.at(at_m - run.step_m()).yaw_per_m;
     const double after = run.at(at_m + run.step_m()).yaw_per_m;
-    // At the very ends the neighbour is the knot itself: half the step, twice the change.
+    // At the ends the neighbour is the knot itself: half the step, twice the change.
     const bool is_end = i == 0 || i + 1 == run.knots();
     const double change = std::abs(after - before) / ((is_end ? 1.0 : 2.0) * run.step_m());
     if (change > kTiny) {
@@ -67,7 +87,7 @@ std::vector<double> limit_speeds(const SmoothRun& run, const TrajectoryLimits& l
   return most;
 }
 
-/// Forwards, then backwards: v dv/ds never more than the acceleration; from rest to rest.
+/// Forwards, then backwards: v dv/ds is at most the acceleration; from rest to rest.
 std::vector<double> limit_acceleration(std::vector<double> speeds, double step_m,
                                        double acceleration_mps2) {
   const double gain = 2.0 * kReserve * acceleration_mps2 * step_m;
@@ -81,7 +101,7 @@ std::vector<double> limit_acceleration(std::vector<double> speeds, double step_m
   return speeds;
 }
 
-/// Every limit holds as far around its knot as the average over ease_s will carry it.
+/// Extends every limit around its knot as far as the average over ease_s mixes speeds.
 std::vector<double> widen(const std::vector<double>& most, const std::vector<double>& flown,
                           double step_m, double ease_s) {
   std::vector<double> widened = most;
@@ -95,7 +115,7 @@ std::vector<double> widen(const std::vector<double>& most, const std::vector<dou
   return widened;
 }
 
-/// Limits that are next to nothing make a flight of years, sampled every kStep_s.
+/// Tiny limits would make a flight of years, sampled every kStep_s.
 void check_duration(const std::vector<double>& speeds, double step_m) {
   double duration_s = 0.0;
   for (std::size_t i = 0; i + 1 < speeds.size(); ++i) {
@@ -146,7 +166,7 @@ TimeLaw::TimeLaw(const SmoothRun& run, const TrajectoryLimits& limits, double sl
                               limits.acceleration_mps2);
   check_duration(speeds, step_m);
   const int half = calc_half_window(limits.ease_s, kStep_s);
-  // Rest before and after, as long as the average looks, and for the spline's own three points.
+  // Rest before and after, for the window of the average and for the spline's own three points.
   const double rest_s = (half + 3) * kStep_s;
   std::vector<double> distances_m = sample_distances(speeds, step_m, rest_s);
   distances_m = smooth_box(distances_m, half, Beyond::kConstant);
@@ -155,7 +175,7 @@ TimeLaw::TimeLaw(const SmoothRun& run, const TrajectoryLimits& limits, double sl
 
 double TimeLaw::time_of(double distance_m) const {
   double low_s = 0.0, high_s = duration_s();
-  while (high_s - low_s > 1e-6) {
+  while (high_s - low_s > kTimeTolerance_s) {
     const double middle_s = 0.5 * (low_s + high_s);
     (at(middle_s).value < distance_m ? low_s : high_s) = middle_s;
   }

@@ -1,12 +1,12 @@
 #pragma once
-/// When a vehicle is where along a run: as fast as wanted and as the limits let it, from rest to
-/// rest.
+/// Time law of a run: distance as a function of time, as fast as the wanted speeds and the limits
+/// allow, from rest to rest.
 ///
 /// Speeds are limited knot by knot (wanted speed, lateral acceleration, yaw rate and acceleration,
-/// climb and descent), then forwards and backwards by the tangential acceleration, and the distance
-/// as a function of time is averaged over `ease_s`, so that the acceleration changes within that
-/// time and not at once. Averaging keeps the limits: the speed limits are widened by the way that
-/// is flown in half that time.
+/// climb and descent), then forwards and backwards by the tangential acceleration. The distance as
+/// a function of time is averaged over `ease_s`, so that the acceleration changes within that time
+/// and not at once. Averaging keeps the limits, because each speed limit also applies to the
+/// distance flown within half that time.
 
 #include "controllers/trajectory/smooth_run.h"
 
@@ -31,13 +31,13 @@ struct TrajectoryLimits {
 
 class TimeLaw {
  public:
-  /// Allocates. @param slow_from_m  from here on along the run no faster than landing_speed_mps
+  /// Allocates. @param slow_from_m  from here on along the run at most landing_speed_mps
   TimeLaw(const SmoothRun& run, const TrajectoryLimits& limits, double slow_from_m);
 
   double duration_s() const { return spline_.length(); }
   /// Distance along the run, its speed and acceleration. No heap.
   UniformSpline<double>::Sample at(double time_s) const { return spline_.at(time_s); }
-  /// When a distance is reached, s.
+  /// Time at which a distance is reached, s.
   double time_of(double distance_m) const;
 
  private:

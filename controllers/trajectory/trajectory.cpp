@@ -52,32 +52,33 @@ class Trajectory final : public Guidance {
   }
 
  private:
-  /// Works out the flight when all is there that it needs. Allocates.
+  /// Computes the flight once all its data are present. Allocates.
   void take_flight(Time now) {
     if (!estimate_.has_value()) return;
     const Pose& X_WB = estimate_.value().X_WB;
     const double yaw_rad = yaw_from_quaternion(X_WB.q);
     if (params_.hover_m) {
       Eigen::Vector3d place = *params_.hover_m;
-      place.z() += X_WB.p.z() - params_.standing_m;
+      place.z() += X_WB.p.z() - params_.rest_height_m;
       flight_ = FlightTrajectory(make_hover_plan(X_WB.p, place), yaw_rad, params_.flight);
     } else if (plan_.is_newer_than(seen_plan_) && plan_.value().points.size() > 1) {
       const PlannedPath& plan = plan_.value();
       flight_ = FlightTrajectory(
-          has_vertical(plan) ? plan : lift_plan(plan, X_WB.p, params_.height_m, params_.standing_m),
+          has_vertical(plan) ? plan
+                             : lift_plan(plan, X_WB.p, params_.height_m, params_.rest_height_m),
           yaw_rad, params_.flight);
     }
     if (flight_.empty()) return;
     const std::string slower =
         params_.hover_m ? ""
-                        : tell_plan_too_fast(plan_.value(), params_.flight.limits.row_speed_mps,
-                                             "row_speed_mps");
+                        : describe_too_fast_plan(plan_.value(), params_.flight.limits.row_speed_mps,
+                                                 "row_speed_mps");
     tell(now, slower.empty() ? Event::Level::kInfo : Event::Level::kWarning,
-         fmt::format("takes off for {:.1f} m that take {:.1f} s{}{}", flight_.length_m(),
+         fmt::format("takes off for {:.1f} m in {:.1f} s{}{}", flight_.length_m(),
                      flight_.duration_s(), slower.empty() ? "" : "; ", slower));
   }
 
-  /// Where the flight is to wait until it may go on.
+  /// Place at which the flight waits until it may continue.
   void take_authority() {
     const double stop_at_m = read_stop_at_m(authority_);
     if (flight_.empty() || stop_at_m == stop_at_m_) return;
@@ -93,9 +94,9 @@ class Trajectory final : public Guidance {
     const Odometry& estimate = estimate_.value();
     const bool lands = present.phase == Phase::kLand;
     const double away_m = (present.point.p_W - estimate.X_WB.p).norm();
-    // On the way down the ground holds the vehicle back.
+    // During the descent the ground holds the vehicle back.
     wanted_rate_ = lands ? 1.0 : calc_clock_rate(away_m, params_.wait_m);
-    tell_waiting(now, away_m, present.distance_m);
+    describe_waiting(now, away_m, present.distance_m);
     if (!lands) return;
     LandingWatch::Seen seen;
     seen.wanted_mps = present.point.v_W.z() * clock_.rate();
@@ -147,8 +148,8 @@ class Trajectory final : public Guidance {
     out_.write(now, reference_);
   }
 
-  /// Once for every time it begins.
-  void tell_waiting(Time now, double away_m, double distance_m) {
+  /// One event per wait.
+  void describe_waiting(Time now, double away_m, double distance_m) {
     if (wanted_rate_ == 1.0) {
       if (away_m < 0.5 * params_.wait_m) is_waiting_ = false;
       return;
@@ -156,7 +157,7 @@ class Trajectory final : public Guidance {
     if (is_waiting_) return;
     is_waiting_ = true;
     tell(now, Event::Level::kWarning,
-         fmt::format("the vehicle is {:.2f} m from where it should be after {:.1f} m: waits for it",
+         fmt::format("the vehicle is {:.2f} m from the reference after {:.1f} m: waits for it",
                      away_m, distance_m));
   }
 
@@ -191,8 +192,8 @@ PartSpec trajectory_spec() {
   PartSpec spec;
   spec.name = "trajectory";
   spec.description =
-      "Where a flying vehicle should be over the controller's horizon: a time law along the plan "
-      "with 3 m/s in rows, slow turns, climb, way home and landing (paper A, 4.2).";
+      "Reference of a rotorcraft over the controller's horizon: a time law along the plan with "
+      "3 m/s in rows, slow turns, climb, return and landing (paper A, 4.2).";
   spec.parameters = trajectory_table().specs();
   spec.default_rate_Hz = 20.0;
   spec.reads = {"estimate", "plan", "authority"};

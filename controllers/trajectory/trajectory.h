@@ -1,7 +1,7 @@
 #pragma once
-/// Guidance `trajectory`: a plan in space becomes a reference in time for flying vehicles (paper A,
-/// section 4.2): where to be, how fast and with which acceleration, now and over the controller's
-/// horizon. Parts: flight_curve.h, smooth_run.h, time_law.h, flight_trajectory.h.
+/// Guidance `trajectory`: converts a plan in space to a reference in time for rotorcraft (paper A,
+/// section 4.2): position, velocity and acceleration, now and over the controller's horizon. Parts:
+/// flight_curve.h, smooth_run.h, time_law.h, flight_trajectory.h.
 
 #include <memory>
 

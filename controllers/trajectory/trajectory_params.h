@@ -15,13 +15,13 @@ struct TrajectoryParams {
   double sample_s = 0.05;
   FlightOptions flight;
   LandingWatch::Params landing;
-  double height_m = 1.5;  ///< above plans that lie on the ground
+  double height_m = 1.5;  ///< above plans on the ground
   double wait_m = 1.0;
-  double standing_m = 0.0;  ///< of B above the ground when the vehicle stands
+  double rest_height_m = 0.0;  ///< of B above the ground before take-off
   /// Without a planner: x, y in W and the height above the ground at the take-off.
   std::optional<Eigen::Vector3d> hover_m;
-  std::optional<double> hover_yaw_rad;  ///< heading there; absent: the one it came with
-  double hover_s = 0.0;                 ///< how long; 0: to the end of the run
+  std::optional<double> hover_yaw_rad;  ///< heading there; absent: the heading at take-off
+  double hover_s = 0.0;                 ///< duration; 0: to the end of the run
 };
 
 const ParameterTable<TrajectoryParams>& trajectory_table();

@@ -1,6 +1,6 @@
 #pragma once
 /// Cubic B-spline over evenly spaced knots. The control points are its smoothed values: the curve
-/// begins in the first and ends in the last, runs along straights exactly, and its second
+/// starts in the first and ends in the last, reproduces straights exactly, and its second
 /// derivative is continuous.
 
 #include <algorithm>
@@ -24,7 +24,7 @@ class UniformSpline {
     points_.push_back(2.0 * points.back() - points[points.size() - 2]);
   }
 
-  /// Pieces between knots.
+  /// Number of pieces between knots.
   int pieces() const { return static_cast<int>(points_.size()) - 3; }
   double step() const { return step_; }
   double length() const { return pieces() * step_; }

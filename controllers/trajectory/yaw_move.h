@@ -1,5 +1,5 @@
 #pragma once
-/// A turn on the spot, from rest to rest: a polynomial of the fifth degree in time.
+/// Turn on the spot, from rest to rest: a polynomial of the fifth degree in time.
 
 #include <algorithm>
 #include <cmath>
@@ -29,8 +29,8 @@ struct YawMove {
   }
 };
 
-/// The short way round to a heading, as fast as both limits let it: the polynomial's rate is at
-/// most 15/8 turn / duration, its acceleration at most 10/sqrt(3) turn / duration^2.
+/// The shorter turn to a heading, as fast as both limits allow: the polynomial's rate is at most
+/// 15/8 turn / duration, its acceleration at most 10/sqrt(3) turn / duration^2.
 inline YawMove make_yaw_move(double start_s, double from_rad, double to_rad, double rate_radps,
                              double acceleration_radps2) {
   const double turn_rad = wrap_angle(to_rad - from_rad);

@@ -34,23 +34,23 @@ const ParameterTable<TrmpcParams>& trmpc_table() {
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .integer("horizon", inside(&P::tube, &Tube::horizon), between(1, 60),
-                   "N: ticks of the controller that it looks ahead")
+                   "N: prediction horizon in ticks of the controller")
           .number("gust_mps", "m/s", inside(&P::tube, &Tube::gust_mps), kPositive,
-                  "strongest gust along each axis of the body that limits are kept in; one "
-                  "too strong for the limits is refused with the largest feasible one")
+                  "strongest gust along each axis of the body under which limits are kept; one too "
+                  "strong for the limits is refused with the largest feasible one")
           .choice("law", inside(&P::tube, &Tube::law),
                   {{"tube", TubeLaw::kTube},
                    {"fixed_start", TubeLaw::kFixedStart},
                    {"propagated", TubeLaw::kPropagated},
                    {"printed", TubeLaw::kPrinted}},
-                  "where the nominal state starts: free within the tube, at the state, by its "
-                  "own model; printed: at the state and K x counted twice, as paper A prints")
+                  "start of the nominal state: free within the tube, at the state, by its own "
+                  "model; printed: at the state, with K x counted twice, as in paper A")
           .choice("tube_shape", inside(&P::tube, &Tube::shape),
                   {{"invariant", TubeShape::kInvariant}, {"box", TubeShape::kBox}},
-                  "what the state must keep to about the nominal one: an invariant set, or "
-                  "the box around the smallest one, which is faster and promises less")
+                  "set around the nominal state that contains the state: an invariant set, or the "
+                  "box around the smallest one, which is faster but not recursively feasible")
           .choice("gain", &P::is_gain_given, {{"lqr", false}, {"given", true}},
-                  "feedback that keeps the tube: LQR of the weights, or the lists given")
+                  "feedback of the tube: LQR of the weights, or the given lists")
           .numbers("longitudinal_gain", "", &P::longitudinal_gain, kAnyNumber,
                    "K of u = K x: throttle then elevator (rad), each of u, w "
                    "(m/s), q (rad/s), theta (rad), h (m)",
@@ -81,9 +81,8 @@ PartSpec trmpc_spec() {
   spec.name = kType;
   spec.description =
       "Tube-based robust model predictive control about the reference's steady flight "
-      "(Mammarella et al. 2022, eq. 8-20, corrected) for vehicles on wings: deviations and "
-      "controls "
-      "keep their limits in every gust up to a given strength.";
+      "(Mammarella et al. 2022, eq. 8-20, corrected) for fixed-wing vehicles: deviations and "
+      "controls keep their limits in every gust up to a given strength.";
   spec.parameters = trmpc_table().specs();
   describe_aircraft_mpc_signals(spec);
   return spec;

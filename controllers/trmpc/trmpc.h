@@ -1,5 +1,5 @@
 #pragma once
-/// Controller `trmpc`: tube-based robust model predictive control of vehicles on wings, paper A,
+/// Controller `trmpc`: tube-based robust model predictive control of fixed-wing vehicles, paper A,
 /// section 2.2, eq. 8-20 in a corrected form (docs/papers/trmpc.md).
 
 #include <memory>

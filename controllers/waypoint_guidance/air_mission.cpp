@@ -21,7 +21,7 @@ AirMission::AirMission(const WaypointGuidanceParams& params)
 void AirMission::take_plan(FlightLegs plan, const GuidanceState& start) {
   length_m_ = plan.length_m;
   legs_ = std::move(plan.legs);
-  legs_.reserve(legs_.size() + 1);  // for the way to the plan
+  legs_.reserve(legs_.size() + 1);  // for the path to the plan
   final_.resize(1);
   start_ = start;
 }
@@ -64,7 +64,7 @@ void AirMission::advance(double dt_s, const GuidanceState& state) {
       wanted = fly_legs(dt_s, state);
       break;
     case Stage::kLoiter:
-    case Stage::kAloft:
+    case Stage::kInAir:
       wanted = fly_loiter(dt_s, state);
       break;
     case Stage::kDescend:
@@ -83,8 +83,8 @@ void AirMission::advance(double dt_s, const GuidanceState& state) {
     return;
   }
   course_ = wanted.course;
-  const double most_mps = params_.airspeed_rate_mps2 * dt_s;
-  airspeed_mps_ += std::clamp(wanted_airspeed_mps_ - airspeed_mps_, -most_mps, most_mps);
+  const double max_mps = params_.airspeed_rate_mps2 * dt_s;
+  airspeed_mps_ += std::clamp(wanted_airspeed_mps_ - airspeed_mps_, -max_mps, max_mps);
   watch_wind(dt_s, state);
   const double heading_rad =
       course_.course_rad + calc_crab(course_.course_rad, state.wind, airspeed_mps_).angle_rad;
@@ -123,7 +123,7 @@ void AirMission::end_plan(const GuidanceState& state) {
   circle_ = {legs_.back().frame.to_W().head<2>(), params_.loiter_radius_m, params_.loiter_side};
   switch (params_.end) {
     case End::kStop:
-      stage_ = Stage::kAloft;
+      stage_ = Stage::kInAir;
       tell(false,
            fmt::format("ends its mission in the air at the last waypoint, after {:.0f} m, and "
                        "circles about it",
@@ -144,9 +144,10 @@ AirMission::Wanted AirMission::fly_loiter(double dt_s, const GuidanceState& stat
   wanted.height_m = legs_.back().frame.to_W().z();
   circling_s_ += dt_s;
   if (stage_ == Stage::kLoiter && circling_s_ >= params_.loiter_s) {
-    stage_ = Stage::kAloft;
-    tell(false, fmt::format("ends its mission in the air after {:.0f} s of circles, and circles on",
-                            circling_s_));
+    stage_ = Stage::kInAir;
+    tell(false,
+         fmt::format("ends its mission in the air after {:.0f} s of circles, and keeps circling",
+                     circling_s_));
   }
   return wanted;
 }
@@ -166,7 +167,7 @@ Phase AirMission::phase() const {
       return Phase::kLoiter;
     case Stage::kLand:
       return Phase::kLand;
-    case Stage::kAloft:
+    case Stage::kInAir:
     case Stage::kDone:
       break;
   }
@@ -182,9 +183,9 @@ double AirMission::cross_track_m(const GuidanceState& state) const {
       return final_.front().frame.left_m(state.position);
     case Stage::kClimb:
     case Stage::kLoiter:
-    case Stage::kAloft:
+    case Stage::kInAir:
     case Stage::kDescend:
-      // Inside the circle is left of a circle to the left.
+      // The inside of a circle to the left is to its left.
       return circle_.side * (circle_.radius_m - circle_.away_m(state.position));
     default:
       return 0.0;
@@ -220,16 +221,16 @@ void AirMission::watch_wind(double dt_s, const GuidanceState& state) {
   const bool is_possible =
       is_lying || calc_crab(course_.course_rad, state.wind, airspeed_mps_).is_possible;
   against_s_ = is_possible ? 0.0 : against_s_ + dt_s;
-  if (has_told_wind_ || against_s_ < kPatience_s) return;
-  has_told_wind_ = true;
+  if (has_reported_wind_ || against_s_ < kPatience_s) return;
+  has_reported_wind_ = true;
   tell(true, fmt::format("wind of {:.1f} m/s: no heading holds bearing {:.0f} deg at {:.1f} "
-                         "m/s through the air, points as far into it as helps",
+                         "m/s through the air, points as far into the wind as useful",
                          state.wind.norm(), bearing_deg(course_.course_rad), airspeed_mps_));
 }
 
 void AirMission::tell(bool is_bad, std::string text) {
   news_ = std::move(text);
-  is_bad_news_ = is_bad;
+  is_warning_ = is_bad;
 }
 
 }  // namespace vinerow::controllers

@@ -1,10 +1,11 @@
 #pragma once
-/// From the launcher to the ground: which way of flying is on, and what it wants.
+/// Mission of a fixed-wing vehicle from the launcher to the ground: a state machine of stages with
+/// the wanted course, height and airspeed of each.
 ///
 /// wait -> launch -> (circle up) -> legs -> (circle -> aloft | circle down -> land -> done). Aloft
-/// the mission is over and the vehicle circles on: others may still be at work. A vehicle that is
-/// in the air already begins on the plan's first leg, wherever it is beside it: what is between
-/// them is the controller's to remove.
+/// the mission is over and the vehicle continues to circle, because others may still be at work. A
+/// vehicle that starts in the air starts on the plan's first leg, at any distance from it; the
+/// controller removes the difference.
 
 #include <optional>
 #include <string>
@@ -26,17 +27,17 @@ class AirMission {
  public:
   explicit AirMission(const WaypointGuidanceParams& params);
 
-  /// Without it the ground is known at the start only. Before the first tick.
+  /// Without it only the height of the ground at the start is known. Before the first tick.
   void see_ground(GroundBelow ground) { ground_ = std::move(ground); }
 
   /// Before the first tick. Allocates. @param start  the first state known
   void take_plan(FlightLegs plan, const GuidanceState& start);
   bool has_plan() const { return !legs_.empty(); }
-  /// Fast through the air and over the ground.
+  /// Airspeed and ground speed are those of flight.
   bool is_flying(const GuidanceState& state) const;
-  /// Leaves the launcher, or the place in the air where it is.
+  /// Starts from the launcher, or from the place in the air.
   void begin(const GuidanceState& state);
-  /// One tick after begin(). Sentences about what happened are made only when something does.
+  /// One tick after begin(). Allocates sentences only if something has happened.
   void advance(double dt_s, const GuidanceState& state);
 
   const HeadingGenerator& heading() const { return generator_; }
@@ -49,12 +50,13 @@ class AirMission {
   int waypoint() const;
   double distance_m(const GuidanceState& state) const;
   double length_m() const { return length_m_; }
-  /// What happened in the last call, "" if nothing did; and whether it is bad.
+  /// Event of the last call, "" if none; and whether it is a warning.
   const std::string& news() const { return news_; }
-  bool is_bad_news() const { return is_bad_news_; }
-  /// Where it is to touch down, once it is on its way there.
+  bool is_warning() const { return is_warning_; }
+  /// Place of the touchdown, once the vehicle is on its way there.
   std::optional<Eigen::Vector2d> touchdown() const;
-  /// Why its task has failed, "landed 279.8 m from where it should"; "" where it has not.
+  /// Why its task has failed, "landed at (1.0, 2.0), 279.8 m from the planned touchdown, at most
+  /// 50 m (land_tolerance_m)"; "" if it has not.
   const std::string& failure() const { return failure_; }
 
  private:
@@ -65,12 +67,12 @@ class AirMission {
     kTransit,
     kLegs,
     kLoiter,
-    kAloft,
+    kInAir,
     kDescend,
     kLand,
     kDone
   };
-  /// What the ways of flying want at this tick.
+  /// Wanted course and height of this tick.
   struct Wanted {
     WantedCourse course;
     double height_m = 0.0;
@@ -92,14 +94,14 @@ class AirMission {
   void lay_transit(const GuidanceState& state);
   void end_plan(const GuidanceState& state);
   void lay_landing(const GuidanceState& state);
-  /// The landing on a course: how it lies over the ground.
+  /// Landing on a course, and its relation to the ground.
   struct Approach {
     double course_rad = 0.0;
-    double clearance_m = 1e9;  ///< least, of the circle above the ground
+    double clearance_m = 1e9;  ///< smallest, of the circle above the ground
     LandingPath path;
     FlightLeg leg;
     LoiterCircle circle;
-    /// What keeps it from being a good one, 0 where nothing does.
+    /// Penalty of the approach, 0 if it is good.
     double fault = 0.0;
   };
   Approach lay_approach(const Eigen::Vector2d& place, double course_rad) const;
@@ -109,33 +111,33 @@ class AirMission {
   void tell(bool is_bad, std::string text);
 
   WaypointGuidanceParams params_;
-  std::vector<FlightLeg> legs_;   // with a way to the plan in front, if there is one
+  std::vector<FlightLeg> legs_;   // preceded by a path to the plan, if there is one
   std::vector<FlightLeg> final_;  // one leg: the glide
   double length_m_ = 0.0;
   GuidanceState start_;
   GuidanceState launch_;
-  Eigen::Vector3d goal_W_ = Eigen::Vector3d::Zero();  // where the way to the plan ends
+  Eigen::Vector3d goal_W_ = Eigen::Vector3d::Zero();  // end of the path to the plan
   HeadingGenerator generator_;
   HeightReference height_;
   LegPilot pilot_;
   LoiterCircle circle_;
-  GroundBelow ground_;  // of the vehicle's map; empty: none is known
+  GroundBelow ground_;  // of the vehicle's map; empty: unknown
   LandingPath landing_;
-  double steepest_fall_ = 0.0;  // of the ground where it lands
+  double steepest_fall_ = 0.0;  // of the ground at the landing
   Stage stage_ = Stage::kWait;
   bool has_power_ = false;
   bool is_launched_ = false;          // the launch's height is reached
-  bool has_own_first_leg_ = false;    // in place of the plan's, whose first leg leads off the start
+  bool has_own_first_leg_ = false;    // replaces the plan's, whose first leg leads off the start
   double airspeed_mps_ = 0.0;         // of the reference
-  double wanted_airspeed_mps_ = 0.0;  // where it goes, by its rate
+  double wanted_airspeed_mps_ = 0.0;  // which airspeed_mps_ approaches at its rate
   double circling_s_ = 0.0;
-  double standing_s_ = 0.0;
+  double stationary_s_ = 0.0;
   double against_s_ = 0.0;
-  bool has_told_wind_ = false;
+  bool has_reported_wind_ = false;
   WantedCourse course_;
   std::string news_;
   std::string failure_;
-  bool is_bad_news_ = false;
+  bool is_warning_ = false;
 };
 
 }  // namespace vinerow::controllers

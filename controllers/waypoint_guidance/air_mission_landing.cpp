@@ -1,4 +1,4 @@
-// The landing of AirMission: circles down beside the approach, glides along it, flares, lies.
+// Landing of AirMission: circles down beside the approach, glide, flare, rest on the ground.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,11 +11,12 @@ namespace vinerow::controllers {
 
 namespace {
 
-/// Of the circle before the glide, above the ground: several times the 0.6 m that the flying wing
-/// strays from its height at most in the turbulence of the shipped missions.
+/// Smallest clearance of the circle before the glide above the ground: several times the 0.6 m by
+/// which the flying wing deviates from its height at most in the turbulence of the shipped
+/// missions.
 constexpr double kClear_m = 5.0;
 
-/// Of the known ground below a circle; far down where there is none.
+/// Highest known ground below a circle; far below if none is known.
 double find_highest_below(const GroundBelow& ground, const LoiterCircle& circle) {
   constexpr int kParts = 24;
   double highest_m = -1e9;
@@ -36,9 +37,9 @@ AirMission::Approach AirMission::lay_approach(const Eigen::Vector2d& place,
   approach.course_rad = course_rad;
   const auto below = ground_ ? ground_(place) : std::nullopt;
   const double ground_m =
-      params_.land_height_m.value_or(below.value_or(start_.height_m - params_.standing_m));
+      params_.land_height_m.value_or(below.value_or(start_.height_m - params_.rest_height_m));
   const LandingSlope slope(ground_m + params_.belly_m, params_.glide_rad, params_.flare_m);
-  // Never up again for the landing, unless it is lower than the flare.
+  // No climb for the landing, unless it is lower than the flare.
   const double above_m = std::clamp(height_.height_m() - slope.touchdown_m(),
                                     std::min(params_.approach_height_m, 4.0 * params_.flare_m),
                                     params_.approach_height_m);
@@ -48,7 +49,7 @@ AirMission::Approach AirMission::lay_approach(const Eigen::Vector2d& place,
   double from_m = slope.touchdown_m() + above_m;
   approach.path = LandingPath(slope);
   if (below) {
-    // The height told counts, and the map's shape about it.
+    // The given height counts, and the map's shape relative to it.
     const double lift_m = ground_m - *below + params_.belly_m;
     approach.path = LandingPath(slope, {place, along, length_m}, ground_, lift_m);
     from_m = std::max(from_m, approach.path.highest_m());
@@ -56,10 +57,10 @@ AirMission::Approach AirMission::lay_approach(const Eigen::Vector2d& place,
   approach.circle =
       LoiterCircle::tangent(entry, course_rad, params_.loiter_radius_m, params_.loiter_side);
   if (below) {
-    // As high above the ground as it can lose again on the glide.
+    // The height above the ground that it can lose again on the glide.
     const double ground_below_m = find_highest_below(ground_, approach.circle) + ground_m - *below;
-    const double most_m = from_m + 0.5 * length_m * std::tan(params_.glide_rad);
-    from_m = std::clamp(ground_below_m + kClear_m, from_m, most_m);
+    const double max_m = from_m + 0.5 * length_m * std::tan(params_.glide_rad);
+    from_m = std::clamp(ground_below_m + kClear_m, from_m, max_m);
     approach.clearance_m = from_m - ground_below_m;
   }
   approach.leg = final_.front();
@@ -67,7 +68,7 @@ AirMission::Approach AirMission::lay_approach(const Eigen::Vector2d& place,
       LegFrame({entry.x(), entry.y(), from_m}, {place.x(), place.y(), slope.touchdown_m()});
   approach.leg.airspeed_mps = params_.approach_mps;
   if (!below) return approach;
-  // Down a slope it floats on and slides for long; up a steep one it cannot flare.
+  // Down a slope it floats and slides for long; up a steep slope it cannot flare.
   constexpr double kFall = 0.03, kRise = 0.10, kRounding_m = 1e-6;
   const double rise = approach.path.rise();
   approach.fault = std::max({0.0, -kFall - rise, rise - kRise}) +
@@ -75,11 +76,11 @@ AirMission::Approach AirMission::lay_approach(const Eigen::Vector2d& place,
   return approach;
 }
 
-/// Against the wind, or as it started; where the ground forbids that the nearest course to it that
-/// the ground allows, and with wind none that has it from behind.
+/// Against the wind, or on the course of the start. If the ground forbids that, the nearest course
+/// that the ground allows, and with wind none with a tail wind.
 AirMission::Approach AirMission::choose_approach(const GuidanceState& state,
                                                  const Eigen::Vector2d& place) const {
-  // With less wind than this its direction says little.
+  // Below this wind its direction is not reliable.
   constexpr double kWind_mps = 1.0;
   if (params_.land_course_rad) return lay_approach(place, *params_.land_course_rad);
   const bool has_wind = state.wind.norm() > kWind_mps;
@@ -110,22 +111,22 @@ void AirMission::lay_landing(const GuidanceState& state) {
       "lands at ({:.1f}, {:.1f}) on bearing {:.0f} deg: circles down to {:.0f} m above it",
       place.x(), place.y(), bearing_deg(approach.course_rad),
       frame.from_W().z() - frame.to_W().z());
-  // Without a map's ground it knows that at its start only.
+  // Without a map only the height of the ground at the start is known.
   constexpr double kSameGround_m = 20.0;
   const double away_m = (place - start_.position).norm();
   const bool is_guess =
       !landing_.knows_ground() && !params_.land_height_m && away_m > kSameGround_m;
   if (is_guess) {
     news += fmt::format(
-        "; takes the ground there to be at z = {:.1f} m as at the start, {:.0f} m away: "
-        "land_height_m tells it",
+        "; assumes the ground there to be at z = {:.1f} m as at the start, {:.0f} m away: "
+        "land_height_m sets it",
         frame.to_W().z() - params_.belly_m, away_m);
   }
   const bool is_low = approach.clearance_m < kClear_m - 1e-6;
   if (is_low) {
     news += fmt::format(
-        "; comes as near to the ground as {:.1f} m on its circles: "
-        "approach_height_m, land_bearing_deg and loiter_side choose others",
+        "; its circles come within {:.1f} m of the ground: change approach_height_m, "
+        "land_bearing_deg or loiter_side",
         approach.clearance_m);
   }
   tell(is_guess || is_low, std::move(news));
@@ -134,7 +135,7 @@ void AirMission::lay_landing(const GuidanceState& state) {
 AirMission::Wanted AirMission::fly_descend(const GuidanceState& state) {
   Wanted wanted = hold();
   wanted.course = circle_.course(state, params_.pilot.cross_track_length_m, course_.course_rad);
-  // On the way there what is below is not known.
+  // On the way there the ground below is unknown.
   if (circle_.away_m(state.position) < 2.0 * circle_.radius_m) {
     wanted.height_m = final_.front().frame.from_W().z();
   }
@@ -148,7 +149,7 @@ AirMission::Wanted AirMission::fly_descend(const GuidanceState& state) {
   return wanted;
 }
 
-/// At the height where the glide begins, and leaving the circle now leads onto its line.
+/// At the height at which the glide starts, and on a circle whose tangent leads onto its line.
 bool AirMission::is_on_final(const GuidanceState& state) const {
   constexpr double kClose_m = 1.0, kQuarter_rad = 0.5 * kPi;
   const LegFrame& frame = final_.front().frame;
@@ -180,35 +181,35 @@ AirMission::Wanted AirMission::fly_land(double dt_s, const GuidanceState& state)
   wanted.rate_mps = height.slope * speed_mps;
   wanted.descent_max_rad = 2.0 * params_.glide_rad + std::atan(steepest_fall_);
   if (!has_power_) {
-    // It slows down, and may stop in the wind: from here on down to the ground below with the time,
-    // not the way.
-    const double least_m = lying.height_m - kBelow_m;
+    // It slows down, and may stop in the wind: from here on the reference descends to the ground
+    // below with time, not with distance.
+    const double min_m = lying.height_m - kBelow_m;
     const double along_ground_mps = lying.slope * speed_mps;
-    wanted.height_m = std::max(height_.height_m(), least_m);
-    wanted.rate_mps = along_ground_mps - (wanted.height_m > least_m ? kSink_mps : 0.0);
+    wanted.height_m = std::max(height_.height_m(), min_m);
+    wanted.rate_mps = along_ground_mps - (wanted.height_m > min_m ? kSink_mps : 0.0);
   }
-  // So slow only what lies on the ground is, wherever that is.
+  // Only a vehicle on the ground is this slow, wherever that is.
   const bool is_stalled = state.airspeed_mps() < 0.5 * params_.stall_mps;
   const double above_m = state.height_m - lying.height_m;
-  // Past the place with power it would float on in the flare, half a metre too high, for a long
-  // way.
+  // Past the place a powered vehicle would float on in the flare for a long distance, half a metre
+  // too high.
   const bool is_past = frame.along_m(state.position) > frame.length_m();
   if (above_m < params_.power_off_m || is_past || is_stalled) has_power_ = false;
-  constexpr double kStanding_mps = 0.5, kStanding_s = 1.0;
+  constexpr double kStationary_mps = 0.5, kStationary_s = 1.0;
   const bool stands =
-      std::hypot(state.velocity.norm(), state.climb_mps) < kStanding_mps && !has_power_;
-  standing_s_ = stands ? standing_s_ + dt_s : 0.0;
-  if (standing_s_ >= kStanding_s) {
+      std::hypot(state.velocity.norm(), state.climb_mps) < kStationary_mps && !has_power_;
+  stationary_s_ = stands ? stationary_s_ + dt_s : 0.0;
+  if (stationary_s_ >= kStationary_s) {
     stage_ = Stage::kDone;
     const Eigen::Vector2d goal = frame.to_W().head<2>();
-    tell(false, fmt::format("landed at ({:.1f}, {:.1f}), {:.1f} m from where it should and {:.2f} "
-                            "m above it",
+    tell(false, fmt::format("landed at ({:.1f}, {:.1f}), {:.1f} m from the planned touchdown and "
+                            "{:.2f} m above it",
                             state.position.x(), state.position.y(), (state.position - goal).norm(),
                             above_m));
     const double off_m = (state.position - goal).norm();
     if (off_m > params_.land_tolerance_m) {
       failure_ = fmt::format(
-          "landed at ({:.1f}, {:.1f}), {:.1f} m from where it should, at most {:g} m "
+          "landed at ({:.1f}, {:.1f}), {:.1f} m from the planned touchdown, at most {:g} m "
           "(land_tolerance_m)",
           state.position.x(), state.position.y(), off_m, params_.land_tolerance_m);
     }

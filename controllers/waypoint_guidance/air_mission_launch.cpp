@@ -1,4 +1,4 @@
-// The way to the plan: off the launcher, up in circles where it is short, to the first waypoint.
+// Path to the plan: off the launcher, up in circles if it is short, to the first waypoint.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,8 +38,8 @@ void AirMission::join(const GuidanceState& state) {
   const double course_rad = unwrap_near(frame.course_rad(), state.yaw_rad);
   course_ = {course_rad, 0.0};
   airspeed_mps_ = wanted_airspeed_mps_ = legs_.front().airspeed_mps;
-  // On the plan from the first moment: what the vehicle is off is a deviation, as long as it is
-  // small enough to be one; else the reference begins at the vehicle.
+  // The reference starts on the plan if the vehicle's distance from it is small enough to count as
+  // a deviation; else it starts at the vehicle.
   constexpr double kDeviation_rad = 45.0 * kPi / 180.0, kDeviation_m = 20.0;
   const double heading_rad =
       course_rad + calc_crab(course_rad, state.wind, airspeed_mps_).angle_rad;
@@ -57,8 +57,8 @@ AirMission::Wanted AirMission::fly_launch(const GuidanceState& state) {
   Wanted wanted = hold();
   is_launched_ = is_launched_ || state.height_m - launch_.height_m >= params_.launch_height_m;
   if (is_launched_) {
-    // Straight ahead until the way to the plan can be flown: circles that it would not leave, or
-    // that have the waypoint inside, are not begun.
+    // Straight ahead until the path to the plan can be flown: circles that it would not leave, or
+    // that enclose the waypoint, are not started.
     const Eigen::Vector2d way = goal_W_.head<2>() - state.position;
     const double course_rad = state.course_rad();
     const bool climbs = is_too_steep(state, 1.0);
@@ -72,7 +72,7 @@ AirMission::Wanted AirMission::fly_launch(const GuidanceState& state) {
       if (climbs) {
         circle_ = circle;
         stage_ = Stage::kClimb;
-        tell(false, fmt::format("circles to climb from {:.0f} m to where the way to the first "
+        tell(false, fmt::format("circles to climb from {:.0f} m until the path to the first "
                                 "waypoint at {:.0f} m can be flown",
                                 state.height_m, goal_W_.z()));
       } else {
@@ -117,13 +117,13 @@ void AirMission::start_transit(const GuidanceState& state) {
     FlightLeg way;
     way.waypoint = 0;
     way.airspeed_mps = params_.legs.airspeed_mps;
-    legs_.insert(legs_.begin(), way);  // into what take_plan() reserved
+    legs_.insert(legs_.begin(), way);  // within the capacity reserved by take_plan()
   }
   lay_transit(state);
   pilot_.start(legs_, 0, state, course_.course_rad, true);
 }
 
-/// While it turns, the way to the plan begins where the vehicle is.
+/// During the turn the path to the plan starts at the vehicle.
 void AirMission::lay_transit(const GuidanceState& state) {
   const Eigen::Vector3d here_W(state.position.x(), state.position.y(), height_.height_m());
   if ((goal_W_ - here_W).head<2>().norm() < 1.0) return;

@@ -1,5 +1,5 @@
 #pragma once
-/// What the laws of the waypoint guidance know of vehicle and air at one tick.
+/// State of vehicle and air at one tick, for the laws of the waypoint guidance.
 
 #include <Eigen/Core>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace vinerow::controllers {
 
-/// In W; plan view where it is two numbers.
+/// In W; two-dimensional vectors are in plan view.
 struct GuidanceState {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();
   double height_m = 0.0;
@@ -22,19 +22,19 @@ struct GuidanceState {
   double airspeed_mps() const { return std::hypot((velocity - wind).norm(), climb_mps); }
 };
 
-/// A direction as events tell it: whole degrees from north, clockwise, 0 to 359.
+/// A direction as in events: whole degrees from north, clockwise, 0 to 359.
 inline double bearing_deg(double yaw_rad) {
   const double rounded = std::round(90.0 - deg_from_rad(wrap_angle(yaw_rad)));
   return rounded < 0.0 ? rounded + 360.0 : rounded;
 }
 
-/// What a law wants: course over ground, not wrapped, and how fast it changes.
+/// Wanted course over ground, not wrapped, and its rate.
 struct WantedCourse {
   double course_rad = 0.0;
   double rate_radps = 0.0;
 };
 
-/// The angle of this direction that is nearest to another one.
+/// The equivalent angle that is nearest to another angle.
 inline double unwrap_near(double angle_rad, double near_rad) {
   return near_rad + wrap_angle(angle_rad - near_rad);
 }

@@ -24,7 +24,7 @@ double calc_turn_m(const FlightLeg& before, const FlightLeg& after, double radiu
   return radius_m * std::tan(0.5 * std::min(corner_rad, kReversal_rad));
 }
 
-/// The leg that is shortest of what its two turns need.
+/// Warns of the leg that lacks most of the length of its two turns.
 void warn_of_turns(const FlightLegsOptions& options, FlightLegs& result) {
   const auto& legs = result.legs;
   int count = 0;
@@ -40,7 +40,7 @@ void warn_of_turns(const FlightLegsOptions& options, FlightLegs& result) {
     if (need_m - length_m <= worst_m) continue;
     worst_m = need_m - length_m;
     text = fmt::format(
-        "waypoint {} is {:.1f} m after the one before it and the turns there take {:.1f} m "
+        "waypoint {} is {:.1f} m after its predecessor and the turns there take {:.1f} m "
         "(radius {:.1f} m at {:.1f} m/s and {:.0f} deg of bank)",
         legs[i].waypoint, length_m, need_m, radius_m, legs[i].airspeed_mps,
         deg_from_rad(options.turn.bank_rad));
@@ -64,7 +64,7 @@ void warn_of_slopes(const FlightLegsOptions& options, FlightLegs& result) {
   if (worst == nullptr) return;
   const bool climbs = worst->frame.slope() > 0.0;
   result.warnings.push_back(fmt::format(
-      "the way to waypoint {} {} {:.1f} deg and the guidance {} {:.1f} deg: the height lags there",
+      "the path to waypoint {} {} {:.1f} deg and the guidance {} {:.1f} deg: the height lags there",
       worst->waypoint, climbs ? "climbs" : "descends",
       deg_from_rad(std::atan(std::abs(worst->frame.slope()))),
       climbs ? "climbs at most" : "descends at most",
@@ -111,8 +111,8 @@ Result<FlightLegs> make_flight_legs(const PlannedPath& plan, const FlightLegsOpt
     leg.start_m = waypoints[i].distance_m;
     leg.plan_length_m = leg.frame.length_m();
     const double wanted_mps = waypoints[i].speed_mps;
-    leg.airspeed_mps = wanted_mps > 0.0 ? std::clamp(wanted_mps, options.least_airspeed_mps,
-                                                     options.most_airspeed_mps)
+    leg.airspeed_mps = wanted_mps > 0.0 ? std::clamp(wanted_mps, options.min_airspeed_mps,
+                                                     options.max_airspeed_mps)
                                         : options.airspeed_mps;
     if (wanted_mps > 0.0 && leg.airspeed_mps != wanted_mps) clipped_mps = wanted_mps;
     result.legs.push_back(leg);
@@ -121,7 +121,7 @@ Result<FlightLegs> make_flight_legs(const PlannedPath& plan, const FlightLegsOpt
     result.warnings.push_back(
         fmt::format("the plan wants {:.1f} m/s, which is not in the range {:.1f} to {:.1f} m/s "
                     "that can be flown with the turns' bank: flies the nearest",
-                    clipped_mps, options.least_airspeed_mps, options.most_airspeed_mps));
+                    clipped_mps, options.min_airspeed_mps, options.max_airspeed_mps));
   }
   warn_of_turns(options, result);
   warn_of_slopes(options, result);

@@ -18,7 +18,7 @@ double TurnLimits::rate_radps(double airspeed_mps) const {
 
 void HeadingGenerator::start(double heading_rad, double bank_left_rad) {
   heading_rad_ = heading_rad;
-  bank_rad_ = told_rad_ = std::clamp(bank_left_rad, -limits_.bank_rad, limits_.bank_rad);
+  bank_rad_ = rate_limited_rad_ = std::clamp(bank_left_rad, -limits_.bank_rad, limits_.bank_rad);
   rate_radps_ = 0.0;
 }
 
@@ -27,12 +27,12 @@ void HeadingGenerator::advance(double dt_s, double wanted_rad, double wanted_rat
   const double turn_radps = limits_.gain_per_s * (wanted_rad - heading_rad_) + wanted_rate_radps;
   const double bank_rad = std::clamp(std::atan(airspeed_mps * turn_radps / limits_.gravity_mps2),
                                      -limits_.bank_rad, limits_.bank_rad);
-  const double most_rad = limits_.bank_rate_radps * dt_s;
-  told_rad_ += std::clamp(bank_rad - told_rad_, -most_rad, most_rad);
-  bank_rad_ += (told_rad_ - bank_rad_) * (1.0 - std::exp(-dt_s / limits_.bank_lag_s));
+  const double max_rad = limits_.bank_rate_radps * dt_s;
+  rate_limited_rad_ += std::clamp(bank_rad - rate_limited_rad_, -max_rad, max_rad);
+  bank_rad_ += (rate_limited_rad_ - bank_rad_) * (1.0 - std::exp(-dt_s / limits_.bank_lag_s));
   const double before_radps = rate_radps_;
   const double steady_radps = limits_.gravity_mps2 * std::tan(bank_rad_) / airspeed_mps;
-  // Without a lag the exponential is that of minus infinity, zero.
+  // Without a lag the exponent is minus infinity and the exponential zero.
   rate_radps_ += (steady_radps - rate_radps_) * (1.0 - std::exp(-dt_s / limits_.yaw_lag_s));
   heading_rad_ += 0.5 * dt_s * (before_radps + rate_radps_);
 }
@@ -43,7 +43,7 @@ PredictedTurn predict_turn(HeadingGenerator generator, const Eigen::Vector2d& po
   constexpr double kStep_s = 0.05;
   constexpr double kStraight_rad = 0.5 * kPi / 180.0;
   PredictedTurn turn{position, position};
-  // Twice around at full bank and the time to come to rest: a bound, not a time it ever takes.
+  // Two full turns at full bank and the time to come to rest: an upper bound.
   const double longest_s = 4.0 * kPi / generator.limits().rate_radps(airspeed_mps) + 20.0;
   const int steps = static_cast<int>(longest_s / kStep_s);
   for (int i = 0; i < steps; ++i) {

@@ -1,12 +1,12 @@
 #pragma once
-/// The heading that a vehicle on wings can follow: a coordinated turn whose bank is limited, takes
-/// time to come and has a lag.
+/// Generator of a heading that a fixed-wing vehicle can follow: a coordinated turn with limits on
+/// bank and bank rate, and lags.
 ///
 /// Source: reference of paper A, section 2: phi_c = sat(atan(V k dpsi / g), phi_max), rate limit,
 /// lag, psi' = g tan(phi) / V, here with a lag of the turn behind the bank as well: a vehicle that
 /// rolls slips first, and its nose follows when its fins turn it into the wind. Angles here are
-/// positive to the left, the bank too (left wing down). Everything is odd in the sign of the turn,
-/// so that mirrored flights are mirrored to the bit.
+/// positive to the left, the bank too (left wing down). All functions are odd in the sign of the
+/// turn, so that mirrored flights are mirrored to the bit.
 
 #include <Eigen/Core>
 
@@ -19,7 +19,7 @@ struct TurnLimits {
   double bank_rad = 0.0;    ///< phi_max, > 0
   double bank_rate_radps = rad_from_deg(60.0);
   double bank_lag_s = 0.3;
-  double yaw_lag_s = 0.3;  ///< 0: none
+  double yaw_lag_s = 0.3;  ///< 0: no lag
   double gravity_mps2 = 9.80665;
 
   /// Of the turn at full bank.
@@ -33,8 +33,8 @@ class HeadingGenerator {
   explicit HeadingGenerator(const TurnLimits& limits) : limits_(limits) {}
 
   void start(double heading_rad, double bank_left_rad = 0.0);
-  /// @param wanted_rad  heading, not wrapped: turns as far as it is away
-  /// @param wanted_rate_radps  of the wanted heading: flown ahead of any error
+  /// @param wanted_rad  heading, not wrapped: the turn has the full difference
+  /// @param wanted_rate_radps  of the wanted heading, fed forward
   void advance(double dt_s, double wanted_rad, double wanted_rate_radps, double airspeed_mps);
 
   double heading_rad() const { return heading_rad_; }  ///< continuous
@@ -46,16 +46,16 @@ class HeadingGenerator {
   TurnLimits limits_;
   double heading_rad_ = 0.0;
   double rate_radps_ = 0.0;
-  double told_rad_ = 0.0;  // bank after the rate limit, before the lag
+  double rate_limited_rad_ = 0.0;  // bank after the rate limit, before the lag
   double bank_rad_ = 0.0;
 };
 
 struct PredictedTurn {
-  Eigen::Vector2d near_end = Eigen::Vector2d::Zero();  ///< where end_rad is left to turn
+  Eigen::Vector2d near_end = Eigen::Vector2d::Zero();  ///< where end_rad remains to turn
   Eigen::Vector2d at_rest = Eigen::Vector2d::Zero();   ///< where it flies straight again
 };
 
-/// Flies a turn ahead in mean wind, in plan view. No heap, at most some hundred short steps.
+/// Simulates a turn in mean wind, in plan view. No heap, at most some hundred short steps.
 PredictedTurn predict_turn(HeadingGenerator generator, const Eigen::Vector2d& position,
                            double wanted_rad, double end_rad, const Eigen::Vector2d& wind,
                            double airspeed_mps);

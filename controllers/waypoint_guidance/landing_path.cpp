@@ -8,7 +8,7 @@
 namespace vinerow::controllers {
 namespace {
 
-/// Half the width of the means: shorter waves than twice this no aircraft follows.
+/// Half the width of the means: no aircraft follows waves shorter than twice this.
 constexpr int kHalf = 3;
 
 /// Means over 2 kHalf + 1 samples, fewer at the ends.
@@ -31,7 +31,7 @@ LandingPath::LandingPath(const LandingSlope& slope, const LandingLine& line,
     : slope_(slope), length_m_(line.length_m) {
   const auto count = static_cast<std::size_t>((length_m_ + kBeyond_m) / kStep_m) + 2;
   const auto to_go_m = [&](std::size_t i) { return length_m_ - kStep_m * static_cast<double>(i); };
-  // Gaps, and what lies beyond the map, are as high as what is nearest to the touchdown.
+  // Gaps and places beyond the map take the height of the known place nearest to the touchdown.
   std::vector<double> heights_m(count);
   const auto at_place = std::min(static_cast<std::size_t>(length_m_ / kStep_m), count - 1);
   double last_m = 0.0;
@@ -59,7 +59,7 @@ LandingPath::LandingPath(const LandingSlope& slope, const LandingLine& line,
       path_[i] = ground_[i] + above_m;
       continue;
     }
-    // Before the flare no lower than it, and soon by more.
+    // Before the flare not below it, and clear of it by more with distance.
     constexpr double kClear_m = 2.0, kClearer = 0.05;
     const double clear_m = flare_m + std::min(kClear_m, kClearer * (left_m - flare_length_m));
     path_[i] = std::max(foot_m + above_m, ground_[i] + clear_m);
@@ -83,7 +83,7 @@ double LandingPath::highest_m() const {
 }
 
 double LandingPath::rise() const {
-  // It slides about as far as it flares.
+  // The slide is about as long as the flare.
   const double reach_m = slope_.length_m(slope_.flare_m());
   return (lying(-reach_m).height_m - lying(reach_m).height_m) / (2.0 * reach_m);
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// The way down to the ground: a glide at a constant angle over ground, and a flare whose sink rate
-/// fades away exponentially with the distance flown.
+/// Landing slope: a glide at a constant angle over ground, and a flare whose sink rate decays
+/// exponentially with the distance flown.
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,8 @@ namespace vinerow::controllers {
 class LandingSlope {
  public:
   LandingSlope() = default;
-  /// @param glide_rad  > 0  @param flare_m  height above the touchdown where the flare begins, > 0
+  /// @param glide_rad  > 0  @param flare_m  height above the touchdown at which the flare starts, >
+  /// 0
   LandingSlope(double touchdown_m, double glide_rad, double flare_m)
       : touchdown_m_(touchdown_m),
         slope_(std::tan(glide_rad)),
@@ -22,11 +23,11 @@ class LandingSlope {
 
   double touchdown_m() const { return touchdown_m_; }  ///< z of W of B's origin
   double flare_m() const { return flare_m_; }
-  /// Distance before the touchdown at which the slope is so far above it.
+  /// Distance before the touchdown at which the slope is `above_m` above it.
   double length_m(double above_m) const {
     return flare_length_m_ + std::max(0.0, above_m - flare_m_) / slope_;
   }
-  /// @param to_go_m  to the touchdown; negative: beyond it, where the reference goes on a little
+  /// @param to_go_m  to the touchdown; negative: beyond it, where the reference continues slightly
   /// below the ground so that the vehicle does not float
   HeightPoint at(double to_go_m) const {
     const double flown_m = flare_length_m_ - to_go_m;
@@ -36,8 +37,8 @@ class LandingSlope {
   }
 
  private:
-  /// Where the flare ends, below the ground, in flare heights: it touches down with kBelow / (1 +
-  /// kBelow) of the glide's sink rate.
+  /// Depth of the end of the flare below the ground, in flare heights: the vehicle touches down
+  /// with kBelow / (1 + kBelow) of the glide's sink rate.
   static constexpr double kBelow = 0.15;
   double touchdown_m_ = 0.0;
   double slope_ = 0.0875;

@@ -52,7 +52,7 @@ WantedCourse LegPilot::advance(const std::vector<FlightLeg>& legs, const Guidanc
     ramp_speed_mps_ = leg.frame.along().dot(state.velocity);
     has_ended_ = leg_ + 1 == legs.size() && ramp_along_m_ >= leg.frame.length_m();
   }
-  return is_turning_ ? WantedCourse{course_rad_, 0.0} : ask_law(leg.frame, state);
+  return is_turning_ ? WantedCourse{course_rad_, 0.0} : query_law(leg.frame, state);
 }
 
 bool LegPilot::is_time_to_turn(const std::vector<FlightLeg>& legs, const GuidanceState& state,
@@ -71,7 +71,7 @@ bool LegPilot::is_time_to_turn(const std::vector<FlightLeg>& legs, const Guidanc
   if (!options_.is_predicted) {
     return left_m <= calc_fly_by_m(limits, corner_rad, state.velocity.norm(), airspeed_mps);
   }
-  // Far from the corner nothing has to be flown ahead: no turn takes more than this.
+  // Far from the corner no turn has to be simulated: none takes more than this to settle.
   constexpr double kSettle_s = 5.0;
   const double longest_s = std::abs(corner_rad) / limits.rate_radps(airspeed_mps) + kSettle_s;
   if (left_m > (airspeed_mps + state.wind.norm()) * longest_s) return false;
@@ -93,8 +93,8 @@ void LegPilot::take_next(const std::vector<FlightLeg>& legs, const GuidanceState
   double wanted_rad = calc_heading_rad(course_rad_, state, leg.airspeed_mps);
   PredictedTurn turn = predict_turn(generator, state.position, wanted_rad, options_.turn_end_rad,
                                     state.wind, leg.airspeed_mps);
-  // Turns go from leg to leg. Where that is more than half a circle, since legs were too short to
-  // be flown, the other way round may be the better one.
+  // Turns go from leg to leg. If the remainder is more than half a circle, because legs were too
+  // short, the other direction may be better.
   const double round_rad = std::copysign(2.0 * kPi, generator.heading_rad() - wanted_rad);
   if (std::abs(wanted_rad - generator.heading_rad()) > kPi) {
     const PredictedTurn other = predict_turn(generator, state.position, wanted_rad + round_rad,
@@ -122,16 +122,15 @@ void LegPilot::watch_turn(const FlightLeg& leg, const GuidanceState& state,
                           const HeadingGenerator& generator, double dt_s) {
   const double wanted_rad = calc_heading_rad(course_rad_, state, leg.airspeed_mps);
   const double left_rad = std::abs(wanted_rad - generator.heading_rad());
-  const double way_rad = turn_angle_rad_ - options_.turn_end_rad;
-  if (way_rad > 0.0) {
-    const double share = std::clamp((turn_angle_rad_ - left_rad) / way_rad, 0.0, 1.0);
+  const double angle_travelled_rad = turn_angle_rad_ - options_.turn_end_rad;
+  if (angle_travelled_rad > 0.0) {
+    const double share = std::clamp((turn_angle_rad_ - left_rad) / angle_travelled_rad, 0.0, 1.0);
     ramp_along_m_ = turn_from_m_ + share * (turn_to_m_ - turn_from_m_);
-    ramp_speed_mps_ = share < 1.0
-                          ? (turn_to_m_ - turn_from_m_) / way_rad * std::abs(generator.rate_radps())
-                          : 0.0;
+    ramp_speed_mps_ = share < 1.0 ? (turn_to_m_ - turn_from_m_) / angle_travelled_rad *
+                                        std::abs(generator.rate_radps())
+                                  : 0.0;
   }
-  // Where wind that nobody told of keeps the vehicle off its course the reference's own turn
-  // counts.
+  // If an unknown wind keeps the vehicle off its course, the reference's own turn counts.
   constexpr double kPatience_s = 2.0;
   turned_s_ = left_rad < 0.5 * options_.turn_end_rad ? turned_s_ + dt_s : 0.0;
   const bool is_on_course =
@@ -139,7 +138,7 @@ void LegPilot::watch_turn(const FlightLeg& leg, const GuidanceState& state,
   if (is_on_course || turned_s_ > kPatience_s) is_turning_ = false;
 }
 
-WantedCourse LegPilot::ask_law(const LegFrame& frame, const GuidanceState& state) const {
+WantedCourse LegPilot::query_law(const LegFrame& frame, const GuidanceState& state) const {
   const double left_m = frame.left_m(state.position);
   if (options_.is_smooth) {
     const double share = left_m / options_.cross_track_length_m;

@@ -49,7 +49,7 @@ class WaypointGuidance final : public Guidance, public MayFail, public SeesGroun
     const double dt_s = has_stepped_ ? (now - last_).s() : period_s_;
     has_stepped_ = true;
     last_ = now;
-    // An estimate that is no number is as good as none: the reference holds what it had.
+    // An estimate that is not finite is ignored: the reference stays as it is.
     if (estimate_.has_value() && is_finite(estimate_.value())) {
       take_state(dt_s);
       if (!mission_.has_plan()) take_plan(now);
@@ -106,23 +106,23 @@ class WaypointGuidance final : public Guidance, public MayFail, public SeesGroun
     } else if (!waits) {
       mission_.begin(state_);
     }
-    tell_news(now);
-    tell_landing(now);
+    report_events(now);
+    write_landing(now);
   }
 
-  void tell_landing(Time now) {
+  void write_landing(Time now) {
     const auto place = mission_.touchdown();
-    if (has_told_landing_ || !place) return;
-    has_told_landing_ = true;
+    if (has_written_landing_ || !place) return;
+    has_written_landing_ = true;
     landing_.values = {place->x(), place->y()};
     landing_out_.write(now, landing_);
   }
 
-  /// One sentence a tick: a signal holds the last event written.
-  void tell_news(Time now) {
+  /// At most one event per tick: a signal holds the last event written.
+  void report_events(Time now) {
     const std::string& news = mission_.news();
     if (news.empty() && warnings_.empty()) return;
-    const bool is_bad = !warnings_.empty() || mission_.is_bad_news();
+    const bool is_bad = !warnings_.empty() || mission_.is_warning();
     tell(now, is_bad ? Event::Level::kWarning : Event::Level::kInfo,
          news + (news.empty() || warnings_.empty() ? "" : "; ") + warnings_);
     warnings_.clear();
@@ -167,7 +167,7 @@ class WaypointGuidance final : public Guidance, public MayFail, public SeesGroun
   AirMission mission_;
   GuidanceState state_;
   AirReference reference_;
-  std::string warnings_;  // of the plan, not told yet
+  std::string warnings_;  // of the plan, not yet reported
   bool has_stepped_ = false;
   Time last_;
   std::uint64_t seen_plan_ = 0;
@@ -176,9 +176,9 @@ class WaypointGuidance final : public Guidance, public MayFail, public SeesGroun
   SignalReader<AirData> air_;
   SignalWriter<AirReference> out_;
   SignalWriter<Event> news_;
-  SignalWriter<NamedValues> landing_out_;  ///< where it is to touch down, once
+  SignalWriter<NamedValues> landing_out_;  ///< planned touchdown, once
   NamedValues landing_;
-  bool has_told_landing_ = false;
+  bool has_written_landing_ = false;
 };
 
 }  // namespace
@@ -187,7 +187,7 @@ PartSpec waypoint_guidance_spec() {
   PartSpec spec;
   spec.name = "waypoint_guidance";
   spec.description =
-      "What a vehicle on wings is to hold, from the launcher along the plan's waypoints to the "
+      "Reference of a fixed-wing vehicle, from the launcher along the plan's waypoints to the "
       "ground: heading by cross track and turn, height by ramps, in wind (paper A, eq. 1-7).";
   spec.parameters = waypoint_guidance_parameters();
   spec.default_rate_Hz = 20.0;

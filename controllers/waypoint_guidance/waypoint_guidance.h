@@ -1,7 +1,7 @@
 #pragma once
-/// Guidance `waypoint_guidance`: a plan of waypoints becomes what a vehicle on wings is to hold now
-/// (paper A, eq. 1-7, in the form of the reference of paper A, section 2), from the launcher to the
-/// ground.
+/// Guidance `waypoint_guidance`: converts a plan of waypoints to the reference of a fixed-wing
+/// vehicle (paper A, eq. 1-7, in the form of the reference of paper A, section 2), from the
+/// launcher to the ground.
 
 #include <memory>
 

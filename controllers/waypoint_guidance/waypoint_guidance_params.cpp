@@ -15,7 +15,7 @@
 namespace vinerow::controllers {
 namespace {
 
-/// As files have them: what is absent beside the parameters follows from the vehicle.
+/// Parameters as in files; absent optional ones are derived from the vehicle.
 struct GivenParams {
   WaypointGuidanceParams params;
   std::optional<double> airspeed_mps;
@@ -39,7 +39,7 @@ std::string find_fault_in_landing(const GivenParams& given) {
       {"approach_speed_mps", given.approach_mps.has_value()}};
   for (const auto& [name, is_given] : words) {
     if (p.end == MissionEnd::kLand || !is_given) continue;
-    return fmt::format("{} says how to land, but end is '{}'", name, name_of(kEnds, p.end));
+    return fmt::format("{} describes a landing, but end is '{}'", name, name_of(kEnds, p.end));
   }
   if (given.land_bearing_rad && p.land_course_rad) {
     return "land_bearing_deg and land_course_deg, its old form, are both given: leave out the "
@@ -63,64 +63,64 @@ const ParameterTable<GivenParams>& given_table() {
       ParameterTable<G>()
           .choice("law", pilot(&LegPilotOptions::is_smooth), {{"smooth", true}, {"paper", false}},
                   "on a leg: smooth: course chi - atan(e / cross_track_length_m); paper: "
-                  "bearing to the next waypoint where |e| is beyond the tolerance (eq. 1-5)")
+                  "bearing to the next waypoint if |e| is beyond the tolerance (eq. 1-5)")
           .choice("turn_start", pilot(&LegPilotOptions::is_predicted),
                   {{"predicted", true}, {"formula", false}},
-                  "when a turn begins: where flying it ahead in the mean wind leads onto the "
-                  "next leg, or R tan(|dchi|/2) + V (phi/(2 rate) + lags) before the waypoint")
+                  "start of a turn: when simulating it in the mean wind leads onto the next leg, "
+                  "or R tan(|dchi|/2) + V (phi/(2 rate) + lags) before the waypoint")
           .number("cross_track_length_m", "m", pilot(&LegPilotOptions::cross_track_length_m),
-                  kPositive, "of law smooth")
+                  kPositive, "length of law smooth")
           .number("tolerance_most_m", "m", pilot(&LegPilotOptions::tolerance_most_m), kPositive,
                   "law paper: tolerance at a leg's start")
           .number("tolerance_least_m", "m", pilot(&LegPilotOptions::tolerance_least_m), kPositive,
-                  "law paper: least tolerance")
+                  "law paper: smallest tolerance")
           .number("airspeed_mps", "m/s", &G::airspeed_mps, kPositive,
-                  "where the plan has none; default the vehicle's cruise speed")
+                  "if the plan has no airspeed; default the vehicle's cruise speed")
           .number("airspeed_rate_mps2", "m/s2", of(&P::airspeed_rate_mps2), kPositive,
-                  "with which the airspeed changes where the plan or the landing wants another")
+                  "rate of changes of the airspeed that the plan or the landing demands")
           .degrees("bank_deg", &G::bank_rad, above(0.0, 80.0),
-                   "most, in turns; default 35 deg or what the vehicle can, if that is less")
-          .number("bank_rate_degps", "deg/s", turn(&TurnLimits::bank_rate_radps), kPositive, "most",
-                  kDegrees)
+                   "largest bank in turns; default 35 deg or the vehicle's limit if that is less")
+          .number("bank_rate_degps", "deg/s", turn(&TurnLimits::bank_rate_radps), kPositive,
+                  "largest rate of the bank", kDegrees)
           .number("bank_lag_s", "s", turn(&TurnLimits::bank_lag_s), kPositive,
-                  "of the vehicle's bank behind what it is told")
+                  "lag of the vehicle's bank behind the command")
           .number("yaw_lag_s", "s", turn(&TurnLimits::yaw_lag_s), between(0.0, 5.0),
-                  "of the vehicle's turn behind its bank: it slips first")
+                  "lag of the vehicle's turn behind its bank: it slips first")
           .number("turn_gain_per_s", "1/s", turn(&TurnLimits::gain_per_s), kPositive,
-                  "heading rate wanted per heading difference")
+                  "wanted heading rate per heading difference")
           .number("kink_m", "m", of(&P::kink_m), between(0.0, 1e3),
                   "length before and after a waypoint over which the height's slope changes")
           .text("air_data", of(&P::air_data),
-                "name of the sensor that tells the wind; '' = none is known")
+                "name of the sensor that measures the wind; '' = the wind is unknown")
           .number("wind_s", "s", of(&P::wind_s), kPositive, "time constant of the mean wind")
           .number("start_s", "s", of(&P::start_s), between(0.0, 1e4),
                   "earliest launch after the run's start")
           .degrees("launch_climb_deg", of(&P::launch_climb_rad), above(0.0, 45.0),
                    "climb angle straight ahead from the launcher")
           .number("launch_height_m", "m", of(&P::launch_height_m), kPositive,
-                  "above the start, where the launch ends")
+                  "height above the start at which the launch ends")
           .degrees("climb_max_deg", legs(&FlightLegsOptions::climb_max_rad), above(0.0, 45.0),
-                   "most upwards; where the way is too short it circles")
+                   "largest climb angle; if the path is too short for it the vehicle circles")
           .degrees("descent_max_deg", legs(&FlightLegsOptions::descent_max_rad), above(0.0, 45.0),
-                   "most downwards")
+                   "largest descent angle")
           .number("join_m", "m", of(&P::join_m), kPositive,
-                  "a vehicle that is in the air already starts on the plan's first leg "
-                  "where that is nearer than this, else flies to its first waypoint")
+                  "a vehicle that is in the air already starts on the plan's first leg if that is "
+                  "nearer than this, else flies to its first waypoint")
           .number("loiter_radius_m", "m", &G::loiter_radius_m, kPositive,
                   "of circles; default 1.5 times that of a turn")
           .choice("loiter_side", of(&P::loiter_side), {{"left", 1.0}, {"right", -1.0}},
-                  "where circles turn to")
+                  "direction of circles")
           .number("loiter_s", "s", of(&P::loiter_s), kPositive,
-                  "how long it circles with end: loiter")
+                  "duration of the circles with end: loiter")
           .choice("end", of(&P::end), kEnds,
                   "after the last waypoint: land; circle about it for loiter_s and end the "
-                  "mission in the air; end the mission at once. What has ended in the air "
-                  "circles on while others work")
+                  "mission in the air; end the mission at once. A vehicle whose mission has ended "
+                  "in the air circles on while others work")
           .numbers("land_at_m", "m", of(&P::land_at_m), kAnyNumber,
                    "[x, y] in W of the touchdown; default the start")
           .number("land_height_m", "m", of(&P::land_height_m), between(-1e4, 1e4),
-                  "z of W of the ground there; default that of the map, where it has none that of "
-                  "the start")
+                  "z in W of the ground there; default from the map, or that of the start if the "
+                  "map has no height there")
           .degrees("land_bearing_deg", &G::land_bearing_rad, between(-360.0, 360.0),
                    "course of the landing, clockwise from north; default against the mean wind, "
                    "below 1 m/s of wind the heading at the start, or the nearest course that the "
@@ -128,18 +128,19 @@ const ParameterTable<GivenParams>& given_table() {
           .degrees("land_course_deg", of(&P::land_course_rad), between(-360.0, 360.0),
                    "old form of land_bearing_deg, counted from east to the left; warns")
           .number("land_tolerance_m", "m", of(&P::land_tolerance_m), kPositive,
-                  "a landing farther from where it should be fails the vehicle's task")
+                  "a landing farther than this from the planned touchdown fails the vehicle's task")
           .number("approach_height_m", "m", of(&P::approach_height_m), kPositive,
-                  "above the ground, where the glide begins; down to it the vehicle "
-                  "circles beside the approach")
+                  "height above the ground at which the glide starts; the vehicle circles down to "
+                  "it beside the approach")
           .number("approach_speed_mps", "m/s", &G::approach_mps, kPositive,
-                  "airspeed of the glide; default airspeed_mps, where the "
-                  "controllers' trims are")
-          .degrees("glide_deg", of(&P::glide_rad), above(0.0, 30.0), "of the glide over ground")
+                  "airspeed of the glide; default airspeed_mps, for which the controllers have "
+                  "their trims")
+          .degrees("glide_deg", of(&P::glide_rad), above(0.0, 30.0),
+                   "angle of the glide over ground")
           .number("flare_height_m", "m", of(&P::flare_m), kPositive,
-                  "above the touchdown, where the sink rate begins to fade")
+                  "height above the touchdown at which the sink rate starts to decay")
           .number("power_off_height_m", "m", of(&P::power_off_m), between(0.0, 1e3),
-                  "above the touchdown, where the propeller stops")
+                  "height above the touchdown at which the propeller stops")
           .rule(find_fault_in_landing);
   return table;
 }
@@ -148,30 +149,30 @@ void settle_turns(const GivenParams& given, const ControllerContext& context,
                   const std::string& who, WaypointGuidanceParams& params) {
   const VehicleDescription& vehicle = *context.vehicle_description;
   TurnLimits& turn = params.legs.turn;
-  const double most_rad =
+  const double max_rad =
       vehicle.need_positive(vehicle.need_fixed_wing(who).max_bank_rad, "max_bank_rad", who);
   turn.gravity_mps2 = context.gravity_mps2;
-  turn.bank_rad = given.bank_rad.value_or(std::min(rad_from_deg(35.0), most_rad));
-  if (turn.bank_rad > most_rad + 1e-9) {
+  turn.bank_rad = given.bank_rad.value_or(std::min(rad_from_deg(35.0), max_rad));
+  if (turn.bank_rad > max_rad + 1e-9) {
     throw ConfigError(fmt::format(
         "{}: bank_deg = {:.1f} deg is more than the {:.1f} deg that vehicle type '{}' can fly", who,
-        deg_from_rad(turn.bank_rad), deg_from_rad(most_rad), vehicle.type));
+        deg_from_rad(turn.bank_rad), deg_from_rad(max_rad), vehicle.type));
   }
-  // A level turn carries 1 / cos(bank) of the weight.
-  const double least_mps = params.stall_mps / std::sqrt(std::cos(turn.bank_rad));
-  params.legs.least_airspeed_mps = least_mps;
-  params.legs.most_airspeed_mps = vehicle.max_speed_mps.value_or(1e9);
+  // The lift of a level turn is 1 / cos(bank) of the weight.
+  const double min_mps = params.stall_mps / std::sqrt(std::cos(turn.bank_rad));
+  params.legs.min_airspeed_mps = min_mps;
+  params.legs.max_airspeed_mps = vehicle.max_speed_mps.value_or(1e9);
   const double airspeed_mps = given.airspeed_mps.value_or(params.cruise_mps);
-  if (airspeed_mps <= least_mps) {
+  if (airspeed_mps <= min_mps) {
     throw ConfigError(
         fmt::format("{}: airspeed_mps = {:.2f} m/s is not above the {:.2f} m/s at which vehicle "
                     "type '{}' stalls in a level turn at {:.1f} deg of bank",
-                    who, airspeed_mps, least_mps, vehicle.type, deg_from_rad(turn.bank_rad)));
+                    who, airspeed_mps, min_mps, vehicle.type, deg_from_rad(turn.bank_rad)));
   }
-  if (airspeed_mps > params.legs.most_airspeed_mps) {
+  if (airspeed_mps > params.legs.max_airspeed_mps) {
     throw ConfigError(fmt::format(
         "{}: airspeed_mps = {:.2f} m/s is more than the {:.2f} m/s that vehicle type '{}' can fly",
-        who, airspeed_mps, params.legs.most_airspeed_mps, vehicle.type));
+        who, airspeed_mps, params.legs.max_airspeed_mps, vehicle.type));
   }
   params.legs.airspeed_mps = airspeed_mps;
   const double radius_m = turn.radius_m(airspeed_mps);
@@ -187,7 +188,7 @@ void settle_turns(const GivenParams& given, const ControllerContext& context,
 void settle_landing(const GivenParams& given, const VehicleDescription& vehicle,
                     const std::string& who, WaypointGuidanceParams& params) {
   const FixedWingAircraft& aircraft = vehicle.need_fixed_wing(who);
-  params.standing_m = aircraft.start_height_m.value_or(vehicle.height_above_ground_m);
+  params.rest_height_m = aircraft.start_height_m.value_or(vehicle.height_above_ground_m);
   params.belly_m = aircraft.belly_height_m;
   if (given.land_bearing_rad) params.land_course_rad = 0.5 * kPi - *given.land_bearing_rad;
   if (given.params.land_course_rad) {

@@ -14,7 +14,7 @@ namespace vinerow::controllers {
 
 struct WaypointGuidanceParams {
   enum class End { kLand, kLoiter, kStop };
-  FlightLegsOptions legs;  ///< with the turns' limits and the airspeed
+  FlightLegsOptions legs;  ///< with the limits of turns and the airspeed
   LegPilotOptions pilot;
   double cruise_mps = 12.0;  ///< of the vehicle
   double stall_mps = 8.0;
@@ -26,7 +26,7 @@ struct WaypointGuidanceParams {
   double launch_height_m = 20.0;
   double join_m = 60.0;
   double airspeed_rate_mps2 = 0.5;
-  double loiter_radius_m = 0.0;  ///< unless given: 1.5 times the radius of a turn
+  double loiter_radius_m = 0.0;  ///< default: 1.5 times the radius of a turn
   double loiter_side = 1.0;      ///< +1 left
   double loiter_s = 60.0;
   End end = End::kLand;
@@ -34,19 +34,20 @@ struct WaypointGuidanceParams {
   std::optional<double> land_height_m;
   std::optional<double> land_course_rad;  ///< from east, positive to the left
   double land_tolerance_m = 50.0;
-  std::string old_key;      ///< of a key that has a new name, for people; "" where none is used
-  double standing_m = 0.0;  ///< of B above the ground at the start, on the launcher
-  double belly_m = 0.0;     ///< of B above the ground when lying
+  std::string old_key;         ///< renamed key that the file uses, for an event; "" if none
+  double rest_height_m = 0.0;  ///< of B above the ground at the start, on the launcher
+  double belly_m = 0.0;        ///< of B above the ground when resting on it
   double approach_height_m = 30.0;
-  double approach_mps = 0.0;  ///< unless given: legs.airspeed_mps
+  double approach_mps = 0.0;  ///< default: legs.airspeed_mps
   double glide_rad = rad_from_deg(5.0);
   double flare_m = 1.5;
   double power_off_m = 0.1;
 };
 
 std::vector<ParameterSpec> waypoint_guidance_parameters();
-/// @throws ConfigError for a vehicle without wings, speeds below what the turns' bank takes, a bank
-/// beyond the vehicle's, circles smaller than it can fly, or words about a landing without one
+/// @throws ConfigError for a vehicle without wings, speeds below the stall speed at the turns'
+/// bank, a bank beyond the vehicle's, circles smaller than it can fly, or landing keys without a
+/// landing
 WaypointGuidanceParams read_waypoint_guidance_params(const ParameterSet& parameters,
                                                      const ControllerContext& context);
 

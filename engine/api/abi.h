@@ -1,10 +1,10 @@
 #pragma once
-/// The ABI tag: what a plug-in and the program must have in common, as text. A plug-in computes it
-/// where it is compiled, with its own compiler and flags; the loader compares it with the program's
-/// field by field.
+/// ABI tag: text that describes everything a plug-in and the program must have in common. A plug-in
+/// computes it when it is compiled, with its own compiler and flags; the loader compares it with
+/// the program's tag field by field.
 ///
-/// Everything here has internal linkage. Were it inline, the dynamic linker would give a plug-in the
-/// program's tag instead of its own.
+/// Everything here has internal linkage. With inline functions the dynamic linker would give a
+/// plug-in the program's tag instead of its own.
 
 #include <Eigen/Core>
 #include <string>
@@ -16,7 +16,7 @@
 #include "engine/api/registry.h"
 #include "engine/api/world_model.h"
 
-/// Every message, and the classes and structs that pass between plug-in and program.
+/// All messages, and the classes and structs that pass between plug-in and program.
 #define VINEROW_ABI_TYPES(F)                                                                     \
   F(Odometry) F(ImuSample) F(GnssFix) F(GnssHeading) F(RangeSample) F(PressureSample)            \
   F(MagneticSample)                                                                              \
@@ -34,8 +34,8 @@
 namespace vinerow {
 namespace {
 
-/// "vinerow-abi 9; headers 0a1b...; alignment 16; ...; Odometry 176/16; ...": after the facts of the
-/// build size/alignment of every type, in bytes.
+/// "vinerow-abi 9; headers 0a1b...; alignment 16; ...; Odometry 176/16; ...": facts of the build,
+/// then size/alignment of every type in bytes.
 [[maybe_unused]] const char* abi_tag() {
   static const std::string tag = [] {
     std::string text = "vinerow-abi " + std::to_string(VINEROW_ABI_VERSION);
@@ -43,7 +43,7 @@ namespace {
       text.append("; ").append(name).append(" ").append(value);
     };
     add("headers", VINEROW_ABI_HEADERS);
-    // Of Eigen's fixed-size types: -mavx and -march=native raise it.
+    // Alignment of Eigen's fixed-size types; -mavx and -march=native raise it.
     add("alignment", std::to_string(EIGEN_MAX_STATIC_ALIGN_BYTES));
 #if defined(NDEBUG)
     add("ndebug", "1");

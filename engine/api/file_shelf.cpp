@@ -25,7 +25,7 @@ std::string file_mark(const std::filesystem::path& path) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(path, failed)) {
     if (entry.is_regular_file(failed)) marks.push_back(mark_one(entry.path()));
   }
-  // The order of a folder's entries is the file system's.
+  // A folder lists its entries in the order of the file system.
   std::sort(marks.begin(), marks.end());
   return fmt::format("{}\n{}", path.string(), fmt::join(marks, ""));
 }

@@ -1,8 +1,8 @@
 #pragma once
-/// What parts have read from files, kept for the parts that are built after them.
+/// Cache of file contents that parts have read, for parts that are built later.
 ///
-/// A session that begins again builds its parts anew; what they read is on the shelf as long as the
-/// files stay as they were.
+/// A reset of a session rebuilds its parts; their file contents stay on the shelf as long as the
+/// files do not change.
 
 #include <filesystem>
 #include <map>
@@ -16,8 +16,8 @@ namespace vinerow {
 
 class FileShelf {
  public:
-  /// What was put here under this key, or what `make()` returns now. Safe to call from several
-  /// threads, which may then both make it: the first one's is kept.
+  /// Returns the value cached under this key, or calls `make()` and caches its result. Thread safe.
+  /// Two threads may both call make(); the first result is kept.
   /// @param key  everything that the value depends on: file_mark() of its files, options
   template <class T, class Make>
   std::shared_ptr<const T> get(const std::string& key, Make&& make) {
@@ -27,7 +27,7 @@ class FileShelf {
       const auto found = kept_.find(full_key);
       if (found != kept_.end()) return std::static_pointer_cast<const T>(found->second);
     }
-    // Not under the lock: reading takes long, and may ask for other files.
+    // Without the lock: reading takes long and may query the shelf for other files.
     std::shared_ptr<const void> made = std::make_shared<const T>(make());
     const std::lock_guard lock(mutex_);
     const auto kept = kept_.emplace(full_key, std::move(made)).first;
@@ -41,11 +41,11 @@ class FileShelf {
   std::map<Key, std::shared_ptr<const void>> kept_;
 };
 
-/// The file's name, size and time of writing; of a folder, those of all that is in it. A file that
-/// is not there has a mark of its own, so that reading it fails as it always does.
+/// Name, size and modification time of a file; for a folder, those of all its contents. A missing
+/// file has a mark of its own, so that reading it fails as usual.
 std::string file_mark(const std::filesystem::path& path);
 
-/// From the shelf, or made anew where there is none.
+/// Cached value from the shelf; without a shelf the result of make().
 template <class T, class Make>
 std::shared_ptr<const T> keep(FileShelf* shelf, const std::string& key, Make&& make) {
   if (!shelf) return std::make_shared<const T>(make());

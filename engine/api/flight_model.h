@@ -1,14 +1,14 @@
 #pragma once
-/// What a winged vehicle tells about its flight mechanics: the loads of air and propulsion, as a
-/// pure function. Trim, linearisation and model-based controllers stand on it, and the vehicle's
-/// own physics uses the same function, so that a controller's model is the simulator's.
+/// Flight mechanics of a winged vehicle: aerodynamic and propulsive loads as a pure function. Trim,
+/// linearisation and model-based controllers use it. The vehicle's own physics calls the same
+/// function, so the controller's model equals the simulator's.
 
 #include <Eigen/Core>
 #include <span>
 
 namespace vinerow {
 
-/// Where the air meets the vehicle.
+/// Motion through the air, and the air's density.
 struct AirPoint {
   /// Velocity of B's origin through the air, in B, m/s.
   Eigen::Vector3d v_air_B = Eigen::Vector3d::Zero();
@@ -27,8 +27,10 @@ class FlightModel {
  public:
   virtual ~FlightModel() = default;
 
-  /// @param actuators  where the actuators stand now (not what they are told), in the order and
-  /// units of VehicleDescription::actuators. Smooth enough for central differences. No heap.
+  /// Loads at the current motion and actuator positions. Smooth enough for central differences. No
+  /// heap.
+  /// @param actuators  current positions (not the commands), in the order and units of
+  /// VehicleDescription::actuators
   virtual AirLoad load(const AirPoint& air, std::span<const double> actuators) const = 0;
 
   virtual double mass_kg() const = 0;

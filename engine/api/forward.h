@@ -1,6 +1,6 @@
 #pragma once
-/// Names of the API's types for headers that only point at them. Whoever looks inside includes the
-/// header that defines the type.
+/// Forward declarations of API types, for headers that only use pointers or references. Sources
+/// that use the members include the header that defines the type.
 
 namespace vinerow {
 

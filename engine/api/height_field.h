@@ -1,5 +1,5 @@
 #pragma once
-/// Heights of the ground on a regular grid.
+/// Ground heights on a regular grid.
 
 #include <Eigen/Core>
 #include <vector>
@@ -7,7 +7,8 @@
 namespace vinerow {
 
 /// Regular grid of heights; x east, y north. Between samples the surface is two flat triangles per
-/// cell, split along the diagonal from (i, j) to (i+1, j+1), in physics, rays and pictures alike.
+/// cell, split along the diagonal from (i, j) to (i+1, j+1). Physics, rays and pictures use the
+/// same triangles.
 struct HeightField {
   int columns = 0;                    ///< samples along x, >= 2
   int rows = 0;                       ///< samples along y, >= 2
@@ -21,7 +22,7 @@ struct HeightField {
     return x >= corner_W.x() && y >= corner_W.y() && x <= corner_W.x() + width_m() &&
            y <= corner_W.y() + depth_m();
   }
-  /// Height of the triangle surface. Outside the grid the nearest edge's height continues.
+  /// Height of the triangle surface. Outside the grid the height of the nearest edge continues.
   double height_m(double x, double y) const;
   /// Upward unit normal of the triangle under (x, y); +z outside.
   Eigen::Vector3d normal_W(double x, double y) const;

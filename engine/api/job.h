@@ -1,7 +1,6 @@
 #pragma once
-/// Extension point Job: work of a mission that no vehicle does, as turning pictures into a cloud
-/// and a cloud into a map. A job is a phase of its own; it takes products of earlier phases and
-/// gives one.
+/// Extension point Job: a mission phase that no vehicle does, such as building a cloud from
+/// pictures or a map from a cloud. A job takes products of earlier phases and makes one product.
 
 #include <filesystem>
 #include <functional>
@@ -20,28 +19,30 @@ namespace vinerow {
 
 struct JobOutcome {
   Product product;
-  std::map<std::string, double> numbers;  ///< with units in their names; into summary.json
+  std::map<std::string, double> numbers;  ///< written to summary.json; names carry units
   std::vector<std::string> notes;         ///< sentences for people
 };
 
-/// What a job needs beside PartContext. References live as long as the run.
+/// Context of a job. References live as long as the run.
 struct JobContext : PartContext {
   const WorldModel* world = nullptr;  ///< the truth
   const SceneQuery* scene = nullptr;
-  std::filesystem::path folder;  ///< its own, for files; made before run()
-  /// Plans for a vehicle of the run from where it stands, with its own planner on a map.
+  std::filesystem::path folder;  ///< the job's own output folder; exists before run()
+  /// Plans a path for a vehicle of the run from its current position, with its own planner on a
+  /// map.
   /// @param map  null: the map that the vehicle has without the job
   std::function<Result<PlannedPath>(const std::string& vehicle, std::shared_ptr<const RowMap> map)>
       plan;
 };
 
-/// Built while loading, so that its parameters are checked before anything runs.
+/// Built while loading, so that its parameters are checked before the run starts.
 class Job {
  public:
   virtual ~Job() = default;
-  /// Runs once, between two physics steps. Stops on iterations, never on seconds.
-  /// @param inputs  by ProductPort::key; required ones are there, and each is of its kind
-  /// @returns the outcome, or the reason why there is none, which fails the phase
+  /// Runs once, between two physics steps. Limit iterations, never wall time: results must not
+  /// depend on the machine.
+  /// @param inputs  by ProductPort::key; required inputs are present, and each has its port's kind
+  /// @returns the outcome, or the reason for the failure, which fails the phase
   virtual Result<JobOutcome> run(const std::map<std::string, Product>& inputs) = 0;
 };
 

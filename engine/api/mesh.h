@@ -1,6 +1,6 @@
 #pragma once
-/// Triangle meshes and where they stand: plain data that files are read into, and physics, rays and
-/// pictures use.
+/// Triangle meshes and their placement: plain data, read from files and used by physics, rays and
+/// pictures.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -36,8 +36,8 @@ struct MeshInstance {
   Pose X_WM;
   SurfaceClass surface = SurfaceClass::kObstacle;
   Material material;
-  bool collides = true;  ///< physics and rays know it
-  bool visible = true;   ///< pictures show it
+  bool collides = true;  ///< used by physics and rays
+  bool visible = true;   ///< shown in pictures
 };
 
 }  // namespace vinerow

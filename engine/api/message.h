@@ -1,6 +1,6 @@
 #pragma once
-/// What follows from the fields that a message lists (field.h): digest, search for NaN, layout, and
-/// views by name.
+/// Generic functions on messages, derived from their field lists (field.h): digest, search for NaN,
+/// layout, and views by name.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -23,8 +23,8 @@ namespace vinerow {
 template <class T>
 concept Number = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
-/// Feeds every field to a digest: the bytes of numbers; texts with their length; of vectors of
-/// numbers or texts the count too, of other vectors the elements alone.
+/// Adds every field to a digest: numbers by their bytes; texts with their length; vectors of
+/// numbers or texts with their count; other vectors by their elements alone.
 struct HashField {
   Hasher& hasher;
 
@@ -70,7 +70,7 @@ struct HashField {
   }
 };
 
-/// Finds a number that is none. Infinity is one.
+/// Finds NaN. Infinity is allowed.
 struct NanField {
   bool& found;
 
@@ -148,22 +148,22 @@ enum class FieldShape : std::uint8_t { kSingle, kArray, kSequence };
 
 class FieldVisitor;
 
-/// A field as data: what it is, and where its values lie. Nothing is copied. Valid until the message
-/// changes, for a signal until its next write.
+/// View of a field: its type and the address of its values. Nothing is copied. Valid until the
+/// message changes; for a signal, until its next write.
 struct FieldView {
   FieldInfo info;
   FieldKind kind = FieldKind::kFloat64;
   FieldShape shape = FieldShape::kSingle;
   std::size_t count = 1;              ///< of values
-  const void* data = nullptr;         ///< the first value; null where there is none
+  const void* data = nullptr;         ///< the first value; null if there are no values
   std::size_t stride = 0;             ///< bytes from one value to the next
-  std::span<const EnumName> names{};  ///< of an enumeration, empty else
+  std::span<const EnumName> names{};  ///< of an enumeration, else empty
   std::string_view record{};          ///< kType of a kRecord
-  /// Shows the fields of one value of a kRecord; null stands for a fresh one, where only names and
-  /// types are asked for.
+  /// Visits the fields of one value of a kRecord. Null stands for a default value, for visitors
+  /// that need only names and types.
   void (*visit_record)(const void* value, FieldVisitor& visitor) = nullptr;
 
-  /// @tparam T  the C++ type that `kind` stands for (of an enumeration its integer)
+  /// @tparam T  the C++ type for `kind` (for an enumeration its integer type)
   template <class T>
   const T& value(std::size_t index = 0) const {
     return *static_cast<const T*>(at(index));
@@ -173,7 +173,7 @@ struct FieldView {
   }
 };
 
-/// Is shown the fields of a message one after the other.
+/// Visitor of the fields of a message, called once for each field.
 class FieldVisitor {
  public:
   virtual ~FieldVisitor() = default;
@@ -212,7 +212,7 @@ constexpr FieldKind field_kind() {
   }
 }
 
-/// Makes a FieldView of every field and shows it to a visitor.
+/// Makes a FieldView of every field and passes it to a visitor.
 struct ViewField {
   FieldVisitor& visitor;
 
@@ -250,13 +250,13 @@ struct ViewField {
   }
 };
 
-/// Shows every field of a message by name. No heap.
+/// Visits every field of a message. No heap.
 template <HasFields T>
 void visit_fields(const T& message, FieldVisitor& visitor) {
   T::fields(message, ViewField{visitor});
 }
 
-/// Writes names, units, types and places of fields as text: the layout of a message.
+/// Writes the layout of a message as text: names, units, types and offsets of its fields.
 struct LayoutField {
   std::string& text;
   const void* first_byte;  ///< of the message
@@ -294,10 +294,10 @@ struct LayoutField {
   }
 };
 
-/// Type of a message as the bus knows it at run time.
+/// Run-time type of a message.
 struct MessageType {
   const char* name = "";     ///< kType
-  std::uint64_t layout = 0;  ///< differs where fields, their places, size or alignment differ
+  std::uint64_t layout = 0;  ///< hash of fields, offsets, size and alignment
   MessageFrame frame = MessageFrame::kBody;
 };
 

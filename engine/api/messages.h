@@ -1,12 +1,13 @@
 #pragma once
-/// The types of signals. Plain structs in SI units; each lists its fields once, with name and unit
-/// (field.h): digest, logs, viewers and scripts take them from there. engine/record maps each to a
+/// Types of signals: plain structs in SI units. Each lists its fields once, with name and unit
+/// (field.h); digest, logs, viewers and scripts derive from that list. engine/record maps each to a
 /// ROS 2 message.
 ///
 /// Frames: W world (East-North-Up at the scenario's origin), B body (x forward, y left, z up), S
 /// sensor.
 ///
-/// This header has them all, for plug-ins. Sources of ours include the topic they use.
+/// Plug-ins include this header, which has all messages. The project's own sources include only the
+/// topics that they use.
 
 #include "engine/api/messages/commands.h"
 #include "engine/api/messages/event.h"
@@ -19,7 +20,7 @@
 
 namespace vinerow {
 
-/// Calls `f` once per message type of ours with a null pointer of that type. Plug-ins bring others.
+/// Calls `f` once per built-in message type, with a null pointer of that type.
 template <class F>
 void for_each_message_type(F&& f) {
   f(static_cast<Odometry*>(nullptr));

@@ -1,14 +1,15 @@
 #pragma once
-/// Observers: estimators that run beside the one a vehicle acts on, on the same sensors, so that
-/// several are compared on one run, or one is judged in open loop while the vehicle goes by truth.
+/// Observers: estimators that run next to the vehicle's own, on the same sensors, and control
+/// nothing. They compare several estimators in one run, or judge one in open loop while the vehicle
+/// uses the truth.
 
 #include <map>
 #include <string>
 
 namespace vinerow {
 
-/// What the signals of an estimator are called where it runs as the observer `name`: "estimate" is
-/// `name` itself, the others have its name before them, `name`_ellipsoid and so on.
+/// Signal names of an estimator that runs as the observer `name`: "estimate" becomes `name`, the
+/// others get the name as prefix, `name`_ellipsoid and so on.
 inline std::map<std::string, std::string> observer_signals(const std::string& name) {
   return {{"estimate", name},
           {"ellipsoid", name + "_ellipsoid"},

@@ -1,7 +1,7 @@
 #pragma once
-/// Signals that somebody outside a run writes, in place of a part: an autopilot, a person at a
-/// joystick, a learner. The run takes values in by stamp, so that the same ones at the same stamps
-/// give the same bits however the run is stepped.
+/// Signals written from outside a run in place of a part: by an autopilot, a joystick, a learner.
+/// The run applies values by their stamps, so equal values at equal stamps give equal bits however
+/// the run is stepped.
 
 #include <functional>
 #include <memory>
@@ -13,13 +13,13 @@
 
 namespace vinerow {
 
-/// Who writes such a signal, in the bus's list and in errors.
+/// Writer of such a signal, in the bus's list and in errors.
 inline constexpr const char* kOutside = "outside";
 
-/// A signal to be written from outside.
+/// Declaration of a signal that is written from outside.
 struct OutsideSignal {
   std::string name;  ///< "<vehicle>/<what>"
-  /// Claims it, before any part is built. @throws ConfigError
+  /// Advertises the signal, before any part is built. @throws ConfigError
   std::function<void(SignalBus&)> advertise;
 };
 
@@ -30,10 +30,10 @@ OutsideSignal outside_signal(std::string name) {
   return {std::move(name), std::move(advertise)};
 }
 
-/// A value that a signal is to take.
+/// A value for a signal, with its time.
 struct OutsideCommand {
-  Time stamp;  ///< it is written at the first instant that is not earlier
-  /// Holds the value; has the name and the type of the signal it is for, and is on no bus.
+  Time stamp;  ///< written at the first instant that is not earlier
+  /// Holds the value. Has the name and type of the target signal, but is not on the bus.
   std::shared_ptr<SignalBase> value;
   void (*write)(const SignalBase& value, SignalBase& to, Time now) = nullptr;
 };

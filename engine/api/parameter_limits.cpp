@@ -8,7 +8,7 @@ namespace {
 struct UnitLimits {
   const char* unit;
   double largest;
-  double smallest;  ///< of what must be above 0
+  double smallest;  ///< lower limit of values that must be above 0
 };
 
 constexpr UnitLimits kUnitLimits[] = {

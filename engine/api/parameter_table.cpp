@@ -27,8 +27,8 @@ double to_member(const Row& row, double value) {
   return row.conversion.to_member ? row.conversion.to_member(value) : value;
 }
 
-/// The shortest decimal that gives the member to the last bit, so that a range's own limits pass
-/// and defaults read as they were meant: 25, not 24.999999999999996.
+/// Shortest decimal that gives the member to the last bit, so that the limits of a range pass and
+/// defaults read as written: 25, not 24.999999999999996.
 double to_file(const Row& row, double member) {
   if (!row.conversion.to_file) return member;
   const double plain = row.conversion.to_file(member);
@@ -48,7 +48,7 @@ void* address(void* base, std::ptrdiff_t offset) {
   return static_cast<char*>(base) + offset;
 }
 
-/// One type of member: what the file's value makes of it, and back.
+/// Conversion of one type of member from and to the file's value.
 template <class T>
 struct Cast;
 
@@ -169,7 +169,7 @@ std::string place(const std::string& who, const std::string& text) {
   return who.empty() ? text : fmt::format("{}: {}", who, text);
 }
 
-/// The structs of a group or of a list of groups.
+/// Structs of a group or of a list of groups.
 void validate_items(const Row& row, const void* member, const std::string& who) {
   const bool is_list = row.spec.kind == ParameterKind::kGroupList;
   for (std::size_t i = 0; const void* item = row.access->item(member, i); ++i) {

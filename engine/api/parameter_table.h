@@ -1,8 +1,8 @@
 #pragma once
-/// One table per parameter struct: each parameter is declared once, and everything follows from it.
+/// Parameter tables: one table per parameter struct, in which each parameter is declared once.
 ///
-/// A row binds a key with unit, range and words to a member; the default is the member's
-/// initialiser. From the table come the specs (loader, JSON Schema, `vinerow list`), the reader and
+/// A row binds a key with unit, range and description to a member; the default is the member's
+/// initialiser. The table gives the specs (loader, JSON Schema, `vinerow list`), the reader, and
 /// the check of a struct that was filled in C++:
 ///
 ///   const ParameterTable<RoverParams>& rover_table() {
@@ -23,9 +23,9 @@
 ///
 /// Members: double; int, std::int64_t, std::size_t; bool; std::string; std::filesystem::path;
 /// std::vector of double, int or std::string; std::array and fixed Eigen vectors of double; enums.
-/// A std::optional of one of these is absent unless given. Where a member lies deeper, name the way
-/// to it by inside(&P::a, &A::b) or by a lambda [](P& p) -> double& {...}.
-/// Tables are made once, at load time. They allocate.
+/// A std::optional of one of these is absent unless given. Reach a nested member by inside(&P::a,
+/// &A::b) or by a lambda [](P& p) -> double& {...}. Tables are made once, at load time. They
+/// allocate.
 
 #include <cstddef>
 #include <cstdint>
@@ -42,7 +42,7 @@
 
 namespace vinerow {
 
-/// Values that a number may have; of a list, each of its entries.
+/// Allowed values of a number; for a list, of each of its entries.
 struct ParameterRange {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
@@ -61,9 +61,9 @@ constexpr ParameterRange above(double min,
   return {min, max, true};
 }
 
-/// How a number of the file becomes that of the member, and back. Range and default are the file's.
-/// The default is the shortest decimal that gives the member's initialiser to the last bit, if one
-/// does.
+/// Conversion between a number in the file and in the member. Range and default are those of the
+/// file. The default is the shortest decimal that gives the member's initialiser to the last bit,
+/// if there is one.
 struct ParameterConversion {
   double (*to_member)(double) = nullptr;  ///< nullptr: the same number
   double (*to_file)(double) = nullptr;
@@ -72,14 +72,14 @@ extern const ParameterConversion kDegrees;         ///< member in rad: exactly r
 extern const ParameterConversion kInverse;         ///< member = 1.0 / value
 extern const ParameterConversion kCountedFromOne;  ///< member = value - 1, an index
 
-/// A word of the file and what it stands for.
+/// A word in the file and the value that it stands for.
 template <class T>
 struct Choice {
   const char* name;
   T value;
 };
 
-/// The word for a value, e.g. of a std::array<Choice<Layout>, 2>. @returns "?" if it has none
+/// Word for a value, e.g. of a std::array<Choice<Layout>, 2>. @returns "?" if the value has no word
 template <class Choices, class T>
 const char* name_of(const Choices& choices, const T& value) {
   for (const auto& choice : choices) {
@@ -88,7 +88,7 @@ const char* name_of(const Choices& choices, const T& value) {
   return "?";
 }
 
-/// Which rows of an included table, and under which keys.
+/// Selection of rows of an included table, and their keys.
 struct IncludedKeys {
   std::vector<std::string> only = {};  ///< keys of that table; empty: all
   std::string prefix = {};             ///< before each key
@@ -100,13 +100,13 @@ namespace parameter_rows {
 struct Row;
 using Value = ParameterSet::Value;
 
-/// How the member of a row is read and written.
+/// Access to the member of a row.
 struct Access {
   /// @throws ConfigError if the member's type cannot hold the value
   void (*set)(const Row& row, const Value& value, void* member);
-  /// @returns the file's value; nothing where the parameter is absent
+  /// @returns the file's value; nullopt if the parameter is absent
   std::optional<Value> (*get)(const Row& row, const void* member);
-  /// Of groups: the i-th struct, nullptr beyond the last. nullptr for everything else.
+  /// For groups: the i-th struct, nullptr beyond the last. nullptr for other kinds.
   const void* (*item)(const void* member, std::size_t i) = nullptr;
 };
 
@@ -124,7 +124,7 @@ struct Rule {
   std::string (*call)(void (*function)(), const void* object) = nullptr;
 };
 
-/// The rows without the struct's type.
+/// Rows without the struct's type.
 class Rows {
  public:
   /// @param base  the struct with its initialisers
@@ -138,7 +138,7 @@ class Rows {
   Row& named(const std::string& name);
 
   std::vector<ParameterSpec> specs() const;
-  /// @param who  begins the error of a value that its member cannot hold, "" for none
+  /// @param who  prefix of the error for a value that its member cannot hold, "" for none
   void read(const ParameterSet& parameters, void* base, const std::string& who) const;
   ParameterSet write(const void* base, const std::string& owner) const;
   void validate(const void* base, const std::string& who) const;
@@ -149,7 +149,7 @@ class Rows {
   std::vector<Rule> rules_;
 };
 
-/// Of the types that the top of this file names, alone or in a std::optional.
+/// Access to a member of one of the types in the file's comment, alone or in a std::optional.
 template <class T>
 const Access* access_of();
 extern const Access kScatteredNumbers;  ///< several doubles; detail: their offsets from the first
@@ -262,7 +262,7 @@ inline constexpr Access kGroups = {
 
 }  // namespace parameter_rows
 
-/// The way to a member of a member: inside(&P::cost, &CostParams::weight), as deep as it takes.
+/// Accessor of a nested member: inside(&P::cost, &CostParams::weight), to any depth.
 template <class First, class... Rest>
 auto inside(First first, Rest... rest) {
   return [=](auto& object) -> auto& {
@@ -274,8 +274,9 @@ auto inside(First first, Rest... rest) {
   };
 }
 
-/// The table of one struct. @tparam P  default-constructible
-/// `member` below is a member pointer or a function of P& that gives a reference into it.
+/// Parameter table of one struct. @tparam P  default-constructible
+///
+/// `member` below is a member pointer or a function of P& that returns a reference into it.
 template <class P>
 class ParameterTable {
  public:
@@ -294,7 +295,7 @@ class ParameterTable {
                           std::string words) {
     return number(std::move(name), "deg", member, range, std::move(words), kDegrees);
   }
-  /// A whole number.
+  /// An integer.
   template <class F>
   ParameterTable& integer(std::string name, F member, const ParameterRange& range,
                           std::string words, const ParameterConversion& conversion = {}) {
@@ -315,25 +316,25 @@ class ParameterTable {
   ParameterTable& texts(std::string name, F member, std::string words) {
     return plain(std::move(name), ParameterKind::kTextList, member, std::move(words));
   }
-  /// A file or folder, std::filesystem::path or std::string; absent while it is empty.
+  /// A file or folder, std::filesystem::path or std::string; an empty path is absent.
   template <class F>
   ParameterTable& path(std::string name, F member, std::string words) {
     return plain(std::move(name), ParameterKind::kPath, member, std::move(words));
   }
-  /// One of some words: an enum, or whatever copies and compares. The words are the spec's choices.
-  /// An empty std::optional that no word stands for is absent.
+  /// One of several words, which are the spec's choices: an enum, or any type that copies and
+  /// compares. An empty std::optional without a word of its own is absent.
   template <class F, class T = std::remove_cvref_t<std::invoke_result_t<F, P&>>>
   ParameterTable& choice(std::string name, F member, std::initializer_list<Choice<T>> choices,
                          std::string words) {
     return choose<T>(std::move(name), member, choices, std::move(words));
   }
-  /// The same by a list that others use too, e.g. a std::array<Choice<T>, N>.
+  /// The same with a shared list of choices, e.g. a std::array<Choice<T>, N>.
   template <class F, class Choices>
     requires requires(const Choices& c) { c.begin(); }
   ParameterTable& choice(std::string name, F member, const Choices& choices, std::string words) {
     return choose<Type<decltype(at(member))>>(std::move(name), member, choices, std::move(words));
   }
-  /// A list of numbers. The length is that of a std::array or fixed vector; of a std::vector it is
+  /// A list of numbers. Its length is that of a std::array or fixed vector; for a std::vector it is
   /// `size`, 0: any.
   template <class F>
   ParameterTable& numbers(std::string name, std::string unit, F member, const ParameterRange& range,
@@ -357,7 +358,7 @@ class ParameterTable {
       return add(std::move(row), place, &parameter_rows::kFixedNumbers<T>);
     }
   }
-  /// A list of numbers whose entries are members of their own, e.g. the least and the largest.
+  /// A list of numbers whose entries are separate members, e.g. minimum and maximum.
   template <class F, class... More>
   ParameterTable& members(std::string name, std::string unit, const ParameterRange& range,
                           std::string words, F first, More... more) {
@@ -391,8 +392,8 @@ class ParameterTable {
     return add_group(std::move(name), ParameterKind::kGroupList, std::move(words), place,
                      &parameter_rows::kGroups<std::vector<S>>, table.rows_);
   }
-  /// The rows and rules of a member's own table, side by side with the others. Defaults are those
-  /// of this struct's member.
+  /// Adds the rows and rules of a member's own table to this one. Defaults are those of this
+  /// struct's member.
   template <class F, class S>
   ParameterTable& include(F member, const ParameterTable<S>& table, const IncludedKeys& keys = {}) {
     S& place = at(member);
@@ -400,23 +401,23 @@ class ParameterTable {
     return *this;
   }
 
-  /// The row before this call has no default: the user must say it.
+  /// Makes the last row required: it has no default.
   ParameterTable& required() {
     rows_.last().spec.required = true;
     rows_.last().spec.default_value = std::monostate{};
     return *this;
   }
-  /// The text or texts before this call are of these words.
+  /// Restricts the last row's text or texts to these words.
   ParameterTable& one_of(std::vector<std::string> choices) {
     rows_.last().spec.choices = std::move(choices);
     return *this;
   }
-  /// The path before this call may name a file that does not exist.
+  /// Lets the last row's path name a file that does not exist.
   ParameterTable& may_be_missing() {
     rows_.last().spec.must_exist = false;
     return *this;
   }
-  /// Of an included row, what is different here.
+  /// Change the description or range of an included row.
   ParameterTable& reword(const std::string& name, std::string words) {
     rows_.named(name).spec.description = std::move(words);
     return *this;
@@ -427,7 +428,7 @@ class ParameterTable {
     return *this;
   }
 
-  /// A rule across members. @param judge  gives the sentence of the fault, "" if there is none
+  /// @param judge  returns the fault as a sentence, "" if the rule holds
   ParameterTable& rule(std::string (*judge)(const P&)) {
     using parameter_rows::Rule;
     rows_.add(Rule{0, reinterpret_cast<void (*)()>(judge), [](void (*function)(), const void* p) {
@@ -440,7 +441,8 @@ class ParameterTable {
   /// For PartSpec::parameters, in the order of the rows.
   std::vector<ParameterSpec> specs() const { return rows_.specs(); }
 
-  /// @param parameters  with at least this table's keys  @param who  begins errors, "" for none
+  /// @param parameters  with at least this table's keys
+  /// @param who  prefix of errors, "" for none
   /// @throws ConfigError as validate does
   P read(const ParameterSet& parameters, const std::string& who) const {
     P params{};
@@ -448,7 +450,7 @@ class ParameterTable {
     validate(params, who);
     return params;
   }
-  /// The other way round: a set that holds the struct's values.
+  /// Inverse of read(): a set that holds the struct's values.
   /// @throws ConfigError for a value out of its range
   ParameterSet write(const P& params, const std::string& owner = "") const {
     return rows_.write(&params, owner);

@@ -1,5 +1,6 @@
 #pragma once
-/// For headers that declare the table of a struct and leave its rows to their source file.
+/// Forward declaration of ParameterTable, for headers that declare a table and define its rows in a
+/// source file.
 
 namespace vinerow {
 

@@ -78,7 +78,7 @@ void check_number(const ParameterSpec& spec, double value, const std::string& pl
       fmt::format("{} must be {}, not {}", spec.name, kind_words(spec.kind), value_words(value)));
 }
 
-/// Numbers may be written as whole numbers, and an empty list has no type of its own.
+/// Accepts integers as numbers, and an empty list for every list type.
 ParameterSet::Value convert(const ParameterSpec& spec, ParameterSet::Value value) {
   const auto* whole = std::get_if<std::int64_t>(&value);
   const auto* real = std::get_if<double>(&value);

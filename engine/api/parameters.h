@@ -1,5 +1,6 @@
 #pragma once
-/// Parameters of parts: specified once (name, unit, range, default), validated on every way in.
+/// Parameters of parts: specified once (name, unit, range, default) and validated wherever they
+/// enter.
 ///
 /// The same spec gives the JSON Schema, `vinerow list`, the loader's checks and the values a part
 /// reads. File keys carry their unit as suffix (`lookahead_m`, `slope_deg`); a part converts to SI
@@ -27,51 +28,50 @@ enum class ParameterKind {
   kGroupList,   ///< list of mappings with their own `fields`
 };
 
-/// What a parameter is allowed to be. Parts get theirs from a ParameterTable (parameter_table.h).
+/// Specification of a parameter. Parts get theirs from a ParameterTable (parameter_table.h).
 struct ParameterSpec {
   std::string name;  ///< key in files, unit as suffix
   ParameterKind kind = ParameterKind::kNumber;
   std::string unit;         ///< "m", "m/s", "deg", "Hz", "" for dimensionless and non-numbers
   std::string description;  ///< one sentence
-  bool required = false;    ///< no default: the user must say it
+  bool required = false;    ///< no default: the user must set it
   double min = -std::numeric_limits<double>::infinity();  ///< for numbers, integers, each entry of
                                                           ///< a number list
   double max = std::numeric_limits<double>::infinity();
   bool min_exclusive = false;  ///< value > min instead of >=
   std::variant<std::monostate, double, std::int64_t, bool, std::string, std::vector<double>,
                std::vector<std::string>>
-      default_value;                  ///< monostate: absent unless given (ask has())
+      default_value;                  ///< monostate: absent unless given (check with has())
   std::vector<std::string> choices;   ///< for texts: allowed values; empty = any
   int size = 0;                       ///< for number lists: required length; 0 = any
   std::vector<ParameterSpec> fields;  ///< for groups
-  bool must_exist = true;             ///< for paths: a missing file or folder is refused while loading
+  bool must_exist = true;             ///< for paths: the loader rejects a missing file or folder
 };
 
 /// Values that passed the checks of their specs. Reading a name or type that the spec does not have
-/// is our bug (VINEROW_DEMAND); writing a wrong value is the user's (ConfigError).
+/// is a bug in the code (VINEROW_DEMAND); setting a wrong value is a user error (ConfigError).
 class ParameterSet {
  public:
   ParameterSet() = default;
-  /// All defaults. @param owner  who the parameters belong to, named in errors, e.g. "pure_pursuit"
+  /// All defaults.
+  /// @param owner  owner of the parameters, named in errors, e.g. "pure_pursuit"
   explicit ParameterSet(std::vector<ParameterSpec> specs, std::string owner = "");
 
   using Value = std::variant<double, std::int64_t, bool, std::string, std::vector<double>,
                              std::vector<std::string>, std::vector<ParameterSet>>;
 
-  /// Sets one value. Integers are accepted where numbers are asked.
+  /// Sets one value. Integers are accepted for numbers.
   /// @throws ConfigError "lookahead_m = -1 m, must be > 0 m" | "unknown parameter 'lookahed_m' of
-  /// pure_pursuit;
-  ///         did you mean 'lookahead_m'?" | "... must be a number, not a text" | "... is not
-  ///         finite"
-  /// @param source  where the value comes from ("data sheet p. 2", "file.yaml:12"), kept for
-  /// reports
+  /// pure_pursuit; did you mean 'lookahead_m'?" | "... must be a number, not a text" | "... is not
+  /// finite"
+  /// @param source  origin of the value ("data sheet p. 2", "file.yaml:12"), kept for reports
   ParameterSet& set(std::string_view name, Value value, std::string source = "");
 
-  /// @throws ConfigError naming the first required parameter that was not given.
+  /// @throws ConfigError that names the first required parameter that was not given
   void require_complete() const;
 
   bool has(std::string_view name) const;
-  /// @returns nullptr where it has no value
+  /// @returns nullptr if it has no value
   const Value* find(std::string_view name) const;
   double number(std::string_view name) const;
   std::int64_t integer(std::string_view name) const;
@@ -83,7 +83,7 @@ class ParameterSet {
   const ParameterSet& group(std::string_view name) const;  ///< @pre has(name)
   std::string source(std::string_view name) const;
 
-  /// A fresh set for an entry of a group or group list, to be filled and passed to set().
+  /// A new set for an entry of a group or group list; fill it and pass it to set().
   ParameterSet make_group(std::string_view name) const;
 
   const std::vector<ParameterSpec>& specs() const { return specs_; }

@@ -1,6 +1,6 @@
 #pragma once
 /// Extension point Payload: what a vehicle carries to work with (a sprayer, a scouting camera) and
-/// what that did to the true canopy.
+/// its effect on the true canopy.
 
 #include <map>
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace vinerow {
 
-/// A piece of a row's true canopy on one side: a step along the row, a band of height.
+/// Patch of a row's true canopy on one side: one step along the row, one band of height.
 struct CanopyPatch {
   int row = 0;    ///< PlantRow::id
   int side = 1;   ///< +1 left of the row's line, -1 right of it
@@ -24,23 +24,23 @@ struct CanopyPatch {
   double amount = 0.0;                            ///< per m2; in CanopyCoverage::unit
 };
 
-/// What a payload did to the canopy.
+/// Effect of a payload on the canopy.
 struct CanopyCoverage {
   std::string quantity = "deposit";  ///< "deposit", "seen"
   std::string unit = "ml/m2";
-  double wanted = 0.0;  ///< from this amount on a patch counts as covered
+  double wanted = 0.0;  ///< a patch counts as covered from this amount
   double step_m = 0.25;
   double band_m = 0.25;
-  std::vector<CanopyPatch> patches;  ///< those with area, by row, side, along, band
+  std::vector<CanopyPatch> patches;  ///< patches with area, sorted by row, side, along, band
 };
 
 /// Runs after the actuators. Reads signals ("estimate", "plan", "follower"), writes its own name.
 class Payload : public SteppedPart {
  public:
-  /// Called once after the last step. They stand among the vehicle's metrics as
+  /// Called once after the last step. The kernel adds the results to the vehicle's metrics as
   /// "<payload's name>_<result>"; names carry units.
   virtual std::map<std::string, double> results() const = 0;
-  /// @returns nullptr if it has to do with no canopy
+  /// @returns nullptr if the payload does not act on the canopy
   virtual const CanopyCoverage* coverage() const { return nullptr; }
 };
 
@@ -50,7 +50,7 @@ struct PayloadContext : PartContext {
   const WorldModel* world = nullptr;
   const Vehicle* vehicle_truth = nullptr;
   const VehicleDescription* vehicle_description = nullptr;
-  const RowMap* map = nullptr;  ///< what the vehicle is told of the rows
+  const RowMap* map = nullptr;  ///< the vehicle's map
 };
 
 }  // namespace vinerow

@@ -57,14 +57,14 @@ PlanStretch::Place PlanStretch::find(const Eigen::Vector3d& p_W) {
 }
 
 int PlanStretch::lane(const Eigen::Vector3d& p_W, const Eigen::Vector3d& v_W) {
-  constexpr double kLeastSpeed_mps = 0.1, kLeastCosine = 0.5;
+  constexpr double kMinSpeed_mps = 0.1, kMinCosine = 0.5;
   if (!has_plan()) return -1;
   const Place place = find(p_W);
   if (!is_leg(place.segment)) return -1;
   const Eigen::Vector2d along =
       (points_[place.segment + 1].p_W - points_[place.segment].p_W).head<2>();
   const Eigen::Vector2d way = v_W.head<2>();
-  if (way.norm() > kLeastSpeed_mps && way.dot(along) < kLeastCosine * way.norm() * along.norm()) {
+  if (way.norm() > kMinSpeed_mps && way.dot(along) < kMinCosine * way.norm() * along.norm()) {
     return -1;
   }
   return std::max(0, points_[place.segment].alley);
@@ -84,7 +84,7 @@ double PlanStretch::curve_distance_m(const Place& at, const Eigen::Vector2d& p) 
   if (!inside || std::abs(curvature) < 1e-9 || half_m * std::abs(curvature) >= 1.0) {
     return at.lateral_m;
   }
-  // The centre lies on the chord's bisector, to the left of a left bend.
+  // The centre is on the chord's bisector, to the left in a left bend.
   const double radius_m = 1.0 / std::abs(curvature);
   const double away_m = std::sqrt(radius_m * radius_m - half_m * half_m);
   const Eigen::Vector2d left = Eigen::Vector2d(-chord.y(), chord.x()) / (2.0 * half_m);

@@ -1,12 +1,12 @@
 #pragma once
-/// Rows of plants and the free strips between them, as plain data.
+/// Rows of plants and the alleys between them, as plain data.
 
 #include <Eigen/Core>
 #include <vector>
 
 namespace vinerow {
 
-/// A plant row: its centre line at ground level and the canopy's cross-section.
+/// Plant row: its centre line at ground level and the cross-section of its canopy.
 struct PlantRow {
   int id = 0;
   std::vector<Eigen::Vector3d> line_W;  ///< >= 2 points, m, from one end to the other
@@ -15,8 +15,7 @@ struct PlantRow {
   double canopy_top_m = 2.0;
 };
 
-/// The free strip between two neighbouring rows (or beside the first and last), with its centre
-/// line.
+/// Free strip between two neighbouring rows (or next to the first and last), with its centre line.
 struct Alley {
   int id = 0;
   std::vector<Eigen::Vector3d> line_W;  ///< >= 2 points, m

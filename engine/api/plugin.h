@@ -1,11 +1,12 @@
 #pragma once
-/// How a shared library brings parts of its own. In one source file of the plug-in:
+/// Entry points of a plug-in: a shared library with parts of its own. One source file of the
+/// plug-in contains
 ///
 ///   void register_parts(vinerow::Registry& registry) { registry.add_controller(spec, factory); }
 ///   VINEROW_PLUGIN(register_parts)
 ///
-/// The loader compares the ABI tag compiled into the plug-in (abi.h) with its own and refuses a
-/// difference in one sentence.
+/// The loader compares the ABI tag compiled into the plug-in (abi.h) with its own. If they differ
+/// it rejects the plug-in with one sentence.
 
 #include "engine/api/abi.h"
 #include "engine/api/registry.h"

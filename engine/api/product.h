@@ -1,5 +1,5 @@
 #pragma once
-/// What phases of a mission hand to each other: pictures, point clouds, maps, plans.
+/// Products that phases of a mission pass to each other: pictures, point clouds, maps, plans.
 
 #include <filesystem>
 #include <memory>
@@ -13,21 +13,21 @@
 
 namespace vinerow {
 
-/// Where a camera took its pictures, in the order in which they were taken.
+/// Camera poses of pictures, in the order in which they were taken.
 struct PictureSet {
   SurveyCamera camera;
   std::vector<Pose> X_WS;  ///< x of S along the optical axis, y to the picture's left
-  /// Where the vehicle's estimator told the camera to be at each of them; empty: nobody told.
-  std::vector<Eigen::Vector3d> told_W;
+  /// Camera position at each picture according to the vehicle's estimator; empty: no estimates.
+  std::vector<Eigen::Vector3d> estimated_W;
   std::string source;  ///< for people: "plane/camera"
 };
 
-/// One product. Of the fields those of its kind are filled.
+/// One product. Only the fields of its kind are set.
 struct Product {
   ProductKind kind = ProductKind::kMap;
   std::shared_ptr<const PictureSet> pictures;
-  /// Cloud: a LAS file, its truth beside it as STEM.truth.json. Map: its folder
-  /// (docs/guides/mapping.md), empty where it has none.
+  /// Cloud: a LAS file, with its truth next to it as STEM.truth.json. Map: its folder
+  /// (docs/guides/mapping.md), empty if it has no folder.
   std::filesystem::path file;
   std::shared_ptr<const RowMap> map;
   std::shared_ptr<const PlannedPath> plan;

@@ -1,5 +1,5 @@
 #pragma once
-/// Kinds of what phases of a mission hand to each other, and the keys by which jobs take them.
+/// Kinds of products that phases of a mission pass to each other, and the keys of a job's inputs.
 
 #include <string>
 
@@ -7,10 +7,10 @@ namespace vinerow {
 
 enum class ProductKind { kPictures, kCloud, kMap, kPlan };
 
-/// "pictures", "cloud", "map", "plan": how files spell it.
+/// "pictures", "cloud", "map", "plan": spelling in files.
 const char* to_string(ProductKind kind);
 
-/// A product that a job takes, by the key that names it.
+/// An input product of a job, by its key.
 struct ProductPort {
   std::string key;  ///< "cloud" in `cloud: from build_cloud`
   ProductKind kind = ProductKind::kMap;

@@ -1,6 +1,6 @@
 #pragma once
-/// The list of parts a scenario can name. Filled explicitly by register_*.cpp of each folder and by
-/// plug-ins.
+/// Registry of the parts that a scenario can name. register_*.cpp of each folder and plug-ins fill
+/// it explicitly.
 
 #include <functional>
 #include <map>
@@ -14,7 +14,7 @@
 
 namespace vinerow {
 
-/// The extension points, in the spelling of files and of `vinerow list`.
+/// Extension points, in the spelling of files and of `vinerow list`.
 enum class PartKind {
   kWorld,
   kVehicle,
@@ -53,7 +53,7 @@ class Registry {
   void add_controller(PartSpec spec, PartFactory<Controller, ControllerContext> make);
   void add_payload(PartSpec spec, PartFactory<Payload, PayloadContext> make);
   void add_metric(PartSpec spec, PartFactory<Metric, MetricContext> make);
-  /// @pre the spec tells what it gives
+  /// @pre spec.gives is set
   void add_job(PartSpec spec, PartFactory<Job, JobContext> make);
 
   /// Names of a kind, sorted.
@@ -61,7 +61,7 @@ class Registry {
   /// @throws ConfigError "unknown controller 'pure_persuit'; did you mean 'pure_pursuit'? (known:
   /// ...)"
   const PartSpec& spec(PartKind kind, const std::string& name) const;
-  /// Who brought a part: "built-in" or the plug-in's file.
+  /// Origin of a part: "built-in" or the plug-in's file.
   const std::string& origin(PartKind kind, const std::string& name) const;
 
   /// Build a part. Parameters must have passed ParameterSet's checks. @throws ConfigError
@@ -88,7 +88,7 @@ class Registry {
   std::unique_ptr<Job> make_job(const std::string& name, const ParameterSet&,
                                 const JobContext&) const;
 
-  /// Parts added from now on are said to come from here. Used by the plug-in loader.
+  /// Origin of the parts that are added from now on. Used by the plug-in loader.
   void set_origin(std::string origin) { current_origin_ = std::move(origin); }
 
  private:

@@ -1,6 +1,5 @@
 #pragma once
-/// Questions about the geometry of the world: rays, distances, ground. Asked by sensors, metrics
-/// and wheels.
+/// Geometry queries on the world: rays, distances, ground. Used by sensors, metrics and wheels.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -34,19 +33,19 @@ class SceneQuery {
  public:
   virtual ~SceneQuery() = default;
 
-  /// First hit along a ray. Vehicles are not seen. @param dir_W unit. No heap, thread safe.
+  /// First hit along a ray. Ignores vehicles. @param dir_W unit. No heap, thread safe.
   virtual std::optional<RayHit> cast_ray(const Eigen::Vector3d& p_W, const Eigen::Vector3d& dir_W,
                                          double max_distance_m,
                                          SurfaceMask mask = kAllSurfaces) const = 0;
 
-  /// Height of the highest ground at (x, y) at or below z_from. @returns nullopt where there is
-  /// none.
+  /// Height of the highest ground at (x, y) at or below z_from. @returns nullopt if there is no
+  /// ground
   virtual std::optional<double> ground_height_m(double x, double y, double z_from) const = 0;
 
   /// True distance from a box to the nearest mesh triangle of the masked classes; 0 if they
   /// overlap.
   /// @param half_extents_m  of the box, axes of X_WBox
-  /// @param max_distance_m  search radius; farther triangles are not looked for
+  /// @param max_distance_m  search radius; farther triangles are ignored
   /// @returns distance, or max_distance_m if nothing is nearer
   virtual double distance_to_box_m(const Pose& X_WBox, const Eigen::Vector3d& half_extents_m,
                                    double max_distance_m, SurfaceMask mask = kPlantMask) const = 0;

@@ -1,6 +1,6 @@
 #pragma once
-/// What pictures show around a world and nothing else knows of: neighbours' fields, tracks, trees.
-/// Nothing collides with them, no ray, map or metric meets them, and no log holds them.
+/// Surroundings of a world for pictures alone: neighbouring fields, tracks, trees. They do not
+/// collide, and rays, maps, metrics and logs do not contain them.
 
 #include <Eigen/Core>
 #include <vector>
@@ -9,8 +9,8 @@ namespace vinerow {
 
 /// A field between tracks: vines in straight rows, or none (meadow, stubble).
 struct SceneryField {
-  std::vector<Eigen::Vector2d> corners_W;  ///< convex, counter-clockwise
-  std::vector<Eigen::Vector2d> planted_W;  ///< likewise, inside: where rows begin and end
+  std::vector<Eigen::Vector2d> corners_W;              ///< convex, counter-clockwise
+  std::vector<Eigen::Vector2d> planted_W;              ///< likewise, inside: area with rows
   Eigen::Vector2d along_W = Eigen::Vector2d::UnitX();  ///< unit, direction of rows or furrows
   double pitch_m = 0.0;                                ///< between rows; 0: no rows
   double row_width_m = 0.55;

@@ -1,16 +1,16 @@
 #pragma once
-/// A part that wants to know the ground where it works: a guidance that lands.
+/// Interface of parts that need the ground of the work area: a guidance that lands.
 
 #include "engine/api/forward.h"
 
 namespace vinerow {
 
-/// What a Guidance is besides where it looks at the ground. It is told the ground that planners are
-/// told: that of the vehicle's map where the map has one, else the true one.
+/// Additional base class of a Guidance that queries the ground. It gets the same ground as
+/// planners: the ground of the vehicle's map, or the true ground if the map does not contain any.
 class SeesGround {
  public:
   virtual ~SeesGround() = default;
-  /// Once, before the first step. @param ground  outlives the part
+  /// Called once, before the first step. @param ground  outlives the part
   virtual void see_ground(const SceneQuery& ground) = 0;
 };
 

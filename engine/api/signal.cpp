@@ -52,7 +52,7 @@ void SignalBus::set_reader(SignalBase& signal, const std::string& reader) {
 void SignalBus::check_connected() const {
   for (const auto& signal : signals_) {
     if (!signal->writer().empty() || signal->first_reader().empty()) continue;
-    // Only names of the same vehicle can be meant, and only their last part can be mistyped.
+    // Suggest only names of the same vehicle, and compare only their last part.
     const std::size_t slash = signal->name().find('/') + 1;
     const std::string scope = signal->name().substr(0, slash);
     std::vector<std::string> written;

@@ -33,19 +33,19 @@ class SignalBase {
   Time stamp() const { return stamp_; }
   /// Number of writes so far; 0 = never written.
   std::uint64_t sequence() const { return sequence_; }
-  /// How many of them readers do not see any more (SignalBus::release()).
+  /// Number of writes that readers no longer see (SignalBus::release()).
   std::uint64_t forgotten() const { return forgotten_; }
   const std::string& writer() const { return writer_; }
   const std::string& first_reader() const { return first_reader_; }
-  /// Somebody reads it, or would if it were written.
+  /// True if the signal has a reader, also an optional one.
   bool is_read() const { return is_read_; }
 
   /// Adds name, time and value to the digest of the run.
   virtual void hash_into(Hasher& hasher) const = 0;
-  /// True if any field is NaN. Infinity is allowed: it says "nothing seen".
+  /// True if any field is NaN. Infinity is allowed: it means "nothing seen".
   virtual bool has_nan() const = 0;
-  /// Shows every field of the value by name, with unit, type and place: nothing is copied. Views
-  /// hold until the next write. No heap.
+  /// Passes every field of the value to the visitor: name, unit, type and address. Nothing is
+  /// copied. Views are valid until the next write. No heap.
   virtual void describe(FieldVisitor& visitor) const = 0;
 
  protected:
@@ -60,14 +60,14 @@ class SignalBase {
   bool is_read_ = false;
 };
 
-/// @tparam T  a message (field.h): one of ours, or one that a plug-in brings
+/// @tparam T  a message (field.h), built-in or from a plug-in
 template <class T>
 class Signal final : public SignalBase {
  public:
   explicit Signal(std::string name) : SignalBase(std::move(name), vinerow::message_type<T>()) {}
 
   const T& value() const { return value_; }
-  /// Writes in place: no allocation when vectors keep their size.
+  /// Writes in place: no allocation if vectors keep their size.
   void write(Time stamp, const T& value) {
     value_ = value;
     stamp_ = stamp;
@@ -85,7 +85,7 @@ class Signal final : public SignalBase {
   T value_{};
 };
 
-/// Whether a signal's message is T: the same name and the same layout.
+/// True if the signal's message is T: same name and same layout.
 template <class T>
 bool is_message(const SignalBase& signal) {
   const MessageType& type = message_type<T>();
@@ -93,7 +93,7 @@ bool is_message(const SignalBase& signal) {
          signal.message_type().layout == type.layout;
 }
 
-/// A part's end of a signal it reads. Cheap to copy; valid as long as the bus.
+/// Handle with which a part reads a signal. Cheap to copy; valid as long as the bus.
 template <class T>
 class SignalReader {
  public:
@@ -106,11 +106,11 @@ class SignalReader {
     return signal_->value();
   }
   Time stamp() const { return signal_->stamp(); }
-  /// Number of writes by the present writer.
+  /// Number of writes by the current writer.
   std::uint64_t sequence() const {
     return signal_ ? signal_->sequence() - signal_->forgotten() : 0;
   }
-  /// True once per write when called regularly: "is there something newer than I saw?"
+  /// True once per write if called regularly: whether there is a write newer than `seen`.
   bool is_newer_than(std::uint64_t& seen) const {
     if (sequence() == seen) return false;
     seen = sequence();
@@ -121,7 +121,7 @@ class SignalReader {
   const Signal<T>* signal_ = nullptr;
 };
 
-/// A part's end of the signal it writes.
+/// Handle with which a part writes a signal.
 template <class T>
 class SignalWriter {
  public:
@@ -148,21 +148,21 @@ class SignalBus {
   template <class T>
   SignalReader<T> subscribe(const std::string& name, const std::string& reader);
 
-  /// Like subscribe, but it is no error if nobody writes the signal: the reader never has a value then.
+  /// Like subscribe, but a signal without a writer is no error: the reader then never has a value.
   template <class T>
   SignalReader<T> subscribe_optional(const std::string& name, const std::string& reader);
 
-  /// @throws ConfigError "rover.controller reads 'rover/estimat' which nobody writes; did you mean
-  /// ...?"
+  /// @throws ConfigError "rover.controller reads signal 'rover/estimat', which nobody writes; did
+  /// you mean ...?"
   void check_connected() const;
 
-  /// Lets others write what the parts below `part` ("rover": "rover.controller", "rover.sensors.gps")
-  /// have written so far. Readers see nothing until they do.
+  /// Releases the signals written so far by the parts below `part` ("rover": "rover.controller",
+  /// "rover.sensors.gps"), so that other parts can write them. Until they do, readers see no value.
   void release(std::string_view part);
 
-  /// In order of creation, which is the same in every run.
+  /// Signals in order of creation, which is the same in every run.
   const std::vector<std::unique_ptr<SignalBase>>& signals() const { return signals_; }
-  /// @returns nullptr if there is none
+  /// @returns nullptr if there is no such signal
   SignalBase* find(std::string_view name) const;
 
  private:
@@ -202,14 +202,14 @@ SignalReader<T> SignalBus::subscribe_optional(const std::string& name, const std
   return SignalReader<T>(static_cast<const Signal<T>*>(&signal));
 }
 
-/// The bus as one part sees it: local names inside its vehicle, e.g. "estimate" ->
+/// View of the bus for one part: local names inside its vehicle, e.g. "estimate" ->
 /// "rover/estimate".
 class Ports {
  public:
   /// @param scope  vehicle name, or "run"
-  /// @param part   who connects, for errors, e.g. "rover.controller"
-  /// @param written_as  local names that are written under another one, for a part that runs beside
-  ///   the one whose signals those are
+  /// @param part   part that connects, for errors, e.g. "rover.controller"
+  /// @param written_as  local names that are written under another name, for a part that runs next
+  /// to the owner of those signals
   Ports(SignalBus& bus, std::string scope, std::string part,
         std::map<std::string, std::string> written_as = {})
       : bus_(bus),
@@ -217,12 +217,12 @@ class Ports {
         part_(std::move(part)),
         written_as_(std::move(written_as)) {}
 
-  /// @param name  local name; a name with '/' is taken as it is
+  /// @param name  local name; a name with '/' is used unchanged
   template <class T>
   SignalReader<T> read(const std::string& name) {
     return bus_.subscribe<T>(full_name(name), part_);
   }
-  /// For what a part can do without, e.g. a metric that judges plans where there are any.
+  /// For optional signals, e.g. of a metric that judges plans if there are any.
   template <class T>
   SignalReader<T> read_optional(const std::string& name) {
     return bus_.subscribe_optional<T>(full_name(name), part_);

@@ -1,11 +1,12 @@
 #pragma once
-/// The ground as wheels feel it.
+/// Soil model of wheels.
 
 #include <string>
 
 namespace vinerow {
 
-/// What a wheel feels. Sources of the built-in soils: vehicles/parts/README.md.
+/// Friction and stiffness of wheels on a soil. Sources of the built-in soils:
+/// vehicles/parts/README.md.
 struct Soil {
   std::string name = "dry_grass";
   double peak_friction = 0.75;                ///< largest force / load

@@ -1,14 +1,14 @@
 #pragma once
-/// The extension points that run between physics steps. A class sees signals only, so the same
-/// object runs in a simulation and in a unit test.
+/// Extension points that run between physics steps. A part sees only signals, so the same object
+/// runs in a simulation and in a unit test.
 ///
-/// Order inside an instant: sensors, estimators, planners and guidance, controllers, actuators,
+/// Order within an instant: sensors, estimators, planners and guidance, controllers, actuators,
 /// physics, metrics. Local signal names (see Ports): "truth" (kernel), "<sensor name>" (sensors),
 /// "estimate" (estimator), "plan" and "plan_tree" (planner), "local_command" (guidance), "command"
 /// VelocityCommand or "actuators" NamedValues (controller), "follower" (controller), "reference"
-/// (guidance of flying vehicles: ReferenceTrajectory of rotorcraft, AirReference of what has
-/// wings). A part tells people what happened by writing an Event of its own, "<part>_event"; the
-/// kernel passes it on to "run/events".
+/// (guidance of flying vehicles: ReferenceTrajectory of rotorcraft, AirReference of winged
+/// vehicles). To report what happened, a part writes an Event to its own "<part>_event"; the kernel
+/// forwards it to "run/events".
 
 #include <map>
 #include <memory>
@@ -26,29 +26,30 @@
 
 namespace vinerow {
 
-/// Measures. Reads "truth" and the scene, writes its own name.
+/// Sensor. Reads "truth" and the scene, writes the signal of its own name.
 ///
-/// A sensor with a delay measures in step() and hands the reading over in deliver(), which the
-/// kernel calls `delay()` later, once per step() and in the same order. The signal's stamp is the
-/// time of the measurement.
+/// A sensor with a delay measures in step() and delivers the reading in deliver(), which the kernel
+/// calls `delay()` later, once per step() and in the same order. The signal's stamp is the time of
+/// the measurement.
 class Sensor : public SteppedPart {
  public:
   /// Time between measurement and delivery, a multiple of the physics step; constant.
   virtual Duration delay() const { return {}; }
-  /// Only called where delay() > 0.
+  /// Only called if delay() > 0.
   virtual void deliver(Time /*now*/) {}
-  /// Where it sits and looks (x of S), if that means anything.
+  /// Mounting pose (x of S is the viewing direction); nullopt if it has no meaning for the sensor.
   virtual std::optional<Pose> mounting_X_BS() const { return std::nullopt; }
 };
 
-/// A sensor as guidance and controllers are told of it: a data sheet, not a truth.
+/// Mounting of a sensor as estimators, guidance and controllers know it: from a data sheet, not
+/// from the truth.
 struct SensorMounting {
   std::string name;  ///< of the sensor and its signal
   std::string type;
   Pose X_BS;
 };
 
-/// What a sensor needs beside PartContext.
+/// Context of a sensor.
 struct SensorContext : PartContext {
   std::string name;  ///< of the sensor, and of the signal it writes
   const SceneQuery* scene = nullptr;
@@ -56,8 +57,8 @@ struct SensorContext : PartContext {
   const Vehicle* vehicle_truth = nullptr;  ///< for inertial sensors
 };
 
-/// Reads sensors, writes "estimate" (Odometry). A vehicle acts on one; others may run beside it as
-/// observers (observer.h).
+/// Estimator. Reads sensors, writes "estimate" (Odometry). A vehicle acts on one; others may run
+/// next to it as observers (observer.h).
 class Estimator : public SteppedPart {};
 
 struct EstimatorContext : PartContext {
@@ -67,29 +68,29 @@ struct EstimatorContext : PartContext {
   GeoOrigin origin;                     ///< of W
 };
 
-/// What the maker of a vehicle's map needs. A map is plain data (RowMap): the vehicle's planner,
-/// guidance, estimator and controller know the world by it alone.
+/// Context of a map part. A map is plain data (RowMap): it is all that the vehicle's planner,
+/// guidance, estimator and controller know about the world.
 struct MapContext : PartContext {
-  const WorldModel* world = nullptr;  ///< the truth, which is surveyed
+  const WorldModel* world = nullptr;  ///< the truth, from which the map is surveyed
   const SceneQuery* scene = nullptr;
 };
 
-/// What a planner tells about its work beside the path.
+/// Report of a planner about its work, in addition to the path.
 struct PlanReport {
-  /// "nodes", "iterations", "length_m", "clearance_m" and what else it counts; goes into
-  /// summary.json.
+  /// "nodes", "iterations", "length_m", "clearance_m" and other counts; written to summary.json.
   std::map<std::string, double> numbers;
-  LineList tree;  ///< what was searched, on the ground; may be empty
+  LineList tree;  ///< search tree on the ground; may be empty
 };
 
-/// Makes a path from a map when its mission phase starts. Stops on iterations, never on seconds.
+/// Planner. Makes a path from a map when its mission phase starts. Limit iterations, never wall
+/// time: results must not depend on the machine.
 class Planner {
  public:
   virtual ~Planner() = default;
   /// @param start  pose of the vehicle (from its estimate)
-  /// @returns the path, or the reason why there is none
+  /// @returns the path, or the reason for the failure
   virtual Result<PlannedPath> plan(const Pose& start) = 0;
-  /// About the last plan(), also a failed one. @returns nullptr if it keeps no report
+  /// Report on the last plan(), also if it failed. @returns nullptr if the planner keeps no report
   virtual const PlanReport* report() const { return nullptr; }
 };
 
@@ -101,14 +102,15 @@ struct PlannerContext : PartContext {
   GeoOrigin origin;  ///< of W, for files in latitude and longitude
 };
 
-/// Local planning: reads "estimate" and "plan", writes "reference" signals that a controller reads.
+/// Guidance (local planning). Reads "estimate" and "plan", writes "reference" signals for a
+/// controller.
 class Guidance : public SteppedPart {};
 
-/// Reads "estimate" and "plan" (or guidance's signals), writes "actuators" (NamedValues) and
-/// "follower".
+/// Controller. Reads "estimate" and "plan" (or guidance's signals), writes "actuators"
+/// (NamedValues) and "follower".
 class Controller : public SteppedPart {
  public:
-  /// True when there is nothing left to do; the kernel ends the mission of the vehicle.
+  /// True when the task is complete; the kernel then ends the vehicle's mission.
   virtual bool finished() const { return false; }
 };
 
@@ -118,11 +120,11 @@ struct ControllerContext : PartContext {
   std::vector<SensorMounting> sensors;  ///< those with a mounting, in the file's order
 };
 
-/// Judges a run. Reads signals (truth and plan), never writes any.
+/// Metric. Judges a run. Reads signals (truth and plan), never writes any.
 class Metric : public SteppedPart {
  public:
-  /// Called once after the last step. Names carry units: "cross_track_rms_m". Values may be NaN =
-  /// "not measured".
+  /// Called once after the last step. Names carry units: "cross_track_rms_m". NaN means "not
+  /// measured".
   virtual std::map<std::string, double> results() const = 0;
 };
 
@@ -130,12 +132,12 @@ struct MetricContext : PartContext {
   const VehicleDescription* vehicle_description = nullptr;
   const SceneQuery* scene = nullptr;
   const WorldModel* world = nullptr;
-  const Vehicle* vehicle_truth = nullptr;  ///< for what no signal tells: crash()
-  /// Names of the vehicle's observers; observer_signals() tells what each one writes.
+  const Vehicle* vehicle_truth = nullptr;  ///< for facts that no signal holds: crash()
+  /// Names of the vehicle's observers; observer_signals() gives the signals of each.
   std::vector<std::string> observers;
 };
 
-/// Builds the true world. Everything is decided here; a WorldModel does not change afterwards.
+/// Context of a World part, which builds the true world. The WorldModel does not change afterwards.
 struct WorldContext : PartContext {};
 
 }  // namespace vinerow

@@ -1,5 +1,5 @@
 #pragma once
-/// What surfaces are and how they look.
+/// Surface classes and materials.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -7,22 +7,22 @@
 
 namespace vinerow {
 
-/// What a surface is; decides how it looks, whether a sensor sees it, and what a contact with it
-/// means.
+/// Class of a surface. It decides how the surface looks, whether sensors see it, and the meaning of
+/// a contact.
 enum class SurfaceClass : std::uint8_t {
   kTerrain,   ///< ground: wheels roll on it
   kCanopy,    ///< leaves and shoots: counted as contact, does not push (foliage gives way)
   kPost,      ///< posts and end assemblies: rigid
   kTrunk,     ///< vine or tree stems: rigid
-  kWire,      ///< trellis wires: rigid, known to distances, missed by rays
+  kWire,      ///< trellis wires: rigid, included in distances, ignored by rays
   kObstacle,  ///< anything else that is rigid
   kVehicle,
 };
 
-/// "post": for events and errors.
+/// Name for events and errors: "post".
 const char* to_string(SurfaceClass surface);
 
-/// How to draw a surface.
+/// Appearance of a surface.
 struct Material {
   std::string name;
   Eigen::Vector3f colour = {0.7f, 0.7f, 0.7f};  ///< linear RGB

@@ -7,11 +7,11 @@
 namespace vinerow {
 namespace {
 
-/// Data sheets. MicaSense RedEdge: 5.4 mm, 4.8 x 3.6 mm, 1280 x 960, a capture a second (paper A,
-/// section 2; RedEdge-M user manual, 2017, gives the same). rededge_5p5: the focal length behind
-/// the paper's 102 mm (5.5 mm: RedEdge 3). Sony DSC-RX100: 8.8 mm at the wide end, sensor 13.2 x
-/// 8.8 mm, 5472 x 3648 (Sony's specifications of the DSC-RX100, 2012); one picture a second is
-/// what an intervalometer triggers it at.
+/// Data sheets. MicaSense RedEdge: 5.4 mm, 4.8 x 3.6 mm, 1280 x 960, one capture per second (paper
+/// A, section 2; the RedEdge-M user manual, 2017, has the same). rededge_5p5: the focal length that
+/// gives the paper's 102 mm (5.5 mm: RedEdge 3). Sony DSC-RX100: 8.8 mm at the wide end, sensor
+/// 13.2 x 8.8 mm, 5472 x 3648 (Sony's specifications of the DSC-RX100, 2012); one picture per
+/// second is the rate of an intervalometer.
 SurveyCamera make_preset(const std::string& name) {
   SurveyCamera camera;
   camera.name = name;
@@ -61,24 +61,24 @@ double SurveyCamera::half_angle_along_rad() const {
 }
 
 const ParameterTable<SurveyCameraParams>& survey_camera_table() {
-  constexpr double kMostPixels = 100000.0;
+  constexpr double kMaxPixels = 100000.0;
   using P = SurveyCameraParams;
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .text("camera", &P::camera,
-                "camera that looks straight down, the longer side of its picture across the "
-                "track; the numbers below replace its own")
+                "camera that looks straight down, with the longer side of its picture across the "
+                "track; the keys below replace its data")
           .one_of({"rededge", "rededge_5p5", "rx100"})
           .number("focal_length_mm", "mm", &P::focal_length_mm, between(0.1, 10'000.0), "focal length")
           .number("sensor_width_mm", "mm", &P::sensor_width_mm, between(0.1, 1'000.0),
-                  "sensor, across the track")
+                  "sensor size across the track")
           .number("sensor_height_mm", "mm", &P::sensor_height_mm, between(0.1, 1'000.0),
-                  "sensor, along the track")
-          .integer("image_columns", &P::columns, between(1.0, kMostPixels),
+                  "sensor size along the track")
+          .integer("image_columns", &P::columns, between(1.0, kMaxPixels),
                    "pixels of a picture across the track")
-          .integer("image_rows", &P::rows, between(1.0, kMostPixels),
+          .integer("image_rows", &P::rows, between(1.0, kMaxPixels),
                    "pixels of a picture along the track")
-          .number("max_rate_Hz", "Hz", &P::max_rate_Hz, between(1e-3, 1e3), "pictures per second at most");
+          .number("max_rate_Hz", "Hz", &P::max_rate_Hz, between(1e-3, 1e3), "maximum picture rate");
   return table;
 }
 
@@ -90,7 +90,7 @@ SurveyCamera SurveyCameraParams::resolve() const {
   made.columns = columns.value_or(made.columns);
   made.rows = rows.value_or(made.rows);
   made.max_rate_Hz = max_rate_Hz.value_or(made.max_rate_Hz);
-  // With other optics it is no longer the camera of that name.
+  // With other optics it is no longer the named camera.
   if (focal_length_mm || sensor_width_mm || sensor_height_mm || columns || rows) {
     made.name = "own";
   }

@@ -1,13 +1,13 @@
 #pragma once
-/// A camera that looks down from an aircraft: ground sampling distance, footprint, and how far
-/// apart pictures and lanes may be. Shared by the survey planner, the camera trigger and metrics.
+/// Nadir camera of an aircraft: ground sampling distance, footprint, and the spacing of pictures
+/// and lanes. Shared by the survey planner, the camera trigger and metrics.
 ///
-/// Over flat ground, looking straight down from h above it, with focal length f, sensor width w
+/// Over flat ground, looking straight down from height h, with focal length f, sensor width w
 /// (across the track) and height l (along it), both in the same unit as f:
 ///   GSD = w / columns h / f        footprint = h / f (w across, l along)
-/// Overlap q ahead at speed V over ground and rate r: V / r <= (1 - q) h l / f; side overlap p:
-/// lanes at most (1 - p) h w / f apart. Paper A, section 2; corrected numbers in its reference:
-/// 104.2 mm at 150 m with f = 5.4 mm (the paper's 102 mm is f = 5.5 mm).
+/// Forward overlap q at speed V over ground and rate r: V / r <= (1 - q) h l / f. Side overlap p:
+/// lanes at most (1 - p) h w / f apart. Paper A, section 2; its GSD of 102 mm at 150 m corresponds
+/// to f = 5.5 mm, while f = 5.4 mm gives 104.2 mm.
 
 #include <optional>
 #include <string>
@@ -25,24 +25,24 @@ struct SurveyCamera {
   double sensor_height_mm = 3.6;  ///< along the track
   int columns = 1280;
   int rows = 960;
-  double max_rate_Hz = 1.0;  ///< pictures per second at most
+  double max_rate_Hz = 1.0;  ///< maximum picture rate
 
-  /// m per pixel, across the track, straight down from `height_m` above flat ground.
+  /// m per pixel across the track, looking straight down from `height_m` above flat ground.
   double gsd_m(double height_m) const;
   double footprint_width_m(double height_m) const;
   double footprint_length_m(double height_m) const;
-  /// Height that gives a ground sampling distance.
+  /// Height above ground for a ground sampling distance.
   double height_for_gsd_m(double gsd_m) const;
-  /// Of consecutive pictures `step_m` apart; may be negative.
+  /// Share of consecutive pictures `step_m` apart; may be negative.
   double forward_overlap(double height_m, double step_m) const;
-  /// Of neighbouring lanes `spacing_m` apart; may be negative.
+  /// Share of neighbouring lanes `spacing_m` apart; may be negative.
   double side_overlap(double height_m, double spacing_m) const;
-  /// Half of the angle of view across the track, rad.
+  /// Half of the field of view across the track, rad.
   double half_angle_across_rad() const;
   double half_angle_along_rad() const;
 };
 
-/// A camera by name, and what of it is replaced.
+/// A camera by name, with overrides.
 struct SurveyCameraParams {
   std::string camera = "rededge";
   std::optional<double> focal_length_mm;
@@ -55,10 +55,10 @@ struct SurveyCameraParams {
   SurveyCamera resolve() const;
 };
 
-/// `camera` (rededge | rededge_5p5 | rx100) and what overrides it: focal_length_mm,
-/// sensor_width_mm, sensor_height_mm, image_columns, image_rows, max_rate_Hz.
+/// `camera` (rededge | rededge_5p5 | rx100) and its overrides: focal_length_mm, sensor_width_mm,
+/// sensor_height_mm, image_columns, image_rows, max_rate_Hz.
 const ParameterTable<SurveyCameraParams>& survey_camera_table();
-/// The specs of that table, and a camera of its parameters.
+/// Specs of that table, and a camera built from its parameters.
 std::vector<ParameterSpec> survey_camera_parameters();
 SurveyCamera read_survey_camera(const ParameterSet& parameters);
 

@@ -11,7 +11,7 @@
 namespace vinerow {
 namespace {
 
-/// Lengths that are the same but for rounding.
+/// Lengths that differ by less are equal but for rounding.
 constexpr double kSame_m = 1e-9;
 
 /// Keeps the first fault.
@@ -42,7 +42,7 @@ class Check {
     demand(std::isfinite(value) && value >= 0.0,
            fmt::format("{} = {:g}, must be >= 0", name, value));
   }
-  /// Of a limit that would be no angle of flight or steering at 90 deg.
+  /// For angle limits that are meaningless from 90 deg on.
   void acute(const std::string& name, double value_rad) {
     demand(value_rad > 0.0 && value_rad < 0.5 * kPi,
            fmt::format("{} = {:g}, must be > 0 and < pi/2", name, value_rad));
@@ -50,7 +50,7 @@ class Check {
   void has_actuator(const std::string& record, const std::string& name) {
     const auto& all = vehicle_.actuators;
     demand(std::any_of(all.begin(), all.end(), [&](const auto& one) { return one.name == name; }),
-           fmt::format("{} is told, but there is no actuator '{}'", record, name));
+           fmt::format("{} is given, but there is no actuator '{}'", record, name));
   }
 
   void check_common() {
@@ -80,17 +80,17 @@ class Check {
              fmt::format("two actuators are called '{}'", actuator.name));
       demand(std::isfinite(actuator.min) && std::isfinite(actuator.max) &&
                  actuator.min < actuator.max,
-             fmt::format("actuator '{}' goes from {:g} to {:g}", actuator.name, actuator.min,
-                         actuator.max));
+             fmt::format("actuator '{}' has min = {:g}, must be finite and < max = {:g}",
+                         actuator.name, actuator.min, actuator.max));
     }
   }
 
   void check_kinds() {
     demand(vehicle_.wheeled || vehicle_.flies(),
-           "none of wheeled, rotorcraft and fixed_wing is told");
-    demand(!vehicle_.steered || vehicle_.wheeled, "steered is told without wheeled");
-    demand(!vehicle_.ackermann || vehicle_.wheeled, "ackermann is told without wheeled");
-    demand(!vehicle_.ackermann || !vehicle_.steered, "ackermann and steered are both told");
+           "none of wheeled, rotorcraft and fixed_wing is given");
+    demand(!vehicle_.steered || vehicle_.wheeled, "steered is given without wheeled");
+    demand(!vehicle_.ackermann || vehicle_.wheeled, "ackermann is given without wheeled");
+    demand(!vehicle_.ackermann || !vehicle_.steered, "ackermann and steered are both given");
   }
 
   void check_wheeled(const WheeledVehicle& wheeled) {
@@ -107,8 +107,8 @@ class Check {
     }
     const Eigen::Vector2d size_m = most - least;
     demand(size_m.x() >= wheeled.wheel_base_m - kSame_m && size_m.y() >= wheeled.track_m - kSame_m,
-           fmt::format("the outline of {:g} x {:g} m does not hold the wheels, {:g} m apart along "
-                       "and {:g} m across",
+           fmt::format("the outline of {:g} x {:g} m does not contain the wheels, {:g} m apart "
+                       "along and {:g} m across",
                        size_m.x(), size_m.y(), wheeled.wheel_base_m, wheeled.track_m));
     const double clearance_m = vehicle_.height_above_ground_m + vehicle_.collision_centre_B.z() -
                                vehicle_.collision_half_extents_m.z();

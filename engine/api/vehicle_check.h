@@ -1,6 +1,6 @@
 #pragma once
-/// Whether a vehicle's description is complete and consistent. The kernel does not ask: a test of a
-/// vehicle does, as tests/vehicles/conformance_test.cpp does of every registered one.
+/// Consistency check of a vehicle's description. The kernel does not call it; tests of vehicles do,
+/// such as tests/vehicles/conformance_test.cpp for every registered vehicle.
 
 #include <optional>
 #include <string>
@@ -9,11 +9,12 @@
 
 namespace vinerow {
 
-/// Looks at what every vehicle tells and at each record that it fills: numbers finite and of the
-/// right sign, actuators of the names that go with the record, an outline that holds the wheels, a
-/// collision box clear of level ground, rotors within the circle of their tips, a cruise above the
-/// stall.
-/// @returns the first fault as a sentence, "wheeled.track_m = -1, must be > 0"; nullopt: none
+/// Checks the fields that every vehicle has and each record that it fills: finite numbers of the
+/// right sign, actuator names that match the record, an outline that contains the wheels, a
+/// collision box clear of level ground, rotors within the circle of their tips, a cruise speed
+/// above the stall speed.
+/// @returns the first fault as a sentence, "wheeled.track_m = -1, must be > 0"; nullopt if there is
+/// none
 std::optional<std::string> find_fault(const VehicleDescription& vehicle);
 
 }  // namespace vinerow

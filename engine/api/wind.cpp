@@ -9,7 +9,7 @@
 namespace vinerow {
 namespace {
 
-constexpr double kStorm_mps = 100.0;  // beyond any wind on record at 10 m but a tornado's
+constexpr double kStorm_mps = 100.0;  // above any recorded wind at 10 m, except in tornadoes
 
 const ParameterTable<WindGust>& gust_table() {
   using P = WindGust;
@@ -22,18 +22,19 @@ const ParameterTable<WindGust>& gust_table() {
                   "horizontal, in the middle of the pulse")
           .required()
           .degrees("from_deg", &P::from_azimuth_rad, between(-360.0, 360.0),
-                   "where it comes from, clockwise from north; default: as the wind")
+                   "direction it comes from, clockwise from north; default: that of the wind")
           .number("vertical_mps", "m/s", &P::vertical_mps, between(-kStorm_mps, kStorm_mps),
-                  "upward part, in the middle of the pulse")
+                  "upward component, in the middle of the pulse")
           .number("front_speed_mps", "m/s", &P::front_speed_mps, between(0.0, kStorm_mps),
-                  "of a front that is at the world's origin at at_s; 0: everywhere at once");
+                  "speed of a front that is at the world's origin at at_s; 0: everywhere at "
+                  "once");
   return table;
 }
 
 std::string judge_gusts(const GustStatistics& gusts) {
   if (gusts.interval_s > gusts.duration_s) return "";
   return fmt::format(
-      "interval_s = {} s, must be > duration_s = {} s, for random gusts do not overlap",
+      "interval_s = {} s, must be > duration_s = {} s, because random gusts do not overlap",
       gusts.interval_s, gusts.duration_s);
 }
 
@@ -42,10 +43,10 @@ const ParameterTable<GustStatistics>& random_gust_table() {
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .number("interval_s", "s", &P::interval_s, kPositive,
-                  "mean time from gust to gust, more than duration_s")
+                  "mean time between starts of gusts, more than duration_s")
           .required()
           .number("amplitude_mps", "m/s", &P::amplitude_mps, between(0.0, kStorm_mps),
-                  "horizontal, in the middle of the pulse; from any side")
+                  "horizontal, in the middle of the pulse; from a random direction")
           .number("duration_s", "s", &P::duration_s, kPositive, "from calm to calm")
           .rule(judge_gusts);
   return table;
@@ -67,27 +68,28 @@ const ParameterTable<Wind>& wind_table() {
           .number("mean_speed_mps", "m/s", &P::mean_speed_mps, between(0.0, kStorm_mps),
                   "mean wind at reference_height_m above the ground")
           .degrees("from_deg", &P::from_azimuth_rad, between(-360.0, 360.0),
-                   "where the wind comes from, clockwise from north")
+                   "direction the wind comes from, clockwise from north")
           .number("reference_height_m", "m", &P::reference_height_m, kPositive,
-                  "above the ground, of mean_speed_mps")
+                  "height above the ground of mean_speed_mps")
           .choice("height_law", &P::height_law,
                   {{"uniform", WindHeightLaw::kUniform},
                    {"logarithmic", WindHeightLaw::kLogarithmic},
                    {"power", WindHeightLaw::kPower},
                    {"linear", WindHeightLaw::kLinear}},
-                  "how the mean wind grows with height")
+                  "height law of the mean wind")
           .number("roughness_length_m", "m", &P::roughness_length_m, kPositive,
-                  "of the logarithmic law, below reference_height_m: 0.03 grass, 0.1 low "
+                  "logarithmic law, less than reference_height_m: 0.03 grass, 0.1 low "
                   "crops, 0.25 high crops (Wieringa 1992)")
-          .number("power_exponent", "", &P::power_exponent, between(0.0, 1.0), "of the power law")
+          .number("power_exponent", "", &P::power_exponent, between(0.0, 1.0),
+                  "exponent of the power law")
           .number("ground_speed_mps", "m/s", &P::ground_speed_mps, between(-kStorm_mps, kStorm_mps),
-                  "of the linear law: wind at the ground; < 0 blows the other way")
+                  "linear law: wind at the ground; < 0: opposite direction")
           .number("turbulence", "", &P::turbulence, between(0.0, 10.0),
                   "factor on the Dryden turbulence of MIL-F-8785C, low altitude; 0: none")
           .number("turbulence_wind_mps", "m/s", &P::turbulence_wind_mps, between(0.0, kStorm_mps),
-                  "wind at 20 ft that sets the turbulence; default: the mean wind there")
+                  "wind at 20 ft that scales the turbulence; default: the mean wind at that height")
           .number("turbulence_limit_mps", "m/s", &P::turbulence_limit_mps, between(0.0, kStorm_mps),
-                  "largest length of the turbulence's vector; 0: no limit")
+                  "maximum length of the turbulence vector; 0: no limit")
           .groups("gusts", &P::gusts, gust_table(), "1-cosine pulses at given times")
           .group("random_gusts", &P::random_gusts, random_gust_table(),
                  "1-cosine pulses at random times, the same for all vehicles")
@@ -96,10 +98,10 @@ const ParameterTable<Wind>& wind_table() {
                   "none, 1.2: vines of leaf area index 2 (Goudriaan 1977)")
           .choice("atmosphere", &P::atmosphere,
                   {{"constant", Atmosphere::kConstant}, {"us76", Atmosphere::kStandard76}},
-                  "density everywhere alike, or US Standard Atmosphere 1976")
+                  "uniform density, or US Standard Atmosphere 1976")
           .number("air_density_kgm3", "kg/m3", &P::air_density_kgm3, kPositive,
-                  "of a constant atmosphere; default: the standard's at the altitude of the "
-                  "world's origin, 1.225 at sea level")
+                  "density of a constant atmosphere; default: that of the standard at the altitude "
+                  "of the world's origin, 1.225 at sea level")
           .rule(judge_roughness);
   return table;
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// The truth about a world, as plain data: terrain, meshes, rows, soil. Built once by a World part,
-/// then constant.
+/// True world, as plain data: terrain, meshes, rows, soil. A World part builds it once; then it is
+/// constant.
 
 #include <Eigen/Core>
 #include <optional>
@@ -18,14 +18,14 @@
 
 namespace vinerow {
 
-/// A place to start from.
+/// Start position of a vehicle.
 struct SpawnPoint {
   std::string name;
   Eigen::Vector2d p_W = {0, 0};
   double yaw_rad = 0.0;
 };
 
-/// The look of sky and light.
+/// Sun position, for pictures.
 struct Daylight {
   double sun_azimuth_rad = 2.6;  ///< from north, clockwise
   double sun_elevation_rad = 0.75;
@@ -34,19 +34,18 @@ struct Daylight {
 struct WorldModel {
   std::string name;
   GeoOrigin origin;
-  std::optional<HeightField> terrain;  ///< absent where the ground is a mesh of class kTerrain
+  std::optional<HeightField> terrain;  ///< absent if the ground is a mesh of class kTerrain
   std::vector<MeshInstance> meshes;
-  Indirect<RowMap> rows;  ///< true rows and alleys; whoever looks into them includes map.h
+  Indirect<RowMap> rows;  ///< true rows and alleys; include map.h to access them
   Soil soil;
   std::vector<SpawnPoint> spawn_points;
   Daylight daylight;
   Wind wind;
-  Scenery scenery;  ///< for pictures alone
-  std::vector<std::string>
-      notes;  ///< what the loader wants the user to know (missing textures, ...)
-  /// Another seed of the run makes another world. A world that says no here takes nothing from
-  /// WorldContext's seed but `wind.random_gusts->seed`, and a run that begins again with another
-  /// seed keeps it as it is.
+  Scenery scenery;                 ///< for pictures alone
+  std::vector<std::string> notes;  ///< messages of the loader to the user (missing textures, ...)
+  /// Whether another seed of the run makes another world. If false, the world uses WorldContext's
+  /// seed only as `wind.random_gusts->seed`, and a run that is reset with another seed keeps the
+  /// world.
   bool depends_on_seed = true;
 };
 

@@ -1,9 +1,9 @@
 #pragma once
-/// Checks of our own logic. A bad file or parameter is not a bug: throw ConfigError (error.h) for
-/// those.
+/// Checks of the program's own logic. A bad file or parameter is not a bug: throw ConfigError
+/// (error.h) for those.
 ///
 /// VINEROW_DEMAND is always on. VINEROW_ASSERT is for hot code: on in this project's presets, off
-/// where NDEBUG is defined.
+/// if NDEBUG is defined.
 
 namespace vinerow::internal {
 [[noreturn]] void check_failed(const char* condition, const char* file, int line);

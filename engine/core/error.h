@@ -1,5 +1,6 @@
 #pragma once
-/// The two kinds of failure a user can meet, each with its exit status (docs/contributing/architecture.md).
+/// Two exceptions for failures that a user can meet, each with its exit status
+/// (docs/contributing/architecture.md).
 
 #include <stdexcept>
 #include <string>
@@ -16,11 +17,11 @@ class ConfigError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The simulation broke off: a non-finite state or a plug-in failure. Exit status 3.
+/// The simulation stopped: a non-finite state or a plug-in failure. Exit status 3.
 class SimulationError : public std::runtime_error {
  public:
-  /// @param culprit  who, e.g. "rover.controller (pure_pursuit)"
-  /// @param what     what happened, without who and when
+  /// @param culprit  failing part, e.g. "rover.controller (pure_pursuit)"
+  /// @param what     what happened, without part and time
   SimulationError(std::string culprit, Time time, const std::string& what);
 
   const std::string& culprit() const { return culprit_; }

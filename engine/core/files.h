@@ -1,5 +1,5 @@
 #pragma once
-/// What readers of files share.
+/// Helpers for file readers.
 
 #include <filesystem>
 #include <optional>
@@ -7,10 +7,10 @@
 
 namespace vinerow {
 
-/// All bytes of a file. nullopt where it does not exist, is a folder or cannot be opened.
+/// All bytes of a file; nullopt if it does not exist, is a folder or cannot be opened.
 std::optional<std::string> read_bytes(const std::filesystem::path& file);
 
-/// ".obj" of "a/House.OBJ", "" where there is none.
+/// Lower-case extension: ".obj" of "a/House.OBJ", "" if there is no extension.
 std::string lower_extension(const std::filesystem::path& file);
 
 }  // namespace vinerow

@@ -1,5 +1,6 @@
 #pragma once
-/// 128-bit digest of everything a run produced (XXH3). Not for security: for "the same bits".
+/// 128-bit digest of everything a run produced (XXH3). It detects differences; it is not for
+/// security.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,17 +20,17 @@ class Hasher {
 
   void add_bytes(const void* data, std::size_t size);
 
-  /// Arithmetic values and enums by their bytes; -0.0 and 0.0 differ, as they do for the
+  /// Adds the bytes of arithmetic values and enums. -0.0 and 0.0 differ, as they do in the
   /// simulation.
   template <class T>
   requires std::is_arithmetic_v<T> || std::is_enum_v<T>
   void add(T value) { add_bytes(&value, sizeof value); }
 
-  /// Length and characters, so that ("ab","c") and ("a","bc") differ.
+  /// Adds length and characters, so that ("ab","c") and ("a","bc") differ.
   void add(std::string_view text);
 
-  /// Digest of what was added so far, 32 lower-case hexadecimal digits. The hasher can be fed
-  /// further.
+  /// Digest of everything added so far, 32 lower-case hexadecimal digits. More can be added
+  /// afterwards.
   std::string hex() const;
 
  private:

@@ -1,8 +1,8 @@
 #pragma once
-/// A value that a struct holds without its header knowing the type: on the heap, copied with the
-/// struct, const with it. Like std::indirect of C++26, but `T` may be incomplete where the struct is
-/// made and copied. The source that defines `T` includes indirect_definitions.h and instantiates
-/// `template class Indirect<T>`.
+/// Heap value in a struct whose header does not define the value's type. It is copied with the
+/// struct and const with it. Like std::indirect of C++26, but `T` may be incomplete where the
+/// struct is made and copied. The source that defines `T` includes indirect_definitions.h and
+/// instantiates `template class Indirect<T>`.
 
 namespace vinerow {
 
@@ -12,7 +12,7 @@ class Indirect {
   Indirect();
   explicit Indirect(T value);
   Indirect(const Indirect& other);
-  /// The other holds nothing afterwards and may only be assigned to or destroyed.
+  /// Afterwards `other` is empty and may only be assigned to or destroyed.
   Indirect(Indirect&& other) noexcept;
   Indirect& operator=(const Indirect& other);
   Indirect& operator=(Indirect&& other) noexcept;

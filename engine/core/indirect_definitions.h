@@ -1,5 +1,5 @@
 #pragma once
-/// Bodies of Indirect's members, for the one source that instantiates it for a type.
+/// Definitions of Indirect's members, for the one source that instantiates it for a type.
 
 #include <utility>
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Notes of the simulator itself. Never called from a normal step.
+/// Log notes of the simulator itself. Never called from a normal step.
 
 #include <functional>
 #include <string>
@@ -10,7 +10,7 @@ using LogSink = std::function<void(const std::string&)>;
 
 void log_note(const std::string& text);
 
-/// Replaces where the texts go (default: stderr) and returns the sink before.
+/// Replaces the sink of the texts (default: stderr) and returns the previous one.
 LogSink set_log_sink(LogSink sink);
 
 }  // namespace vinerow

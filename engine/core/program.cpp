@@ -22,7 +22,7 @@ extern char** environ;
 namespace vinerow {
 namespace {
 
-/// A file without a name, gone when it is closed.
+/// Unnamed file that is deleted when it is closed.
 using ScratchFile = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
 ScratchFile open_scratch_file() {
@@ -61,7 +61,7 @@ bool has_program(const char* name) {
 }
 
 ProgramOutput run_program(std::vector<std::string> words) {
-  // Files, not pipes: the program can write both as it likes without anyone reading along.
+  // Files, not pipes: the program can write to both in any order without a concurrent reader.
   const ScratchFile output = open_scratch_file(), complaints = open_scratch_file();
   int failed = output && complaints ? 0 : errno;
   ::pid_t process = -1;

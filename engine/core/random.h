@@ -2,9 +2,9 @@
 /// Counter-based random numbers: one independent stream per (run seed, vehicle, component).
 ///
 /// Source: Salmon, Moraes, Dror, Shaw, "Parallel random numbers: as easy as 1, 2, 3", SC'11, the
-/// Philox4x32-10 generator. A stream's key comes from the names alone, so adding a vehicle or a
-/// sensor changes no other's noise. Cost: no heap, 4 words of state; the position in the stream can
-/// be saved and restored.
+/// Philox4x32-10 generator. A stream depends only on the seed and its names, so an additional
+/// vehicle or sensor does not change the noise of the others. Cost: no heap, 4 words of state. A
+/// copy of a stream keeps its position.
 
 #include <array>
 #include <cstdint>

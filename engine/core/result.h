@@ -1,6 +1,6 @@
 #pragma once
-/// A value or the reason why there is none: for failures that are part of normal work (no path,
-/// infeasible QP).
+/// Result of an operation: a value, or a reason for its absence. For failures that are part of
+/// normal work (no path, infeasible QP).
 
 #include <optional>
 #include <string>

@@ -9,14 +9,14 @@
 namespace vinerow {
 namespace {
 
-/// The units that keys end in, and what users write in their place.
+/// Units at the end of keys, and what users write instead.
 constexpr std::array<std::string_view, 46> kUnits{
     "m",    "mm",  "cm",  "km",  "s",    "ms",   "ns",    "min", "h",  "rad", "deg", "mps",
     "mps2", "kmh", "kph", "mph", "kn",   "rpm",  "radps", "dps", "Hz", "kHz", "MHz", "N",
     "Nm",   "Pa",  "kPa", "bar", "kg",   "g",    "t",     "J",   "kJ", "Wh",  "W",   "kW",
     "V",    "A",   "Ah",  "dB",  "dBHz", "rtHz", "K",     "m2",  "m3", "ha"};
 
-/// "speed" of "speed_mps", of "speed_kmh" and of "speed_m_s"; a name without a unit as it is.
+/// "speed" for "speed_mps", "speed_kmh" and "speed_m_s"; a name without a unit is unchanged.
 std::string_view without_unit(std::string_view name) {
   while (true) {
     const std::size_t underscore = name.rfind('_');
@@ -51,7 +51,7 @@ int edit_distance(std::string_view a, std::string_view b) {
 std::string nearest_name(std::string_view wrong, std::span<const std::string> known) {
   std::string nearest;
   int best = -1;
-  // The same quantity in another unit, or without one, is what was meant, however long the unit.
+  // Prefer the same quantity in another unit, or without one, however long the unit is.
   for (const std::string& name : known) {
     if (without_unit(wrong) != without_unit(name)) continue;
     const int distance = edit_distance(wrong, name);

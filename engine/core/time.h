@@ -43,9 +43,8 @@ constexpr Duration operator*(Duration d, std::int64_t n) {
 Duration duration_from_s(double seconds);
 
 /// Period of a rate. @param rate_Hz finite, > 0.
-/// @returns the period rounded to the nearest nanosecond; a rate such as 30 Hz has no exact period
-/// and is
-///          refused by the scheduler because no physics step divides it.
+/// @returns the period rounded to the nearest nanosecond. A rate such as 30 Hz has no exact period;
+/// the scheduler rejects it because no physics step divides it.
 Duration period_of_rate(double rate_Hz);
 
 }  // namespace vinerow

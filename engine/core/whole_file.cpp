@@ -11,13 +11,13 @@
 namespace vinerow {
 namespace {
 
-/// Storing failed, the place is right.
+/// True for errors of storing, not of the place.
 bool is_storage_failure(int error_number) {
   return error_number == ENOSPC || error_number == EDQUOT || error_number == EFBIG ||
          error_number == EIO;
 }
 
-/// A pipe or device cannot be renamed over; a link is written through.
+/// A pipe or device cannot be replaced by rename; a link is written through.
 bool is_renamed_over(const std::filesystem::path& file) {
   std::error_code ignored;
   const auto status = std::filesystem::status(file, ignored);
@@ -40,7 +40,7 @@ std::string words_of_write_failure(int error_number) {
     case EDQUOT:
       return "the disk quota is used up";
     case EFBIG:
-      return "it would be larger than files may be here (ulimit -f)";
+      return "the file would exceed the size limit (ulimit -f)";
     case 0:
       return "writing failed";
     default:
@@ -85,7 +85,7 @@ void WholeFile::write(std::string_view bytes) {
 
 void WholeFile::finish() {
   errno = 0;
-  // An error of an earlier call stays set in the stream, its number does not.
+  // The stream keeps the error flag of an earlier call, but not its number.
   if (std::ferror(stream_.get()) != 0 || std::fflush(stream_.get()) != 0) fail(errno);
   if (std::fclose(stream_.release()) != 0) fail(errno);
   if (temporary_ == target_) return;

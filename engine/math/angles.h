@@ -1,5 +1,6 @@
 #pragma once
-/// Angles. Signs: yaw and steering are positive to the left (counter-clockwise seen from above).
+/// Angle conversion and wrapping. Yaw and steering are positive to the left (counter-clockwise seen
+/// from above).
 
 #include <cmath>
 #include <numbers>
@@ -15,7 +16,7 @@ constexpr double deg_from_rad(double angle_rad) {
   return angle_rad * (180.0 / kPi);
 }
 
-/// The same direction in (-pi, pi]. @param angle_rad finite
+/// Equivalent angle in (-pi, pi]. @param angle_rad finite
 inline double wrap_angle(double angle_rad) {
   const double wrapped = std::remainder(angle_rad, 2.0 * kPi);
   return wrapped <= -kPi ? kPi : wrapped;

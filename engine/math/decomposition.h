@@ -1,6 +1,6 @@
 #pragma once
-/// Decompositions of matrices that several libraries need. They are compiled here alone: each is
-/// seconds of templates wherever Eigen's own classes are used.
+/// Matrix decompositions that several libraries use. They are compiled only here, because Eigen's
+/// own classes cost seconds of template instantiation in every source that uses them.
 
 #include <Eigen/Core>
 
@@ -23,7 +23,8 @@ extern template SymmetricEigen<4> decompose_symmetric<4>(const Eigen::Matrix4d&)
 /// Eigenvalues of a square finite matrix, in no particular order; complex ones in adjacent pairs.
 Eigen::VectorXcd calc_eigenvalues(const Eigen::MatrixXd& A);
 
-/// The x of least norm among those of least |A x - b|, for A of any shape and rank.
+/// Minimum-norm least-squares solution: the x of smallest norm among those that minimise |A x - b|,
+/// for A of any shape and rank.
 Eigen::VectorXd solve_least_norm(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 
 }  // namespace vinerow

@@ -51,7 +51,7 @@ typename PolylineDistanceIn<kDimension>::Nearest PolylineDistanceIn<kDimension>:
 template <int kDimension>
 typename PolylineDistanceIn<kDimension>::Nearest PolylineDistanceIn<kDimension>::nearest(
     const Point& p, int hint_segment) const {
-  // A good first guess, then only those blocks whose box is nearer than the best so far.
+  // First guess near the hint, then only the blocks whose box is nearer than the best so far.
   Nearest best = nearest_within(p, hint_segment - kHintWindow, hint_segment + kHintWindow);
   for (int block = 0; block < static_cast<int>(blocks_.size()); ++block) {
     const double reach = best.distance_m;
@@ -66,9 +66,7 @@ template class PolylineDistanceIn<2>;
 template class PolylineDistanceIn<3>;
 
 void PeakCounter::add(double value) {
-  const auto is_step = [this](double change) {
-    return change > 0.0 && change >= least_prominence_;
-  };
+  const auto is_step = [this](double change) { return change > 0.0 && change >= min_prominence_; };
   if (!rising_) {
     low_ = std::min(low_, value);
     if (is_step(value - low_)) {

@@ -4,10 +4,10 @@
 /// Source: Martelli, Mocera, Soma, "Autonomous Driving Strategy for a Specialized Four-Wheel
 /// Differential-Drive Agricultural Rover", AgriEngineering 6(3), 2024, section 3: average
 /// trajectory deviation (ATD), oscillating factor (OF), relative accuracy RA = 1/(ATD OF) (eq. 8).
-/// Settled here, because the paper leaves it open: deviation is the distance to the waypoint
-/// polyline (not to the nearest waypoint); OF counts the local maxima of the whole mission's
-/// deviation curve as MATLAB's findpeaks does (a plateau once, the ends never) with a least
-/// prominence of 1e-6 m, so that rounding on straight rows is not counted.
+/// The paper leaves some definitions open. Here the deviation is the distance to the waypoint
+/// polyline (not to the nearest waypoint). OF counts the local maxima of the whole mission's
+/// deviation curve as MATLAB's findpeaks does (a plateau once, the ends never), with a minimum
+/// prominence of 1e-6 m so that rounding on straight rows is not counted.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -17,8 +17,7 @@
 
 namespace vinerow {
 
-/// A fixed polyline in the plane (kDimension 2) or in space (3) that answers "how far, and where"
-/// exactly.
+/// Fixed polyline in the plane (kDimension 2) or in space (3) with exact distance queries.
 template <int kDimension>
 class PolylineDistanceIn {
  public:
@@ -36,9 +35,9 @@ class PolylineDistanceIn {
   /// @param points  at least one, m; a single point is a polyline of length zero
   explicit PolylineDistanceIn(std::vector<Point> points);
 
-  /// Nearest point of the whole polyline. Of equals the one on the lowest segment that was tried
-  /// first from the hint. Cost: a few segments and one box per 32 segments; no heap.
-  /// @param hint_segment  where to look first; decides the cost, never the distance
+  /// Nearest point of the whole polyline. Among equals, the one on the lowest segment that was
+  /// tried first from the hint. Cost: a few segments and one box per 32 segments; no heap.
+  /// @param hint_segment  start of the search; affects the cost, never the distance
   Nearest nearest(const Point& p, int hint_segment = 0) const;
 
   /// Nearest point among segments [first, last] only, clamped to the polyline.
@@ -62,33 +61,33 @@ extern template class PolylineDistanceIn<3>;
 using PolylineDistance = PolylineDistanceIn<2>;
 using SpacePolylineDistance = PolylineDistanceIn<3>;
 
-/// Counts the local maxima of a curve as it comes, without keeping it.
+/// Online counter of the local maxima of a curve; it does not store the curve.
 ///
-/// A maximum counts if the curve rose by at least `least_prominence` before it and falls by as much
+/// A maximum counts if the curve rose by at least `min_prominence` before it and falls by as much
 /// after it, relative to the lowest values between it and the next maximum that counts: the peaks
-/// that MATLAB's findpeaks(y, 'MinPeakProminence', least_prominence) returns. With 0: every strict
+/// that MATLAB's findpeaks(y, 'MinPeakProminence', min_prominence) returns. With 0: every strict
 /// local maximum, a plateau once. The first and the last value are never maxima.
 class PeakCounter {
  public:
-  explicit PeakCounter(double least_prominence = 1e-6) : least_prominence_(least_prominence) {}
+  explicit PeakCounter(double min_prominence = 1e-6) : min_prominence_(min_prominence) {}
   void add(double value);
   std::int64_t count() const { return count_; }
 
  private:
-  double least_prominence_;
+  double min_prominence_;
   double low_ = std::numeric_limits<double>::infinity();
   double high_ = 0.0;
   bool rising_ = false;
   std::int64_t count_ = 0;
 };
 
-/// ATD, OF and RA of distances as they come. Memory does not grow with the mission.
+/// Online ATD, OF and RA of a series of distances. Memory does not grow with the mission.
 class DeviationStatistics {
  public:
-  static constexpr double kLeastProminence_m = 1e-6;
+  static constexpr double kMinProminence_m = 1e-6;
 
-  explicit DeviationStatistics(double least_prominence_m = kLeastProminence_m)
-      : peaks_(least_prominence_m) {}
+  explicit DeviationStatistics(double min_prominence_m = kMinProminence_m)
+      : peaks_(min_prominence_m) {}
 
   /// @param distance_m  from the path, not negative
   void add(double distance_m);
@@ -107,14 +106,15 @@ class DeviationStatistics {
   double max_m_ = 0.0;
 };
 
-/// The same of a track in the plane.
+/// Deviation statistics of a track in the plane.
 class DeviationMeter : public DeviationStatistics {
  public:
   explicit DeviationMeter(std::vector<Eigen::Vector2d> path,
-                          double least_prominence_m = kLeastProminence_m)
-      : DeviationStatistics(least_prominence_m), path_(std::move(path)) {}
+                          double min_prominence_m = kMinProminence_m)
+      : DeviationStatistics(min_prominence_m), path_(std::move(path)) {}
 
-  /// @param p  true position in the plane, m. @returns where it is on the path
+  /// @param p  true position in the plane, m
+  /// @returns nearest place on the path
   PolylineDistance::Nearest add(const Eigen::Vector2d& p);
 
   const PolylineDistance& path() const { return path_; }

@@ -16,7 +16,7 @@ struct Geodetic {
 };
 
 /// Conversion between WGS84 and W: x east, y north, z up at the origin, straight axes (no map
-/// projection), so that the ground falls away by d^2 / 2R: 0.8 mm at 100 m.
+/// projection). The ground therefore falls away by d^2 / 2R: 0.8 mm at 100 m.
 ///
 /// Source: GeographicLib 2.1 LocalCartesian, after a rotation of geocentric coordinates. Thread
 /// safe, no heap after construction.

@@ -1,9 +1,9 @@
 #pragma once
-/// Where the world frame is on Earth.
+/// Position of the world frame on Earth.
 
 namespace vinerow {
 
-/// Where W's origin is on the WGS84 ellipsoid.
+/// Position of W's origin on the WGS84 ellipsoid.
 struct GeoOrigin {
   double latitude_rad = 0.0;
   double longitude_rad = 0.0;

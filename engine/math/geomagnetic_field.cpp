@@ -66,7 +66,7 @@ struct Legendre {
   Legendre(double cos_theta, double sin_theta) {
     p[0][0] = 1.0;
     for (int n = 1; n <= kDegree; ++n) {
-      // From P(n-1, n-1), see there: the factor of n = 1 is 1.
+      // From P(n-1, n-1), as in the report: the factor of n = 1 is 1.
       const double diagonal = n == 1 ? 1.0 : std::sqrt((2.0 * n - 1.0) / (2.0 * n));
       p[n][n] = diagonal * sin_theta * p[n - 1][n - 1];
       dp[n][n] = diagonal * (sin_theta * dp[n - 1][n - 1] + cos_theta * p[n - 1][n - 1]);

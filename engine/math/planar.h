@@ -1,16 +1,16 @@
 #pragma once
-/// Vectors of the horizontal plane.
+/// Vectors in the horizontal plane.
 
 #include <Eigen/Core>
 
 namespace vinerow {
 
-/// The vector turned a quarter to the left.
+/// The vector rotated by 90 degrees to the left.
 inline Eigen::Vector2d left_of(const Eigen::Vector2d& v) {
   return {-v.y(), v.x()};
 }
 
-/// z component of the cross product: positive where b points to the left of a.
+/// z component of the cross product: positive if b points to the left of a.
 inline double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// Polygons in the plane: area, what is inside, how far it is, what two have in common. Corners in
-/// order, the last joins the first.
+/// Polygons in the plane: area, containment, distance, clipping. Corners are in order; the last
+/// joins the first.
 
 #include <Eigen/Core>
 #include <optional>
@@ -11,36 +11,48 @@ namespace vinerow {
 
 using Polygon = std::vector<Eigen::Vector2d>;
 
-/// Positive where the corners run counter-clockwise; 0 for fewer than three. Shoelace formula.
+/// Positive if the corners run counter-clockwise; 0 for fewer than three. Shoelace formula.
 double signed_area_m2(const Polygon& polygon);
 
-/// By the even-odd rule; points on an edge may fall to either side.
+/// Point in polygon by the even-odd rule; points on an edge may count as inside or outside.
 bool contains(const Polygon& polygon, const Eigen::Vector2d& p);
 
-/// From p to the nearest point of the polygon; 0 inside. @pre two corners or more
+/// Distance from p to the nearest point of the polygon; 0 inside. @pre two corners or more
 double distance_m(const Polygon& polygon, const Eigen::Vector2d& p);
 
 /// Smallest convex polygon around the points, counter-clockwise, without corners on its edges.
 /// Source: A. M. Andrew, "Another efficient algorithm for convex hulls in two dimensions", 1979.
 Polygon convex_hull(Polygon points);
 
-/// The part of `subject` inside `convex`. Where a subject that is not convex falls apart, its
-/// pieces hang together by edges of no width, which have no area. Source: Sutherland, Hodgman,
-/// "Reentrant polygon clipping", 1974.
+/// Part of `subject` inside `convex`. If a non-convex subject splits, its parts stay connected by
+/// edges of zero width, which have no area. Source: Sutherland, Hodgman, "Reentrant polygon
+/// clipping", 1974.
 /// @param convex  counter-clockwise
 Polygon clip(const Polygon& subject, const Polygon& convex);
 
-/// The part of a convex polygon to the left of the line through p along d; empty if it has no area.
+/// Part of a convex polygon to the left of the line through p along d; empty if it has no area.
 Polygon cut(const Polygon& convex, const Eigen::Vector2d& p, const Eigen::Vector2d& d);
 
-/// Where the straight line p + t d runs inside a convex polygon.
+/// Section of the straight line p + t d inside a convex polygon.
 /// @param convex  counter-clockwise
-/// @returns {from, to} in units of t; from >= to where it does not
+/// @returns {from, to} in units of t; from >= to if the line misses the polygon
 Eigen::Vector2d clip_line(const Polygon& convex, const Eigen::Vector2d& p,
                           const Eigen::Vector2d& d);
 
-/// The first two edges, by the index of their first corner, that cross or touch elsewhere than at a
-/// corner that they share. Nothing: the polygon is simple.
+/// First two edges, by the index of their first corner, that cross or touch anywhere but at a
+/// shared corner. nullopt if the polygon is simple.
 std::optional<std::pair<int, int>> find_crossing(const Polygon& polygon);
+
+/// Polygon without repeated corners, and without a last corner that repeats the first, to a
+/// micrometre.
+Polygon without_repeats(const Polygon& polygon);
+
+/// Polygon with every edge moved outwards by `margin_m`, inwards if negative; sharp corners are cut
+/// off at twice the margin. Empty if an edge vanishes; the result may cross itself.
+Polygon widen(const Polygon& polygon, double margin_m);
+
+/// Convex polygon with every edge moved inwards. @param convex  counter-clockwise
+/// @returns empty if nothing is left
+Polygon inset(const Polygon& convex, double inset_m);
 
 }  // namespace vinerow

@@ -30,7 +30,7 @@ double yaw_from_quaternion(const Quaterniond& q) {
 
 Quaterniond quaternion_on_slope(double yaw_rad, const Vector3d& normal_W) {
   const Vector3d z = normal_W.normalized();
-  // The x axis is the line in which the slope cuts the vertical plane of the heading.
+  // The x axis is the intersection of the slope with the vertical plane of the heading.
   const Vector3d heading(std::cos(yaw_rad), std::sin(yaw_rad), 0.0);
   const Vector3d x = (heading - Vector3d(0.0, 0.0, heading.dot(z) / z.z())).normalized();
   Matrix3d R;

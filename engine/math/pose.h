@@ -38,8 +38,8 @@ RollPitchYaw rpy_from_quaternion(const Eigen::Quaterniond& q);
 /// Heading of the body's x axis in the horizontal plane, rad in (-pi, pi].
 double yaw_from_quaternion(const Eigen::Quaterniond& q);
 
-/// Attitude of a vehicle standing on a slope: z along the normal, x uphill or downhill of the
-/// wanted heading.
+/// Attitude of a vehicle on a slope: z along the normal, x uphill or downhill of the desired
+/// heading.
 /// @param normal_W  upward, any length > 0
 Eigen::Quaterniond quaternion_on_slope(double yaw_rad, const Eigen::Vector3d& normal_W);
 

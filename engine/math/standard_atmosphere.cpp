@@ -15,7 +15,7 @@ constexpr double kGasConstant_JpkgK = 8314.32 / 28.9644;  // the standard's R* o
 /// g0 M0 / R*, K/m.
 constexpr double kHydrostatic_Kpm = kStandardGravity_mps2 / kGasConstant_JpkgK;
 
-/// A layer: base, temperature there, its change with height. Table 4 of the standard.
+/// Layer: base height, temperature at the base, temperature gradient. Table 4 of the standard.
 struct Layer {
   double base_m, temperature_K, lapse_Kpm;
 };
@@ -24,7 +24,7 @@ constexpr Layer kLayers[] = {{0.0, 288.15, -0.0065},    {11'000.0, 216.65, 0.0},
                              {47'000.0, 270.65, 0.0},   {51'000.0, 270.65, -0.0028},
                              {71'000.0, 214.65, -0.002}};
 
-/// Pressure over that at the layer's base.
+/// Pressure relative to that at the layer's base.
 double pressure_ratio(const Layer& layer, double above_m) {
   if (layer.lapse_Kpm == 0.0) return std::exp(-kHydrostatic_Kpm * above_m / layer.temperature_K);
   return std::pow(1.0 + layer.lapse_Kpm * above_m / layer.temperature_K,

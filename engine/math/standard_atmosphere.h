@@ -1,6 +1,6 @@
 #pragma once
 /// US Standard Atmosphere 1976 (NASA TM-X-74335) up to 86 km. The altitude above the ellipsoid is
-/// taken for that above mean sea level. Below -5 km and above 86 km the values at these altitudes
+/// used as altitude above mean sea level. Below -5 km and above 86 km the values at these altitudes
 /// hold.
 
 namespace vinerow {
@@ -8,7 +8,7 @@ namespace vinerow {
 /// Static pressure at mean sea level, Pa.
 inline constexpr double kSeaLevelPressure_Pa = 101'325.0;
 
-/// Geopotential height of a geometric one with the standard's earth radius of 6356.766 km, m.
+/// Geopotential height of a geometric altitude with the standard's earth radius of 6356.766 km, m.
 double geopotential_height_m(double altitude_m);
 
 struct AirState {

@@ -29,7 +29,7 @@ class AirTracking final : public Metric {
   }
 
   void connect(Ports& ports) override {
-    if (!has_wings_) return;  // "reference" is of another type elsewhere
+    if (!has_wings_) return;  // other vehicles' "reference" has another type
     truth_ = ports.read<Odometry>("truth");
     reference_ = ports.read_optional<AirReference>("reference");
     deviation_ = ports.read_optional<NamedValues>("deviation");
@@ -92,7 +92,7 @@ class AirTracking final : public Metric {
     if (plan_.is_leg(place.segment)) cross_track_m_.add(place.lateral_m);
   }
 
-  /// Each deviation once, however often the metric looks.
+  /// Counts each deviation once, whatever the metric's rate.
   void watch_limits() {
     if (!deviation_.is_newer_than(deviations_seen_)) return;
     const NamedValues& deviation = deviation_.value();
@@ -103,7 +103,8 @@ class AirTracking final : public Metric {
     }
   }
 
-  /// Names are fixed when their writer connects: once is enough. @returns whether all are there
+  /// Finds the indices of the values once, because a writer's names are fixed when it connects.
+  /// @returns true if all names exist
   bool find_names(const std::vector<std::string>& names) {
     const auto place_of = [&names](const char* name) {
       const auto found = std::find(names.begin(), names.end(), name);
@@ -118,7 +119,7 @@ class AirTracking final : public Metric {
   }
 
   SignalReader<NamedValues> landing_;
-  double landing_m_ = kNotMeasured;  // true distance of where it lies from where it should
+  double landing_m_ = kNotMeasured;  // true distance from the wanted landing point
   const Vehicle* vehicle_;
   double gravity_mps2_;
   bool has_wings_;
@@ -137,35 +138,82 @@ class AirTracking final : public Metric {
 
 }  // namespace
 
-const std::vector<MetricNumber>& air_tracking_numbers() {
-  static const std::vector<MetricNumber> numbers = {
-      from_zero("height_error_rms_m"),
-      from_zero("height_error_max_m"),
-      zero_to(180.0, "heading_error_rms_deg"),
-      zero_to(180.0, "straight_heading_error_rms_deg"),
-      from_zero("straight_cross_track_rms_m"),
-      from_zero("straight_cross_track_max_m"),
-      from_zero("airspeed_error_rms_mps"),
-      zero_to(180.0, "bank_max_deg"),
-      signed_number("load_factor_max"),
-      from_zero("limit_share_max"),
-      from_zero("landing_distance_m"),
-      count_number(kLimitSteps[0]),
-      count_number(kLimitSteps[1]),
-      count_number(kLimitSteps[2]),
-      count_number(kLimitSteps[3])};
-  return numbers;
+const std::vector<ResultSpec>& air_tracking_results() {
+  using Range = ResultRange;
+  static const std::vector<ResultSpec> results = {
+      {"height_error_rms_m", "m", Range::from_zero(), "RMS height error",
+       "Fixed wings: root mean square of true height minus reference height. Like all tracking "
+       "metrics of fixed wings, measured while the reference is straight or turns, without launch, "
+       "loiter and landing.",
+       "paper A, §2, fig. 9-11"},
+      {"height_error_max_m", "m", Range::from_zero(), "max height error",
+       "Fixed wings: largest absolute difference of true and reference height while the reference "
+       "is straight or turns.",
+       "paper A, §2, fig. 9-11"},
+      {"heading_error_rms_deg", "deg", Range::zero_to(180.0), "RMS heading error",
+       "Fixed wings: root mean square of true heading minus reference heading while the reference "
+       "is straight or turns.",
+       "paper A, §2"},
+      {"straight_heading_error_rms_deg", "deg", Range::zero_to(180.0),
+       "RMS heading error on straights",
+       "Fixed wings: root mean square of true heading minus reference heading while the reference "
+       "is straight.",
+       "paper A, §2"},
+      {"straight_cross_track_rms_m", "m", Range::from_zero(), "RMS lateral error on lanes",
+       "Fixed wings: root mean square of the true horizontal distance from the lane while the "
+       "reference is straight.",
+       "paper A, §2"},
+      {"straight_cross_track_max_m", "m", Range::from_zero(), "max lateral error on lanes",
+       "Fixed wings: largest true horizontal distance from the lane while the reference is "
+       "straight.",
+       "paper A, §2"},
+      {"airspeed_error_rms_mps", "m/s", Range::from_zero(), "RMS airspeed error",
+       "Fixed wings: root mean square of true airspeed minus reference airspeed while the "
+       "reference is straight or turns.",
+       "paper A, §2, fig. 9-11"},
+      {"bank_max_deg", "deg", Range::zero_to(180.0), "max bank angle",
+       "Fixed wings: largest absolute true roll angle while the reference is straight or turns.",
+       ""},
+      {"load_factor_max", "1", Range::any(), "max load factor",
+       "Fixed wings: largest specific force along the body's z axis divided by g, while the "
+       "reference is straight or turns.",
+       ""},
+      {"limit_steps_lon_states", "1", Range::count(), "longitudinal state violations",
+       "Fixed wings: number of controller ticks with a longitudinal state outside the limits that "
+       "the controller monitors (signal `deviation`).",
+       "paper A, §2.2 (±10 %)"},
+      {"limit_steps_lon_inputs", "1", Range::count(), "longitudinal input violations",
+       "Fixed wings: number of controller ticks with throttle or elevator farther from trim than "
+       "the controller's limit.",
+       "paper A, §2.2 (20 %)"},
+      {"limit_steps_lat_states", "1", Range::count(), "lateral state violations",
+       "Fixed wings: number of controller ticks with a lateral state outside the limits that the "
+       "controller monitors.",
+       "paper A, §2.2 (±10 %)"},
+      {"limit_steps_lat_inputs", "1", Range::count(), "lateral input violations",
+       "Fixed wings: number of controller ticks with the aileron farther from trim than the "
+       "controller's limit.",
+       "paper A, §2.2 (20 %)"},
+      {"limit_share_max", "1", Range::from_zero(), "max fraction of limits used",
+       "Fixed wings: largest fraction of its limit that any monitored state or input reached; 1 is "
+       "at the limit.",
+       "paper A, §2.2"},
+      {"landing_distance_m", "m", Range::from_zero(), "landing error",
+       "Fixed wings: true horizontal distance of the landed vehicle from the planned touchdown "
+       "position.",
+       ""}};
+  return results;
 }
 
 PartSpec air_tracking_spec() {
   PartSpec spec;
   spec.name = "air_tracking";
   spec.description =
-      "Of vehicles with wings: errors of height, heading, cross-track and airspeed in the survey, "
+      "Fixed-wing vehicles: errors of height, heading, cross-track and airspeed in the survey, "
       "bank, load factor, and ticks outside the controller's limits (paper A, figures 9 to 11)";
   spec.reads = {"truth", "reference (optional)", "deviation (optional)", "landing (optional)",
                 "plan (optional)"};
-  spec.writes = written(air_tracking_numbers());
+  spec.results = air_tracking_results();
   return spec;
 }
 

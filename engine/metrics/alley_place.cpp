@@ -18,11 +18,11 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// The ground is looked for from so far above the origin, so that a vehicle that has sunk into it
-/// still finds it.
+/// Height above the origin from which the ground is searched downwards. Chosen: finds the ground
+/// even if the vehicle has sunk into it.
 constexpr double kGroundFrom_m = 0.5;
-/// A row belongs to an alley if it is nearer to its middle than this many widths; it should be half
-/// a width away.
+/// Largest distance of an alley's row from its middle, in alley widths. Chosen: between the own
+/// rows at half a width and the next ones at one and a half.
 constexpr double kRowReach_widths = 0.75;
 
 PolylineDistance line_of(const std::vector<Eigen::Vector3d>& line_W) {
@@ -42,7 +42,7 @@ struct Wall {
   double top_m = 0.0;
   int hint = 0;
 
-  /// Vector to the row's centre line; absent beyond its ends.
+  /// Vector from p to the row's centre line; absent beyond its ends.
   std::optional<Vector2d> look(const Vector2d& p) {
     const PolylineDistance::Nearest at = row.nearest(p, hint);
     hint = at.segment;
@@ -60,15 +60,15 @@ struct Corridor {
   Tenths passed;
   int hint = 0;
 
-  /// Distance to the left of the middle between the walls; absent where p is not between them.
+  /// Distance to the left of the middle between the walls; absent if p is not between them.
   std::optional<double> offset_m(const Vector2d& p) {
     const std::optional<Vector2d> to_left = left.look(p);
     if (!to_left) return std::nullopt;
     const std::optional<Vector2d> to_right = right.look(p);
     if (!to_right || to_left->dot(*to_right) >= 0.0) return std::nullopt;
-    const double room_left_m = to_left->norm() - left.half_canopy_m;
-    const double room_right_m = to_right->norm() - right.half_canopy_m;
-    return 0.5 * (room_right_m - room_left_m);
+    const double clearance_left_m = to_left->norm() - left.half_canopy_m;
+    const double clearance_right_m = to_right->norm() - right.half_canopy_m;
+    return 0.5 * (clearance_right_m - clearance_left_m);
   }
   void pass(const Vector2d& p, double moved_m) {
     const PolylineDistance::Nearest at = centre.nearest(p, hint);
@@ -79,7 +79,7 @@ struct Corridor {
   }
 };
 
-/// The rows on both sides of an alley; nothing where one is missing.
+/// Corridor between the rows on both sides of an alley; absent if one is missing.
 std::optional<Corridor> make_corridor(const Alley& alley, const std::vector<PlantRow>& rows) {
   if (alley.line_W.size() < 2) return std::nullopt;
   Corridor corridor;
@@ -159,7 +159,7 @@ class AlleyPlace final : public Metric {
   }
 
  private:
-  /// @param last  corridor of the last tick, looked at first; -1: none
+  /// @param last  corridor of the last tick, which is tried first; -1: none
   void look(const Eigen::Vector3d& p_W, int last, double moved_m) {
     const int count = static_cast<int>(corridors_.size());
     for (int k = last >= 0 ? -1 : 0; k < count; ++k) {
@@ -195,22 +195,42 @@ class AlleyPlace final : public Metric {
 
 }  // namespace
 
-const std::vector<MetricNumber>& alley_place_numbers() {
-  static const std::vector<MetricNumber> numbers = {
-      signed_number("alley_offset_mean_m"), from_zero("alley_offset_rms_m"),
-      from_zero("alley_offset_max_m"),      signed_number("alley_height_min_m"),
-      signed_number("alley_height_max_m"),  count_number("alleys_passed")};
-  return numbers;
+const std::vector<ResultSpec>& alley_place_results() {
+  using Range = ResultRange;
+  static const std::vector<ResultSpec> results = {
+      {"alley_offset_mean_m", "m", Range::any(), "mean offset from alley centre",
+       "Mean signed distance from the middle between the two true canopy walls of the alley, "
+       "positive to the left of the alley's own direction. It reveals a map that is displaced from "
+       "the vineyard, which cross_track_* does not.",
+       ""},
+      {"alley_offset_rms_m", "m", Range::from_zero(), "RMS offset from alley centre",
+       "Root mean square of the distance from the middle between the true canopy walls. A wall is "
+       "the row's line moved by half the canopy width.",
+       ""},
+      {"alley_offset_max_m", "m", Range::from_zero(), "max offset from alley centre",
+       "Largest distance from the middle between the true canopy walls of the alley.", ""},
+      {"alley_height_min_m", "m", Range::any(), "min height between rows",
+       "Smallest height of the origin of a flying vehicle above the true ground while it is "
+       "between two true rows, on the legs and below the canopy's top.",
+       ""},
+      {"alley_height_max_m", "m", Range::any(), "max height between rows",
+       "Largest height of the origin of a flying vehicle above the true ground while it is between "
+       "two true rows, on the legs and below the canopy's top.",
+       ""},
+      {"alleys_passed", "1", Range::count(), "true alleys passed",
+       "Number of true alleys passed from end to end, on the legs and below the canopy's top.",
+       ""}};
+  return results;
 }
 
 PartSpec alley_place_spec() {
   PartSpec spec;
   spec.name = "alley_place";
   spec.description =
-      "Against the true rows: distance from the middle between the walls of the alley, height "
-      "above the true ground, alleys passed from end to end";
+      "Position between the true rows: distance from the middle between the walls of the alley, "
+      "height above the true ground, alleys passed from end to end";
   spec.reads = {"truth", "plan (optional)"};
-  spec.writes = written(alley_place_numbers());
+  spec.results = alley_place_results();
   return spec;
 }
 

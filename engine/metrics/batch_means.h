@@ -1,10 +1,11 @@
 #pragma once
-/// Mean of a series whose samples hang together, and how many independent ones it is worth.
+/// Mean of a correlated series, and its effective sample size.
 ///
 /// Method of batch means (C. Alexopoulos, A. Seila, "Output data analysis", in Handbook of
-/// Simulation, ed. J. Banks, 1998): the variance of means over long batches, against that of the
-/// samples, tells the integrated autocorrelation. Memory is fixed: batches are joined in pairs when
-/// they become too many.
+/// Simulation, ed. J. Banks, 1998): the ratio of the variance of long batches' means to that of the
+/// samples estimates the integrated autocorrelation. With m batches, sample variance s^2 and
+/// variance b^2 of the batch means, the effective sample size is m s^2 / b^2. Memory is fixed:
+/// batches are joined in pairs when they become too many.
 
 #include <algorithm>
 #include <array>
@@ -32,8 +33,8 @@ class BatchMeans {
     return count_ > 0 ? sum_ / static_cast<double>(count_)
                       : std::numeric_limits<double>::quiet_NaN();
   }
-  /// How many independent samples would tell the mean as well, >= 1. NaN with fewer than 16
-  /// batches.
+  /// Effective sample size: number of independent samples with an equally precise mean, >= 1. NaN
+  /// with fewer than 16 batches.
   double independent_count() const {
     if (batch_count_ < kBatches / 2) return std::numeric_limits<double>::quiet_NaN();
     const double n = static_cast<double>(count_), m = static_cast<double>(batch_count_);
@@ -43,7 +44,7 @@ class BatchMeans {
     for (int i = 0; i < batch_count_; ++i) {
       batch_variance += (batches_[i] - batch_mean) * (batches_[i] - batch_mean) / (m - 1.0);
     }
-    // What never changes is one sample.
+    // A constant series counts as one sample.
     if (!(variance > 0.0)) return 1.0;
     if (!(batch_variance > 0.0)) return n;
     return std::clamp(m * variance / batch_variance, 1.0, n);

@@ -14,13 +14,13 @@
 namespace vinerow::metrics {
 namespace {
 
-/// What stands in a row.
+/// Classes of objects in a row.
 constexpr SurfaceMask kRowMask = kPlantMask | mask_of(SurfaceClass::kWire);
 constexpr Duration kTouchGap{500'000'000};
-/// No point of the hull moves farther between two looks.
+/// Largest motion of a point of the hull between two looks. Chosen.
 constexpr double kLookEvery_m = 0.02;
-/// Looks in a tick at most: 20 m, farther than any vehicle comes in one.
-constexpr int kMostLooks = 1000;
+/// Largest number of looks in a tick. Chosen: 20 m of motion, more than any vehicle in one tick.
+constexpr int kMaxLooks = 1000;
 
 struct ClearanceParams {
   double search_radius_m = 3.0;
@@ -28,8 +28,9 @@ struct ClearanceParams {
 
 const ParameterTable<ClearanceParams>& clearance_table() {
   using P = ClearanceParams;
-  static const ParameterTable<P> table = ParameterTable<P>().number(
-      "search_radius_m", "m", &P::search_radius_m, kPositive, "farther plants are not looked for");
+  static const ParameterTable<P> table =
+      ParameterTable<P>().number("search_radius_m", "m", &P::search_radius_m, kPositive,
+                                 "distance up to which plants are searched");
   return table;
 }
 
@@ -46,7 +47,7 @@ class Clearance final : public Metric {
   void connect(Ports& ports) override {
     truth_ = ports.read<Odometry>("truth");
     contacts_ = ports.read<NamedValues>("contacts");
-    // Two metrics of this kind have names of their own.
+    // The metric's own name, so that a vehicle can have two metrics of this type.
     event_ = ports.write<Event>(part_.substr(part_.rfind('.') + 1) + "_event");
   }
 
@@ -54,9 +55,9 @@ class Clearance final : public Metric {
     const Pose X_WBox =
         truth_.value().X_WB * Pose{Eigen::Quaterniond::Identity(), vehicle_->collision_centre_B};
     const Pose from = before_.value_or(X_WBox);
-    // What lay between two ticks is looked at as well: at 3 m/s they are 15 cm apart.
-    const int looks = std::clamp(static_cast<int>(std::ceil(moved_m(from, X_WBox) / kLookEvery_m)),
-                                 1, kMostLooks);
+    // Look at places between two ticks too: at 3 m/s ticks of 20 Hz are 15 cm apart.
+    const int looks =
+        std::clamp(static_cast<int>(std::ceil(moved_m(from, X_WBox) / kLookEvery_m)), 1, kMaxLooks);
     for (int k = 1; k < looks; ++k) {
       const double share = static_cast<double>(k) / looks;
       look(now, {from.q.slerp(share, X_WBox.q), from.p + share * (X_WBox.p - from.p)});
@@ -73,13 +74,14 @@ class Clearance final : public Metric {
   }
 
  private:
-  /// No point of the box moves farther than its centre plus the turn of its reach.
+  /// Upper bound of the motion of any point of the box: motion of its centre, plus its rotation
+  /// times its reach.
   double moved_m(const Pose& from, const Pose& to) const {
     return (to.p - from.p).norm() + to.q.angularDistance(from.q) * hull_reach_m_;
   }
 
   void look(Time now, const Pose& X_WBox) {
-    // Skipped where the hull cannot have come nearer than it has been.
+    // Skip if the hull cannot be nearer than the minimum: d_now >= d_last - moved.
     if (looked_at_ && last_distance_m_ - moved_m(*looked_at_, X_WBox) > min_clearance_m_) return;
     looked_at_ = X_WBox;
     last_distance_m_ =
@@ -92,7 +94,7 @@ class Clearance final : public Metric {
     if (!last_touch_ || now - *last_touch_ > kTouchGap) {
       ++canopy_touches_;
       event_.write(now, {Event::Level::kWarning, part_,
-                         fmt::format("brushes the canopy, the hull's centre at x = {:.2f} m, "
+                         fmt::format("brushes the canopy with the hull's centre at x = {:.2f} m, "
                                      "y = {:.2f} m",
                                      X_WBox.p.x(), X_WBox.p.y())});
     }
@@ -117,11 +119,22 @@ class Clearance final : public Metric {
 
 }  // namespace
 
-const std::vector<MetricNumber>& clearance_numbers() {
-  static const std::vector<MetricNumber> numbers = {from_zero("min_clearance_m"),
-                                                    count_number("contact_count"),
-                                                    count_number("canopy_contact_count")};
-  return numbers;
+const std::vector<ResultSpec>& clearance_results() {
+  using Range = ResultRange;
+  static const std::vector<ResultSpec> results = {
+      {"min_clearance_m", "m", Range::from_zero(), "min clearance from plants",
+       "Smallest true distance from the vehicle's collision box to canopy, posts, trunks and "
+       "wires, also between two ticks. Null if none of them came nearer than search_radius_m (3 "
+       "m); a criterion on it is then not met.",
+       ""},
+      {"contact_count", "1", Range::count(), "contacts",
+       "Number of contacts with canopy, posts, trunks, wires, obstacles, other vehicles, and "
+       "terrain faces steeper than 45°. Contacts less than 0.5 s apart count as one; each starts "
+       "with an event.",
+       ""},
+      {"canopy_contact_count", "1", Range::count(), "contacts with leaves",
+       "Number of contacts with canopy. The path between two ticks is checked every 2 cm.", ""}};
+  return results;
 }
 
 PartSpec clearance_spec() {
@@ -132,7 +145,7 @@ PartSpec clearance_spec() {
       "touches";
   spec.parameters = clearance_table().specs();
   spec.reads = {"truth", "contacts"};
-  spec.writes = written(clearance_numbers());
+  spec.results = clearance_results();
   return spec;
 }
 

@@ -14,7 +14,7 @@ struct Picture {
 };
 
 struct Lane {
-  std::vector<Picture> pictures;  ///< by place along the lanes
+  std::vector<Picture> pictures;  ///< sorted by position along the lanes
   double across_m = 0.0;          ///< mean
 };
 
@@ -24,7 +24,7 @@ Vector2d middle_of_footprint(const PictureFootprint& footprint) {
   return sum / static_cast<double>(footprint.polygon_W.size());
 }
 
-/// Unit direction of the lanes: that of the one that is longest from first to last picture.
+/// Unit direction of the lanes: from the first to the last picture of the longest lane.
 Vector2d direction_of(const std::map<int, std::vector<const PictureFootprint*>>& by_lane) {
   Vector2d longest = Vector2d::Zero();
   for (const auto& [lane, footprints] : by_lane) {

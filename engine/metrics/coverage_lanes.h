@@ -1,5 +1,5 @@
 #pragma once
-/// Footprints by lane, and what those of neighbouring lanes have in common (picture_coverage.h).
+/// Picture footprints by lane, and the overlap of neighbouring lanes (picture_coverage.h).
 
 #include <cstdint>
 #include <vector>
@@ -16,8 +16,9 @@ struct PictureFootprint {
   bool touches_parcel = false;
 };
 
-/// Of every picture that touches the parcel, with each neighbouring lane that has pictures on both
-/// sides of it. Empty for fewer than two lanes.
+/// Side overlaps of every picture that touches the parcel with each neighbouring lane, if that has
+/// pictures abreast of it or both before and after it along the lanes. Empty for fewer than two
+/// lanes.
 std::vector<double> side_overlaps(const std::vector<PictureFootprint>& footprints);
 
 }  // namespace vinerow::metrics

@@ -10,8 +10,9 @@ namespace vinerow::metrics {
 namespace {
 
 constexpr double kInside95 = 5.991464547107979;  // chi-square of 2 degrees: -2 ln 0.05
-/// Ten sigma: beyond, a filter is lost, and by how much says nothing. A mean of millions would.
-constexpr double kLost = 100.0;
+/// Upper limit of a NEES sample: ten sigma. Chosen: beyond it the filter is lost, and unlimited
+/// values would dominate the mean.
+constexpr double kMaxNees = 100.0;
 constexpr double kNormal95 = 1.959963984540054;  // two-sided
 
 template <int N>
@@ -61,7 +62,7 @@ void EstimateJudge::step(Time now, const Odometry& truth, double direction_rad) 
 void EstimateJudge::judge(const Odometry& truth, const Odometry& estimate, double direction_rad) {
   const Eigen::Vector3d e_W = estimate.X_WB.p - truth.X_WB.p;
   const bool states_none = estimate.position_variance_m2.isZero(0.0);
-  // Once anything differs, what was equal before was an estimate as well.
+  // When the first sample differs, the equal samples before it count as estimates too.
   is_truth_ = is_truth_ && states_none && e_W.isZero(0.0) &&
               estimate.X_WB.q.coeffs() == truth.X_WB.q.coeffs();
   if (is_truth_) {
@@ -74,10 +75,10 @@ void EstimateJudge::judge(const Odometry& truth, const Odometry& estimate, doubl
   if (states_none) return;
   const Eigen::Matrix2d P = estimate.position_covariance().topLeftCorner<2, 2>();
   const Eigen::LLT<Eigen::Matrix2d> factor(P);
-  // A covariance that is none contains nothing.
+  // An invalid covariance contains no error.
   const bool is_covariance = factor.info() == Eigen::Success;
   const double nees = is_covariance
-                          ? std::min(kLost, e_W.head<2>().dot(factor.solve(e_W.head<2>())))
+                          ? std::min(kMaxNees, e_W.head<2>().dot(factor.solve(e_W.head<2>())))
                           : std::numeric_limits<double>::infinity();
   nees_.add(nees);
   inside_.add(nees <= kInside95);
@@ -138,16 +139,57 @@ void EstimateJudge::write_results(std::map<std::string, double>& all) const {
   }
 }
 
-std::vector<MetricNumber> judge_numbers(const EstimateJudge::Prefixes& prefixes) {
+std::vector<ResultSpec> judge_results(const EstimateJudge::Prefixes& prefixes) {
+  using Range = ResultRange;
   const auto& [error, other] = prefixes;
   return {
-      from_zero(error + "lateral_std_m"),      from_zero(error + "lateral_rms_m"),
-      from_zero(error + "lateral_max_m"),      from_zero(error + "longitudinal_std_m"),
-      from_zero(error + "longitudinal_rms_m"), from_zero(error + "longitudinal_max_m"),
-      from_zero(error + "vertical_rms_m"),     zero_to(180.0, error + "yaw_rms_deg"),
-      zero_to(kLost, other + "nees_mean"),     share_number(other + "nees_in_95_share"),
-      flag_number(error + "consistent"),       share_number(other + "ellipsoid_containment_share"),
-      from_zero(other + "nis_<source>_mean")};
+      {error + "lateral_std_m", "m", Range::from_zero(), "lateral error standard deviation",
+       "Standard deviation, about the mean, of the estimated minus the true position across the "
+       "nearest row (within row_reach_m, 5 m; otherwise across the true heading). Samples start at "
+       "from_s (3 s); null if the estimate is the truth.",
+       "paper C, table 3"},
+      {error + "lateral_rms_m", "m", Range::from_zero(), "RMS lateral estimation error",
+       "Root mean square of the estimated minus the true position across the nearest row.",
+       "paper C, table 3"},
+      {error + "lateral_max_m", "m", Range::from_zero(), "max lateral estimation error",
+       "Largest absolute error of the estimated position across the nearest row.",
+       "paper C, table 3"},
+      {error + "longitudinal_std_m", "m", Range::from_zero(),
+       "longitudinal error standard deviation",
+       "Standard deviation, about the mean, of the estimated minus the true position along the "
+       "nearest row.",
+       "paper C, table 3"},
+      {error + "longitudinal_rms_m", "m", Range::from_zero(), "RMS longitudinal estimation error",
+       "Root mean square of the estimated minus the true position along the nearest row.",
+       "paper C, table 3"},
+      {error + "longitudinal_max_m", "m", Range::from_zero(), "max longitudinal estimation error",
+       "Largest absolute error of the estimated position along the nearest row.",
+       "paper C, table 3"},
+      {error + "vertical_rms_m", "m", Range::from_zero(), "RMS height estimation error",
+       "Root mean square of the estimated minus the true height.", "paper C, §3"},
+      {error + "yaw_rms_deg", "deg", Range::zero_to(180.0), "RMS heading estimation error",
+       "Root mean square of the estimated minus the true yaw.", "paper C, §3"},
+      {other + "nees_mean", "1", Range::zero_to(kMaxNees), "mean NEES",
+       "Mean normalised estimation error squared e'P⁻¹e of the horizontal position error e with "
+       "the stated covariance P, each sample limited to 100. A consistent estimator has 2; null if "
+       "it states no covariance.",
+       "Bar-Shalom, Li, Kirubarajan 2001, §5.4"},
+      {other + "nees_in_95_share", "1", Range::share(), "samples inside 95 % ellipse",
+       "Fraction of the samples with the true position inside the estimator's 95 % ellipse (e'P⁻¹e "
+       "at most 5.991).",
+       "Bar-Shalom, Li, Kirubarajan 2001, §5.4"},
+      {error + "consistent", "1", Range::zero_or_one(), "estimator consistent",
+       "1 if the mean NEES is within the 95 % chi-square bounds for the effective number of "
+       "samples (batch means), widened by nees_margin (0.2), else 0.",
+       "Bar-Shalom, Li, Kirubarajan 2001, §5.4"},
+      {other + "ellipsoid_containment_share", "1", Range::share(), "samples inside guaranteed set",
+       "Fraction of the sets in the signal `ellipsoid` that contain the true position. Sets "
+       "without height are checked in the horizontal plane.",
+       "paper C, fig. 9"},
+      {other + "nis_<source>_mean", "1", Range::from_zero(), "mean NIS of one source",
+       "Mean normalised innovation squared of the named measurement source, from the signal "
+       "`estimator_state`. A consistent filter has the number of components of the source.",
+       "Bar-Shalom, Li, Kirubarajan 2001, §5.4"}};
 }
 
 double chi_square_quantile(double degrees_of_freedom, double z) {

@@ -1,5 +1,5 @@
 #pragma once
-/// What the metric `estimation` keeps of one estimator: errors, consistency, containment.
+/// Statistics of the metric `estimation` for one estimator: errors, consistency, containment.
 
 #include <map>
 #include <string>
@@ -7,36 +7,36 @@
 
 #include "engine/api/messages/commands.h"
 #include "engine/api/messages/motion.h"
+#include "engine/api/result_spec.h"
 #include "engine/api/signal.h"
 #include "engine/metrics/batch_means.h"
-#include "engine/metrics/metric_numbers.h"
 #include "engine/metrics/spread.h"
 
 namespace vinerow::metrics {
 
 class EstimateJudge {
  public:
-  /// What it reads: the estimate that the vehicle acts on, or an observer's.
+  /// Signals to read: those of the vehicle's own estimator, or an observer's.
   struct Signals {
     std::string estimate = "estimate";
     std::string ellipsoid = "ellipsoid";
     std::string state = "estimator_state";
   };
-  /// Before the names of its results: `error` + "lateral_rms_m", `other` + "nees_mean".
+  /// Prefixes of the results' names: `error` + "lateral_rms_m", `other` + "nees_mean".
   struct Prefixes {
     std::string error = "estimate_";
     std::string other;
   };
 
-  /// @param nis_sources  "<source>" of the values nis_<source> that are averaged
-  /// @param margin       by how much the mean NEES may lie beyond its bounds
+  /// @param nis_sources  names <source> of the values nis_<source> to average
+  /// @param margin       relative widening of the bounds of the mean NEES
   EstimateJudge(Signals signals, Prefixes prefixes, const std::vector<std::string>& nis_sources,
                 double margin);
   void connect(Ports& ports);
 
-  /// @param direction_rad  along which an error is longitudinal
+  /// @param direction_rad  yaw of the longitudinal direction
   void step(Time now, const Odometry& truth, double direction_rad);
-  /// Adds its results, by the names that estimation.h tells.
+  /// Adds its results; estimation.h lists their names.
   void write_results(std::map<std::string, double>& all) const;
 
  private:
@@ -75,7 +75,7 @@ class EstimateJudge {
   Prefixes prefixes_;
   double margin_;
   bool is_truth_ = true;
-  std::int64_t equal_ = 0;  ///< samples that equalled the truth so far
+  std::int64_t equal_ = 0;  ///< number of samples so far that equalled the truth
   ErrorSpread lateral_, longitudinal_, vertical_, yaw_;
   BatchMeans nees_;
   Share inside_, contained_;
@@ -86,12 +86,12 @@ class EstimateJudge {
 };
 
 /// What write_results() adds.
-std::vector<MetricNumber> judge_numbers(const EstimateJudge::Prefixes& prefixes);
+std::vector<ResultSpec> judge_results(const EstimateJudge::Prefixes& prefixes);
 
-/// Quantile of the chi-square distribution, also for fractional degrees of freedom; the bounds of
-/// 95 % within 1.5 % from 10 degrees on, the lower one below that too low. E. B. Wilson, M. M.
-/// Hilferty, "The distribution of chi-square", 1931.
-/// @param z  the normal quantile of the wanted probability
+/// Quantile of the chi-square distribution, also for fractional degrees of freedom. From 10 degrees
+/// of freedom, the bounds of the 95 % interval are accurate to 1.5 %; below that the lower bound is
+/// too low. E. B. Wilson, M. M. Hilferty, "The distribution of chi-square", 1931.
+/// @param z  standard normal quantile of the wanted probability
 double chi_square_quantile(double degrees_of_freedom, double z);
 
 }  // namespace vinerow::metrics

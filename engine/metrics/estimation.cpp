@@ -27,12 +27,13 @@ const ParameterTable<EstimationParams>& estimation_table() {
   using P = EstimationParams;
   static const ParameterTable<P> table =
       ParameterTable<P>()
-          .number("from_s", "s", &P::from_s, between(0.0, 1e6), "what comes before is left out")
+          .number("from_s", "s", &P::from_s, between(0.0, 1e6),
+                  "time before which samples are ignored")
           .number("row_reach_m", "m", &P::row_reach_m, between(0.0, 1e3),
-                  "so near a row its direction is taken, else the heading")
+                  "distance up to which the nearest row's direction is used, else the heading")
           .number("nees_margin", "", &P::nees_margin, between(0.0, 1.0),
-                  "by how much the mean NEES may lie beyond its 95 % bounds: 0.2 forgives "
-                  "standard deviations wrong by a tenth")
+                  "relative widening of the mean NEES's 95 % bounds; 0.2 tolerates standard "
+                  "deviations that are wrong by a tenth")
           .texts("nis", &P::nis, "sources whose NIS is averaged");
   return table;
 }
@@ -85,7 +86,8 @@ class Estimation final : public Metric {
     return reference_.has_value() && reference_.value().phase == ReferenceTrajectory::Phase::kDone;
   }
 
-  /// Of the nearest row, towards where the vehicle looks; its own where no row is near.
+  /// Yaw of the nearest row, in the direction in which the vehicle looks; its own yaw if no row is
+  /// near.
   double direction_rad(const Odometry& truth) const {
     const double yaw_rad = yaw_from_quaternion(truth.X_WB.q);
     double nearest_m = row_reach_m_, direction_rad = yaw_rad;
@@ -113,10 +115,10 @@ class Estimation final : public Metric {
 
 }  // namespace
 
-const std::vector<MetricNumber>& estimation_numbers() {
-  static const std::vector<MetricNumber> numbers = [] {
-    std::vector<MetricNumber> all = judge_numbers({});
-    for (MetricNumber& number : judge_numbers({"<observer>_", "<observer>_"})) {
+const std::vector<ResultSpec>& estimation_results() {
+  static const std::vector<ResultSpec> numbers = [] {
+    std::vector<ResultSpec> all = judge_results({});
+    for (ResultSpec& number : judge_results({"<observer>_", "<observer>_"})) {
       all.push_back(std::move(number));
     }
     return all;
@@ -128,13 +130,12 @@ PartSpec estimation_spec() {
   PartSpec spec;
   spec.name = "estimation";
   spec.description =
-      "Error of the estimate across and along the rows, and whether its covariance is right (NEES, "
+      "Error of the estimate across and along the rows, and consistency of its covariance (NEES, "
       "NIS, containment)";
   spec.parameters = estimation_table().specs();
   spec.reads = {"truth", "estimate (optional)", "ellipsoid (optional)",
                 "estimator_state (optional)", "those of the observers"};
-  spec.writes = written(judge_numbers({}));
-  spec.writes.push_back("<observer>_..., the same of each observer");
+  spec.results = estimation_results();
   return spec;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Smallest and largest of the numbers seen.
+/// Running minimum and maximum.
 
 #include <algorithm>
 #include <limits>

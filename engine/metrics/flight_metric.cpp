@@ -15,16 +15,19 @@
 namespace vinerow::metrics {
 namespace {
 
-/// A reference that gains or loses less speed than this is at its row speed: climbing over the
-/// ground's waves costs less, slowing down for a turn more.
+/// Largest tangential acceleration of a reference at constant row speed. Chosen: following the
+/// ground's waves needs less, slowing down for a turn more.
 constexpr double kConstantSpeed_mps2 = 0.1;
-/// B's origin this much higher than when standing: in the air.
+/// Height of B's origin above its height on the ground, from which the vehicle is in the air.
+/// Chosen.
 constexpr double kInTheAir_m = 0.1;
-/// The ground is looked for from so far above B's origin, so that a vehicle that has sunk into it
-/// still finds it.
+/// Height above B's origin from which the ground is searched downwards. Chosen: finds the ground
+/// even if the vehicle has sunk into it.
 constexpr double kLookFrom_m = 0.5;
+/// Length of the ray that measures the return clearance. Chosen: above any flight height.
 constexpr double kFarthestBelow_m = 1000.0;
-/// A command this near to a limit, as a share of its range, sits at it.
+/// Distance from a limit, as a share of the command's range, up to which a command is at it.
+/// Chosen: covers rounding only.
 constexpr double kAtLimit = 1e-6;
 
 class Flight final : public Metric {
@@ -38,7 +41,7 @@ class Flight final : public Metric {
   void connect(Ports& ports) override {
     truth_ = ports.read<Odometry>("truth");
     plan_.connect(ports);
-    // What has wings is told otherwise what to do (AirReference), which air_tracking judges.
+    // Fixed-wing vehicles have another reference (AirReference), which air_tracking judges.
     if (!has_wings_) reference_ = ports.read_optional<ReferenceTrajectory>("reference");
     actuators_ = ports.read_optional<NamedValues>("actuators");
   }
@@ -128,7 +131,7 @@ class Flight final : public Metric {
     }
   }
 
-  /// Names are fixed when their writer connects: once is enough.
+  /// Called once, because a writer's names are fixed when it connects.
   void find_rotors(const std::vector<std::string>& names) {
     rotors_.clear();
     for (const std::string& name : names) {
@@ -147,7 +150,7 @@ class Flight final : public Metric {
   PlanStretch plan_;
   SignalReader<ReferenceTrajectory> reference_;
   SignalReader<NamedValues> actuators_;
-  std::vector<const ActuatorSpec*> rotors_;  ///< of each name; null: no rotor
+  std::vector<const ActuatorSpec*> rotors_;  ///< of each name; null if it is not a rotor
   Spread altitude_, speed_error_, hover_m_;
   Extremes row_height_m_, return_clearance_m_, tilt_rad_;
   double speed_sum_mps_ = 0.0;
@@ -158,30 +161,61 @@ class Flight final : public Metric {
 
 }  // namespace
 
-const std::vector<MetricNumber>& flight_numbers() {
-  static const std::vector<MetricNumber> numbers = {from_zero("altitude_error_rms_m"),
-                                                    from_zero("altitude_error_max_m"),
-                                                    signed_number("height_above_ground_min_m"),
-                                                    signed_number("height_above_ground_max_m"),
-                                                    from_zero("row_speed_mean_mps"),
-                                                    from_zero("row_speed_error_max_mps"),
-                                                    from_zero("return_clearance_min_m"),
-                                                    from_zero("hover_error_rms_m"),
-                                                    from_zero("hover_error_max_m"),
-                                                    zero_to(180.0, "tilt_max_deg"),
-                                                    share_number("thrust_limit_share"),
-                                                    flag_number("crashed")};
-  return numbers;
+const std::vector<ResultSpec>& flight_results() {
+  using Range = ResultRange;
+  static const std::vector<ResultSpec> results = {
+      {"altitude_error_rms_m", "m", Range::from_zero(), "RMS altitude error on legs",
+       "Flying vehicles: root mean square of true height minus planned height at the nearest point "
+       "of the planned leg. The nearest point is searched in three dimensions, so that the flight "
+       "home above the rows is not confused with the legs.",
+       "paper A, §4.2"},
+      {"altitude_error_max_m", "m", Range::from_zero(), "max altitude error on legs",
+       "Flying vehicles: largest absolute difference of true height and planned height on the "
+       "legs.",
+       "paper A, §4.2"},
+      {"height_above_ground_min_m", "m", Range::any(), "min height on legs",
+       "Flying vehicles: smallest height of the origin above the true ground on the legs.",
+       "paper A, §4.2"},
+      {"height_above_ground_max_m", "m", Range::any(), "max height on legs",
+       "Flying vehicles: largest height of the origin above the true ground on the legs.",
+       "paper A, §4.2"},
+      {"row_speed_mean_mps", "m/s", Range::from_zero(), "mean speed on legs",
+       "Flying vehicles: mean true speed on the legs.", "paper A, §4.2"},
+      {"row_speed_error_max_mps", "m/s", Range::from_zero(), "max speed error on legs",
+       "Rotorcraft: largest difference of true speed and reference speed on the legs, where the "
+       "reference speed is constant (tangential acceleration at most 0.1 m/s²).",
+       "paper A, §4.2"},
+      {"return_clearance_min_m", "m", Range::from_zero(), "min clearance on flight home",
+       "Rotorcraft: smallest vertical distance to the ground, canopy or posts below, on the flight "
+       "home without its initial climb.",
+       "paper A, §4.2"},
+      {"hover_error_rms_m", "m", Range::from_zero(), "RMS hover error",
+       "Rotorcraft: root mean square of the distance from the hover position while the guidance is "
+       "in the hover phase.",
+       ""},
+      {"hover_error_max_m", "m", Range::from_zero(), "max hover error",
+       "Rotorcraft: largest distance from the hover position while the guidance is in the hover "
+       "phase.",
+       ""},
+      {"tilt_max_deg", "deg", Range::zero_to(180.0), "max tilt",
+       "Flying vehicles: largest angle between the body's z axis and the vertical in the air.", ""},
+      {"thrust_limit_share", "1", Range::share(), "time with saturated rotor",
+       "Rotorcraft: fraction of the ticks in the air in which the command of at least one rotor "
+       "was at a limit.",
+       "paper A, §4.2"},
+      {"crashed", "1", Range::zero_or_one(), "crashed", "Flying vehicles: 1 after a crash, else 0.",
+       ""}};
+  return results;
 }
 
 PartSpec flight_spec() {
   PartSpec spec;
   spec.name = "flight";
   spec.description =
-      "Of vehicles that fly: height and speed in the rows, clearance on the way home, how still "
-      "it hovers, tilt in the air, rotors at their limits, whether it crashed";
+      "Flying vehicles: height and speed in the rows, clearance on the return, hover error, tilt "
+      "in the air, rotors at their limits, crash";
   spec.reads = {"truth", "plan (optional)", "reference (optional)", "actuators (optional)"};
-  spec.writes = written(flight_numbers());
+  spec.results = flight_results();
   return spec;
 }
 

@@ -10,6 +10,21 @@
 #include "engine/metrics/spread.h"
 #include "engine/metrics/tenths.h"
 
+// Derivation. The plan is the polyline of its points p_0 .. p_n in the plane. At each tick the true
+// position p has a nearest place on it: segment i, fraction f and distance d (`nearest`).
+//
+//   ATD = mean of d, OF = number of local maxima of d, RA = 1 / (ATD OF)  (paper B, eq. 8), over
+//     all ticks; for a flight, d is the distance in space
+//   lateral error e: signed distance from segment i in the plane, left positive, on legs only
+//   heading error: wrap(yaw - psi_i), psi_i = atan2(y_{i+1} - y_i, x_{i+1} - x_i), on legs only
+//   turn deviation: distance from the exact arc in place of the chord, in turns only
+//   distance along the polyline: s = s_i + f (s_{i+1} - s_i), s_{i+1} = s_i + |p_{i+1} - p_i|
+//
+// A leg of the plan is a run of leg segments in one alley, from start_m to end_m. The vehicle is at
+// (s - start_m) / (end_m - start_m) of it. An alley counts as driven when all tenths of a leg of it
+// were passed (tenths.h). A place outside the legs ends the current pass, so that a vehicle that
+// leaves a leg and comes back elsewhere has not passed the part between.
+
 namespace vinerow::metrics {
 namespace {
 
@@ -27,6 +42,7 @@ class PathDeviation final : public Metric {
     const double moved_m = before_ ? (truth.X_WB.p - *before_).norm() : 0.0;
     before_ = truth.X_WB.p;
     const PlanStretch::Place nearest = plan_.find(truth.X_WB.p);
+    // ATD, OF and RA: everywhere.
     meter_->add(nearest.distance_m);
     if (!plan_.is_leg(nearest.segment)) {
       leave_leg();
@@ -64,12 +80,13 @@ class PathDeviation final : public Metric {
       const Eigen::Vector2d along = line[i + 1] - line[i];
       segment_yaw_.push_back(std::atan2(along.y(), along.x()));
     }
+    // One value for each point, so that the index of the last point is valid too.
     segment_yaw_.push_back(segment_yaw_.back());
     find_legs();
     meter_.emplace();
   }
 
-  /// Legs as they follow each other: segments of kind leg in one alley.
+  /// Finds the legs: runs of segments of kind leg in one alley.
   void find_legs() {
     const std::vector<PathPoint>& points = plan_.points();
     const std::vector<Eigen::Vector2d>& line = plan_.line().points();
@@ -95,10 +112,11 @@ class PathDeviation final : public Metric {
     at_leg_ = index;
     if (index < 0) return;
     Leg& leg = legs_of_plan_[static_cast<std::size_t>(index)];
-    const double length_m = leg.end_m - leg.begin_m;
+    const double length_m = leg.end_m - leg.start_m;
     if (!(length_m > 0.0)) return;
+    // s = s_i + f (s_{i+1} - s_i)
     const double s_m = s_m_[i] + at.fraction * (s_m_[i + 1] - s_m_[i]);
-    leg.passed.look((s_m - leg.begin_m) / length_m, moved_m / length_m);
+    leg.passed.look((s_m - leg.start_m) / length_m, moved_m / length_m);
     if (leg.passed.all()) alleys_.insert(leg.alley);
   }
 
@@ -109,7 +127,7 @@ class PathDeviation final : public Metric {
 
   struct Leg {
     int alley;
-    double begin_m, end_m;
+    double start_m, end_m;
     Tenths passed;
   };
 
@@ -128,15 +146,50 @@ class PathDeviation final : public Metric {
 
 }  // namespace
 
-const std::vector<MetricNumber>& path_deviation_numbers() {
-  static const std::vector<MetricNumber> numbers = {
-      from_zero("average_deviation_m"),      from_zero("deviation_max_m"),
-      count_number("oscillation_count"),     from_zero("relative_accuracy_per_m"),
-      from_zero("cross_track_rms_m"),        from_zero("cross_track_max_m"),
-      zero_to(kPi, "heading_error_rms_rad"), count_number("leg_samples"),
-      from_zero("turn_deviation_rms_m"),     from_zero("turn_deviation_max_m"),
-      from_zero("planned_length_m"),         count_number("alleys_driven")};
-  return numbers;
+const std::vector<ResultSpec>& path_deviation_results() {
+  using Range = ResultRange;
+  static const std::vector<ResultSpec> results = {
+      {"average_deviation_m", "m", Range::from_zero(), "mean deviation from plan",
+       "Mean distance from the planned polyline over the whole mission (ATD). The distance is "
+       "horizontal on the ground and three-dimensional in flight.",
+       "paper B, §3"},
+      {"deviation_max_m", "m", Range::from_zero(), "max deviation from plan",
+       "Largest distance from the planned polyline, turns included. The distance is horizontal on "
+       "the ground and three-dimensional in flight.",
+       ""},
+      {"oscillation_count", "1", Range::count(), "oscillations about the plan",
+       "Number of local maxima of the distance from the planned polyline with a prominence of at "
+       "least 1e-6 m, ends excluded (OF).",
+       "paper B, §3"},
+      {"relative_accuracy_per_m", "1/m", Range::from_zero(), "relative accuracy",
+       "RA = 1 / (ATD · OF). Read it together with ATD, the maximum deviation, OF and time, "
+       "because coarse waypoints or a tiny lookahead inflate it.",
+       "paper B, eq. 8"},
+      {"cross_track_rms_m", "m", Range::from_zero(), "RMS lateral error on legs",
+       "Root mean square of the horizontal distance from the planned leg while the vehicle is on a "
+       "leg, between the plants.",
+       ""},
+      {"cross_track_max_m", "m", Range::from_zero(), "max lateral error on legs",
+       "Largest horizontal distance from the planned leg while the vehicle is on a leg, between "
+       "the plants.",
+       ""},
+      {"heading_error_rms_rad", "rad", Range::zero_to(kPi), "RMS heading error on legs",
+       "Root mean square of the true yaw minus the direction of the planned leg.", ""},
+      {"leg_samples", "1", Range::count(), "samples on legs",
+       "Number of ticks of the metric in which the vehicle was on a leg.", ""},
+      {"turn_deviation_rms_m", "m", Range::from_zero(), "RMS deviation in turns",
+       "Root mean square of the distance from the planned arcs in the turns. The arcs are exact; "
+       "the polyline is not (a chord of 0.25 m lies up to 4.4 mm inside an arc of radius 1.77 m).",
+       ""},
+      {"turn_deviation_max_m", "m", Range::from_zero(), "max deviation in turns",
+       "Largest distance from the planned arcs in the turns.", ""},
+      {"planned_length_m", "m", Range::from_zero(), "planned length", "Length of the planned path.",
+       ""},
+      {"alleys_driven", "1", Range::count(), "alleys driven",
+       "Number of alleys whose planned leg was passed from start to end. The vehicle must have "
+       "been in each tenth of the leg.",
+       ""}};
+  return results;
 }
 
 PartSpec path_deviation_spec() {
@@ -146,7 +199,7 @@ PartSpec path_deviation_spec() {
       "Deviation from the plan: ATD, OF, RA of paper B (eq. 8), cross-track and heading error on "
       "the legs, deviation from the planned arcs in the turns";
   spec.reads = {"truth", "plan (optional)"};
-  spec.writes = written(path_deviation_numbers());
+  spec.results = path_deviation_results();
   return spec;
 }
 

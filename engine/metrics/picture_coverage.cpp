@@ -11,14 +11,33 @@
 #include "engine/core/error.h"
 #include "engine/metrics/coverage_lanes.h"
 
+// Derivation. F_k is the footprint of picture k in the plane, |F| its area.
+//
+//   forward overlap of consecutive pictures k, k + 1 of a lane: o_k = |F_k and F_{k+1}| / |F_k|
+//   covered at cell c: max over all lanes and pairs with c in F_k and F_{k+1} of o_k (`largest`)
+//   held at cell c:    max over lanes of the min over that lane's pairs with c in both (`held`)
+//   covered and held shares: fraction of the parcel's cells at which these reach wanted_overlap
+//
+// Ground sampling distance: one pixel at distance d along the optical axis covers gsd = d * IFOV.
+// A camera looking straight down from the same height h above the observed ground has h * IFOV.
+// With the unit axis a, h = d * down and down = -a_z, so that
+//   relative excess = d / h - 1 = 1 / down - 1
+//
+// Cells are sampled at their centres. A polygon is scanned row by row: its edges cross the
+// horizontal line through the row's centres at sorted abscissae x_0 <= x_1 <= ..., and by the
+// even-odd rule the centres between x_0 and x_1, x_2 and x_3, ... are inside.
+
 namespace vinerow::metrics {
 namespace {
 
 using Eigen::Vector2d;
 
-/// Overlaps are compared with a limit up to rounding.
+/// Tolerance for rounding errors of overlaps and of numbers of cells. Chosen: far above the error
+/// of double arithmetic on areas of a few thousand m2. Overlaps of cells are stored as float, whose
+/// resolution of 6e-8 dominates there.
 constexpr double kRounding = 1e-9;
-constexpr double kMostCells = 25e6;
+/// Largest number of cells. Chosen: a cell takes 20 bytes, so that a map needs at most 500 MB.
+constexpr double kMaxCells = 25e6;
 
 Eigen::AlignedBox2d box_of(const Polygon& polygon) {
   Eigen::AlignedBox2d box;
@@ -26,11 +45,12 @@ Eigen::AlignedBox2d box_of(const Polygon& polygon) {
   return box;
 }
 
-/// Calls back for every cell whose middle lies in the polygon (even-odd rule).
+/// Calls f for every cell whose centre is in the polygon (even-odd rule).
 template <class F>
 void for_each_cell_in(const Polygon& polygon, const CoverageMap& map, F&& f) {
   if (polygon.size() < 3) return;
   const Eigen::AlignedBox2d box = box_of(polygon);
+  // Fractional index of a row, or below of a column, that is a whole number at a cell's centre.
   const auto row_of = [&](double y) { return (y - map.corner_W.y()) / map.cell_m - 0.5; };
   const int first_row = static_cast<int>(std::ceil(std::max(0.0, row_of(box.min().y()))));
   const int last_row =
@@ -41,6 +61,7 @@ void for_each_cell_in(const Polygon& polygon, const CoverageMap& map, F&& f) {
     crossings.clear();
     for (std::size_t i = 0; i < polygon.size(); ++i) {
       const Vector2d &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+      // Half-open edges: a corner on the line counts for one of its two edges only.
       if ((a.y() <= y) == (b.y() <= y)) continue;
       const double x = a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
       crossings.push_back((x - map.corner_W.x()) / map.cell_m - 0.5);
@@ -59,8 +80,8 @@ CoverageMap empty_map(const CoverageOptions& options) {
   CoverageMap map;
   map.corner_W = box.min();
   map.cell_m = options.cell_m;
-  map.columns = std::max(1, static_cast<int>(std::ceil(box.sizes().x() / map.cell_m - 1e-9)));
-  map.rows = std::max(1, static_cast<int>(std::ceil(box.sizes().y() / map.cell_m - 1e-9)));
+  map.columns = std::max(1, static_cast<int>(std::ceil(box.sizes().x() / map.cell_m - kRounding)));
+  map.rows = std::max(1, static_cast<int>(std::ceil(box.sizes().y() / map.cell_m - kRounding)));
   const std::size_t cells = static_cast<std::size_t>(map.columns) * map.rows;
   map.pictures.assign(cells, -1);
   map.forward_overlap.assign(cells, -1.0f);
@@ -71,7 +92,7 @@ CoverageMap empty_map(const CoverageOptions& options) {
   return map;
 }
 
-/// Smallest, largest and mean of what was added; NaN of nothing.
+/// Smallest and largest value, sum and count; or_nan() gives NaN if nothing was added.
 struct Summary {
   double min = std::numeric_limits<double>::infinity();
   double max = -std::numeric_limits<double>::infinity();
@@ -89,8 +110,7 @@ struct Summary {
   }
 };
 
-/// Of every cell the largest overlap of a pair of pictures that both see it, and the smallest such
-/// overlap on the lane where that is largest.
+/// `largest` and `held` of every cell (see above). Pairs must be added lane by lane.
 class CellOverlaps {
  public:
   explicit CellOverlaps(const CoverageMap& map)
@@ -112,8 +132,8 @@ class CellOverlaps {
   float held(std::size_t cell) const { return held_[cell]; }
 
  private:
-  static constexpr float kNoPair = 2.0f;
-  std::vector<float> largest_, on_lane_, held_;
+  static constexpr float kNoPair = 2.0f;  ///< larger than any overlap, so that min() replaces it
+  std::vector<float> largest_, on_lane_, held_;  ///< on_lane_: min over the present lane
 };
 
 Summary find_forward_overlaps(const std::vector<PictureFootprint>& footprints,
@@ -132,7 +152,7 @@ Summary find_forward_overlaps(const std::vector<PictureFootprint>& footprints,
   return forward;
 }
 
-/// Fills the map's overlap too.
+/// Computes the shares of the parcel's cells, and writes the held overlap into the map.
 void add_cell_shares(const CellOverlaps& cells, double wanted_overlap, CoverageMap& map) {
   double inside = 0.0, once = 0.0, twice = 0.0, thrice = 0.0, covered = 0.0, held = 0.0;
   const auto wanted = static_cast<float>(wanted_overlap - kRounding);
@@ -165,24 +185,64 @@ Polygon footprint_W(const CameraShot& shot) {
   return convex_hull(std::move(corners));
 }
 
-const std::vector<MetricNumber>& coverage_numbers() {
-  static const std::vector<MetricNumber> numbers = {count_number("shots"),
-                                                    count_number("shots_off_ground"),
-                                                    share_number("covered_share"),
-                                                    share_number("covered_twice_share"),
-                                                    share_number("covered_three_times_share"),
-                                                    share_number("overlap_covered_share"),
-                                                    share_number("overlap_held_share"),
-                                                    share_number("forward_overlap_min"),
-                                                    share_number("forward_overlap_mean"),
-                                                    share_number("side_overlap_min"),
-                                                    share_number("side_overlap_mean"),
-                                                    from_zero("gsd_min_m"),
-                                                    from_zero("gsd_mean_m"),
-                                                    from_zero("gsd_max_m"),
-                                                    from_zero("gsd_formula_error_max"),
-                                                    signed_number("gsd_formula_error_mean")};
-  return numbers;
+const std::vector<ResultSpec>& coverage_results() {
+  using Range = ResultRange;
+  static const std::vector<ResultSpec> results = {
+      {"shots", "1", Range::count(), "pictures taken", "Number of pictures of the survey camera.",
+       "paper A, §2"},
+      {"shots_off_ground", "1", Range::count(), "pictures beyond the ground",
+       "Number of pictures with a corner beyond the ground or above the horizon. They are excluded "
+       "from all other survey metrics; increase the world's surroundings_m to avoid them.",
+       ""},
+      {"covered_share", "1", Range::share(), "parcel photographed",
+       "Fraction of the parcel's cells (cell_m, 1 m) that at least one picture shows.",
+       "paper A, §2"},
+      {"covered_twice_share", "1", Range::share(), "parcel photographed twice",
+       "Fraction of the parcel's cells that at least two pictures show.", "paper A, §2"},
+      {"covered_three_times_share", "1", Range::share(), "parcel photographed three times",
+       "Fraction of the parcel's cells that at least three pictures show.", "paper A, §2"},
+      {"overlap_covered_share", "1", Range::share(), "parcel reaching wanted overlap",
+       "Fraction of the parcel's cells shown by at least one pair of consecutive pictures of a "
+       "lane whose forward overlap reaches wanted_overlap (0.85).",
+       "paper A, §2"},
+      {"overlap_held_share", "1", Range::share(), "parcel keeping wanted overlap",
+       "Fraction of the parcel's cells for which, on some lane, every pair of consecutive pictures "
+       "that both show the cell reaches wanted_overlap (0.85).",
+       "paper A, §2"},
+      {"forward_overlap_min", "1", Range::share(), "min forward overlap",
+       "Smallest forward overlap: area common to two consecutive pictures of a lane divided by the "
+       "area of the first, in plan view, if both touch the parcel.",
+       "paper A, §2"},
+      {"forward_overlap_mean", "1", Range::share(), "mean forward overlap",
+       "Mean forward overlap of consecutive pictures of a lane that both touch the parcel.",
+       "paper A, §2"},
+      {"side_overlap_min", "1", Range::share(), "min side overlap",
+       "Smallest side overlap: area common to a picture and the strip photographed on the "
+       "neighbouring lane, divided by the area of the picture.",
+       "paper A, §2"},
+      {"side_overlap_mean", "1", Range::share(), "mean side overlap",
+       "Mean side overlap of the pictures that touch the parcel.", "paper A, §2"},
+      {"gsd_min_m", "m", Range::from_zero(), "min ground sampling distance",
+       "Smallest ground sampling distance along the optical axis, over pictures that touch the "
+       "parcel.",
+       "paper A, §2"},
+      {"gsd_mean_m", "m", Range::from_zero(), "mean ground sampling distance",
+       "Mean ground sampling distance along the optical axis, over pictures that touch the parcel: "
+       "metres of ground per pixel.",
+       "paper A, §2"},
+      {"gsd_max_m", "m", Range::from_zero(), "max ground sampling distance",
+       "Largest ground sampling distance along the optical axis, over pictures that touch the "
+       "parcel.",
+       "paper A, §2"},
+      {"gsd_formula_error_max", "1", Range::from_zero(), "max GSD excess over formula",
+       "Largest absolute relative difference of the ground sampling distance from that of a "
+       "picture taken straight down from the same height above the observed ground.",
+       "paper A, §2"},
+      {"gsd_formula_error_mean", "1", Range::any(), "mean GSD excess over formula",
+       "Mean relative excess of the ground sampling distance over that of a picture taken straight "
+       "down from the same height above the observed ground.",
+       "paper A, §2"}};
+  return results;
 }
 
 void check_coverage_options(const CoverageOptions& options) {
@@ -199,7 +259,7 @@ void check_coverage_options(const CoverageOptions& options) {
                     corner(crossing->second).x(), corner(crossing->second).y()));
   }
   const Eigen::Vector2d cells = box_of(parcel).sizes() / options.cell_m;
-  if (cells.x() * cells.y() > kMostCells) {
+  if (cells.x() * cells.y() > kMaxCells) {
     throw ConfigError(
         fmt::format("cell_m = {:g} m gives {:.0f} million cells, must be at most 25 million",
                     options.cell_m, 1e-6 * cells.x() * cells.y()));
@@ -226,8 +286,7 @@ CoverageMap map_coverage(const std::vector<LaneShot>& shots, const CoverageOptio
     });
     if (footprint.touches_parcel) {
       gsd.add(taken.shot.gsd_m);
-      // Straight down from the height h above the point looked at, distance d away, the formula
-      // gives h / d of what is reported.
+      // d / h - 1 = 1 / down - 1
       const double down = -(taken.shot.X_WS.q * Eigen::Vector3d::UnitX()).z();
       error.add(1.0 / down - 1.0);
       error_size = std::max(error_size, std::abs(1.0 / down - 1.0));

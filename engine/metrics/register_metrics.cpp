@@ -1,8 +1,5 @@
 #include "engine/metrics/register_metrics.h"
 
-#include <memory>
-#include <vector>
-
 #include "engine/metrics/air_tracking.h"
 #include "engine/metrics/alley_place.h"
 #include "engine/metrics/clearance.h"
@@ -15,36 +12,16 @@
 
 namespace vinerow::metrics {
 
-namespace {
-
-struct BuiltInMetric {
-  PartSpec (*spec)();
-  std::unique_ptr<Metric> (*make)(const ParameterSet&, const MetricContext&);
-  const std::vector<MetricNumber>& (*numbers)();
-};
-
-constexpr BuiltInMetric kMetrics[] = {
-    {path_deviation_spec, make_path_deviation, path_deviation_numbers},
-    {clearance_spec, make_clearance, clearance_numbers},
-    {alley_place_spec, make_alley_place, alley_place_numbers},
-    {travel_spec, make_travel, travel_numbers},
-    {wheel_slip_spec, make_wheel_slip, wheel_slip_numbers},
-    {flight_spec, make_flight, flight_numbers},
-    {estimation_spec, make_estimation, estimation_numbers},
-    {air_tracking_spec, make_air_tracking, air_tracking_numbers},
-    {survey_coverage_spec, make_survey_coverage, coverage_numbers}};
-
-}  // namespace
-
 void register_metrics(Registry& registry) {
-  for (const BuiltInMetric& metric : kMetrics) registry.add_metric(metric.spec(), metric.make);
-}
-
-const MetricNumber* find_metric_number(const std::string& type, std::string_view name) {
-  for (const BuiltInMetric& metric : kMetrics) {
-    if (metric.spec().name == type) return find_number(metric.numbers(), name);
-  }
-  return nullptr;
+  registry.add_metric(path_deviation_spec(), make_path_deviation);
+  registry.add_metric(clearance_spec(), make_clearance);
+  registry.add_metric(alley_place_spec(), make_alley_place);
+  registry.add_metric(travel_spec(), make_travel);
+  registry.add_metric(wheel_slip_spec(), make_wheel_slip);
+  registry.add_metric(flight_spec(), make_flight);
+  registry.add_metric(estimation_spec(), make_estimation);
+  registry.add_metric(air_tracking_spec(), make_air_tracking);
+  registry.add_metric(survey_coverage_spec(), make_survey_coverage);
 }
 
 }  // namespace vinerow::metrics

@@ -1,5 +1,5 @@
 #pragma once
-/// Root mean square and largest size of a number, sample by sample.
+/// Running root mean square and largest absolute value.
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace vinerow::metrics {
 
-/// What a metric says where it had nothing to measure.
+/// Value of a metric that had nothing to measure.
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
 struct Spread {
@@ -18,7 +18,7 @@ struct Spread {
 
   void add(double value) {
     sum_squares += value * value;
-    // A NaN stays: a comparison with it is false, whichever way round.
+    // A NaN must stay in max, although every comparison with it is false.
     if (!(std::abs(value) <= max)) max = std::isnan(max) ? max : std::abs(value);
     ++count;
   }

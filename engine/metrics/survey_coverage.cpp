@@ -14,7 +14,7 @@
 namespace vinerow::metrics {
 namespace {
 
-/// Room for more than an hour at one picture per second; later ones take more memory.
+/// Pictures for which memory is reserved. Chosen: more than an hour at one picture per second.
 constexpr std::size_t kUsualShots = 4096;
 
 struct SurveyMetricParams {
@@ -39,14 +39,15 @@ const ParameterTable<SurveyMetricParams>& survey_metric_table() {
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .text("camera", &P::camera,
-                "sensor that takes the pictures; default: the vehicle's survey camera where it has "
-                "one alone, else 'camera' of vehicles with wings")
+                "sensor that takes the pictures; default: the vehicle's survey camera if it has "
+                "exactly one, else 'camera' of fixed-wing vehicles")
           .numbers("polygon_x_m", "m", &P::polygon_x_m, kAnyNumber,
-                   "east of the parcel's corners; default: the parcel of the world")
-          .numbers("polygon_y_m", "m", &P::polygon_y_m, kAnyNumber, "north of the parcel's corners")
+                   "x (east) of the parcel's corners; default: the parcel of the world")
+          .numbers("polygon_y_m", "m", &P::polygon_y_m, kAnyNumber,
+                   "y (north) of the parcel's corners")
           .number("cell_m", "m", &P::cell_m, kPositive, "size of the cells that are counted")
           .number("wanted_overlap", "", &P::wanted_overlap, between(0.0, 1.0),
-                  "forward overlap with which ground counts as covered by overlap_covered_share")
+                  "forward overlap from which overlap_covered_share counts ground as covered")
           .rule(find_fault_in_polygon);
   return table;
 }
@@ -94,7 +95,7 @@ class SurveyMetric final : public Metric {
     if (!is_wanted_) return {};
     if (!options_.parcel_W.empty()) return map_coverage(shots_, options_).numbers;
     std::map<std::string, double> unknown;
-    for (const MetricNumber& number : coverage_numbers()) {
+    for (const ResultSpec& number : coverage_results()) {
       unknown[number.name] = std::numeric_limits<double>::quiet_NaN();
     }
     unknown["shots"] = static_cast<double>(shots_.size());
@@ -118,12 +119,11 @@ PartSpec survey_coverage_spec() {
   PartSpec spec;
   spec.name = "survey";
   spec.description =
-      "Of vehicles with a survey camera: how much of the parcel their pictures cover, with what "
-      "overlap and "
+      "Vehicles with a survey camera: coverage of the parcel by their pictures, overlap and "
       "ground sampling distance (paper A, section 2)";
   spec.parameters = survey_metric_table().specs();
   spec.reads = {"truth", "<camera> (optional)", "plan (optional)"};
-  spec.writes = written(coverage_numbers());
+  spec.results = coverage_results();
   return spec;
 }
 

@@ -1,11 +1,11 @@
 #pragma once
-/// What the pictures of a survey show of the parcel: coverage, overlap, ground sampling distance.
-/// The results are those of engine/metrics/picture_coverage.h, where each is defined.
+/// Survey metric: coverage, overlap and ground sampling distance of a parcel's pictures.
+/// engine/metrics/picture_coverage.h defines the results.
 ///
-/// Vehicles without wings have no such results, unless the file names their camera. Every picture
-/// that the camera writes counts; which lane it was taken on is told by the plan
-/// (PlanStretch::lane), by where the vehicle truly was and went. Without a plan all pictures belong
-/// to one lane. Pictures that are taken faster than the metric's rate are missed.
+/// Vehicles without wings have no such results, unless the scenario names their camera. Every
+/// picture that the camera writes counts. Its lane is that of the plan (PlanStretch::lane) at the
+/// vehicle's true position and direction of motion. Without a plan, all pictures belong to one
+/// lane. Pictures that are taken faster than the metric's rate are missed.
 
 #include <memory>
 
@@ -15,7 +15,7 @@
 namespace vinerow::metrics {
 
 PartSpec survey_coverage_spec();
-/// Of its parameters; the parcel is empty where none is given.
+/// Coverage options from the metric's parameters; the parcel is empty if they contain none.
 /// @throws ConfigError if polygon_x_m and polygon_y_m differ in length
 CoverageOptions read_coverage_options(const ParameterSet& parameters);
 /// @throws ConfigError if only one of polygon_x_m and polygon_y_m is given, or they differ in

@@ -1,5 +1,5 @@
 #pragma once
-/// Whether a stretch was passed from one end to the other: it has when each of its tenths was.
+/// Detector of stretches that were passed from one end to the other: in each of their tenths.
 
 #include <algorithm>
 #include <cmath>
@@ -11,10 +11,11 @@ namespace vinerow::metrics {
 
 class Tenths {
  public:
-  /// Looks at where the vehicle is on the stretch. What lies between two looks in a row was passed
-  /// too, if the vehicle moved at least half as far: then it did not come there some other way.
-  /// @param share  of the stretch that lies behind, 0..1
-  /// @param moved_share  how far it moved since the last look, over the stretch's length
+  /// Adds the vehicle's place on the stretch. The section between two consecutive looks counts as
+  /// passed if it is at most twice as long as the distance moved. If it is longer, the vehicle
+  /// cannot have driven along it.
+  /// @param share  distance along the stretch divided by its length, 0..1
+  /// @param moved_share  distance moved since the last look, divided by the stretch's length
   void look(double share, double moved_share) {
     const bool went_on = std::abs(share - last_) <= 2.0 * moved_share;  // false at the first look
     const int from = tenth(went_on ? std::min(share, last_) : share);
@@ -22,7 +23,7 @@ class Tenths {
     for (int k = from; k <= to; ++k) seen_ |= 1u << k;
     last_ = share;
   }
-  /// It is not on the stretch now.
+  /// The vehicle is not on the stretch now.
   void leave() { last_ = kNotMeasured; }
   bool all() const { return seen_ == (1u << kCount) - 1u; }
 

@@ -33,7 +33,7 @@ class Travel final : public Metric {
     has_last_ = true;
     const double speed_mps = truth.v_WB_B.norm();
     max_speed_mps_ = std::max(max_speed_mps_, speed_mps);
-    watch_standing(now, truth.X_WB.p, speed_mps);
+    watch_stationary(now, truth.X_WB.p, speed_mps);
     now_ = now;
   }
 
@@ -42,12 +42,12 @@ class Travel final : public Metric {
     const double energy_J =
         battery_.has_value() ? battery_.value().energy_used_J - start_energy_J_ : kNotMeasured;
     const double mean_power_W = time_s > 0.0 ? energy_J / time_s : kNotMeasured;
-    // Who only takes in, or draws nothing, works for ever.
+    // A vehicle that draws no power has no battery life.
     const double battery_hours =
         mean_power_W > 0.0 ? capacity_J_ / mean_power_W / 3600.0 : kNotMeasured;
     return {{"distance_m", distance_m_},
             {"displacement_m", (last_p_W_ - start_p_W_).norm()},
-            {"standing_drift_m", standing_drift_m_},
+            {"standing_drift_m", stationary_drift_m_},
             {"time_s", time_s},
             {"mean_speed_mps", time_s > 0.0 ? distance_m_ / time_s : 0.0},
             {"max_speed_mps", max_speed_mps_},
@@ -63,18 +63,20 @@ class Travel final : public Metric {
     return !wrecked && follower_.has_value() && follower_.value().finished;
   }
 
-  /// A stand begins where the vehicle has been slower than 5 mm/s for 2 s, its springs settled, and
-  /// ends above 5 cm/s. A creeping vehicle stands, so that its creep is seen.
-  void watch_standing(Time now, const Eigen::Vector3d& p_W, double speed_mps) {
+  /// The vehicle is stationary once it has been slower than kSlow_mps for kSettle_s, so that its
+  /// springs have settled, and until it is faster than kDriving_mps. A creeping vehicle is
+  /// therefore stationary, and its creep is measured.
+  void watch_stationary(Time now, const Eigen::Vector3d& p_W, double speed_mps) {
     constexpr double kSlow_mps = 0.005, kDriving_mps = 0.05, kSettle_s = 2.0;
     if (speed_mps > kDriving_mps) stands_ = false;
     if (speed_mps > kSlow_mps) slow_since_ = now;
     if (!stands_ && (now - slow_since_).s() >= kSettle_s) {
       stands_ = true;
-      stand_p_W_ = p_W;
-      if (!(standing_drift_m_ >= 0.0)) standing_drift_m_ = 0.0;
+      stationary_p_W_ = p_W;
+      if (!(stationary_drift_m_ >= 0.0)) stationary_drift_m_ = 0.0;
     }
-    if (stands_) standing_drift_m_ = std::max(standing_drift_m_, (p_W - stand_p_W_).norm());
+    if (stands_)
+      stationary_drift_m_ = std::max(stationary_drift_m_, (p_W - stationary_p_W_).norm());
   }
 
   const Vehicle* vehicle_;
@@ -87,8 +89,8 @@ class Travel final : public Metric {
   bool has_last_ = false;
   Time slow_since_;
   bool stands_ = false;
-  Eigen::Vector3d stand_p_W_ = Eigen::Vector3d::Zero();
-  double standing_drift_m_ = kNotMeasured;
+  Eigen::Vector3d stationary_p_W_ = Eigen::Vector3d::Zero();
+  double stationary_drift_m_ = kNotMeasured;
   double distance_m_ = 0.0;
   double max_speed_mps_ = 0.0;
   double start_energy_J_ = 0.0;
@@ -97,21 +99,44 @@ class Travel final : public Metric {
 
 }  // namespace
 
-const std::vector<MetricNumber>& travel_numbers() {
-  static const std::vector<MetricNumber> numbers = {
-      from_zero("distance_m"),   from_zero("displacement_m"),   from_zero("standing_drift_m"),
-      from_zero("time_s"),       from_zero("mean_speed_mps"),   from_zero("max_speed_mps"),
-      signed_number("energy_J"), signed_number("mean_power_W"), from_zero("battery_hours"),
-      flag_number("finished")};
-  return numbers;
+const std::vector<ResultSpec>& travel_results() {
+  using Range = ResultRange;
+  static const std::vector<ResultSpec> results = {
+      {"distance_m", "m", Range::from_zero(), "distance travelled",
+       "Length of the true track, summed at the metric's rate.", ""},
+      {"displacement_m", "m", Range::from_zero(), "displacement",
+       "Straight-line distance from the first to the last true position.", ""},
+      {"standing_drift_m", "m", Range::from_zero(), "drift while stationary",
+       "Largest distance from the position at which the vehicle became stationary: slower than 5 "
+       "mm/s for 2 s, until it exceeds 5 cm/s.",
+       ""},
+      {"time_s", "s", Range::from_zero(), "time",
+       "Simulated time from the first tick of the vehicle to the last.", ""},
+      {"mean_speed_mps", "m/s", Range::from_zero(), "mean speed",
+       "Distance travelled divided by time.", ""},
+      {"max_speed_mps", "m/s", Range::from_zero(), "max speed", "Largest true speed.", ""},
+      {"energy_J", "J", Range::any(), "energy used",
+       "Energy drawn from the battery; negative if more was recovered than used. Null if the "
+       "vehicle has no battery.",
+       ""},
+      {"mean_power_W", "W", Range::any(), "mean power", "Energy used divided by time.", ""},
+      {"battery_hours", "h", Range::from_zero(), "battery endurance",
+       "Battery capacity divided by mean power. Null if the vehicle has no battery or draws no "
+       "power.",
+       ""},
+      {"finished", "1", Range::zero_or_one(), "mission completed",
+       "1 if the controller has reported that its task is finished and the vehicle has not "
+       "crashed, else 0.",
+       ""}};
+  return results;
 }
 
 PartSpec travel_spec() {
   PartSpec spec;
   spec.name = "travel";
-  spec.description = "Distance, time, speed, energy and how long the battery lasts at that";
+  spec.description = "Distance, time, speed, energy and battery life at the mean power";
   spec.reads = {"truth", "battery (optional)", "follower (optional)"};
-  spec.writes = written(travel_numbers());
+  spec.results = travel_results();
   return spec;
 }
 

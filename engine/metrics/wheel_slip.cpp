@@ -12,12 +12,13 @@
 namespace vinerow::metrics {
 namespace {
 
-constexpr double kStanding_mps = 0.05;
+/// Speed of rim and vehicle below which a slip has no meaning. Chosen.
+constexpr double kStationary_mps = 0.05;
 constexpr int kAbsent = -1;
-/// Of a rim that runs backwards as fast as the wheel rolls forwards.
-constexpr double kMostSlip = 2.0;
+/// Largest possible slip: the rim runs backwards as fast as the wheel moves forwards.
+constexpr double kMaxSlip = 2.0;
 
-/// "fl" of "wheel_fl_slip" and the ending "_slip"; empty where the name is not of that form.
+/// "fl" for "wheel_fl_slip" and the ending "_slip"; empty if the name does not have that form.
 std::string wheel_of(const std::string& name, const std::string& ending) {
   const std::string beginning = "wheel_";
   const bool fits = name.size() > beginning.size() + ending.size() && name.starts_with(beginning) &&
@@ -32,7 +33,7 @@ class WheelSlip final : public Metric {
     const VehicleDescription& vehicle = *context.vehicle_description;
     flies_ = vehicle.flies();
     if (vehicle.wheeled) radius_m_ = vehicle.wheeled->wheel_radius_m;
-    // The names of the results are asked for before the wheels have said a word.
+    // Results are needed by name before the first value of "wheels" exists.
     for (const ActuatorSpec& actuator : vehicle.actuators) {
       const std::string name = wheel_of(actuator.name, "_speed_radps");
       if (!name.empty()) wheels_.emplace_back(name);
@@ -50,14 +51,14 @@ class WheelSlip final : public Metric {
     if (!values_.is_newer_than(values_seen_)) return;
     if (!found_) find_values();
     const Odometry& truth = truth_.value();
-    const bool moves = truth.v_WB_B.norm() >= kStanding_mps;
+    const bool moves = truth.v_WB_B.norm() >= kStationary_mps;
     const bool turns = plan_.has_plan() && plan_.is_turn(plan_.find(truth.X_WB.p).segment);
     const std::vector<double>& values = values_.value().values;
     const auto value = [&](int index) { return index == kAbsent ? 0.0 : values[index]; };
     for (Wheel& wheel : wheels_) {
       if (wheel.slip_at == kAbsent) continue;
       if (wheel.load_at != kAbsent && value(wheel.load_at) <= 0.0) continue;
-      const bool spins = std::abs(radius_m_ * value(wheel.speed_at)) >= kStanding_mps;
+      const bool spins = std::abs(radius_m_ * value(wheel.speed_at)) >= kStationary_mps;
       if (!moves && !spins) continue;
       const double slip = value(wheel.slip_at);
       all_.add(slip);
@@ -68,7 +69,7 @@ class WheelSlip final : public Metric {
   }
 
   std::map<std::string, double> results() const override {
-    // What flies without wheels has no slip to be silent about.
+    // Flying vehicles without wheels have no such results, not even NaN.
     if (flies_ && wheels_.empty()) return {};
     std::map<std::string, double> results{{"slip_rms", all_.rms()},
                                           {"slip_max", all_.max_or_nan()},
@@ -90,7 +91,7 @@ class WheelSlip final : public Metric {
     Spread slip;
   };
 
-  /// Names are fixed when their writer connects: once is enough.
+  /// Called once, because a writer's names are fixed when it connects.
   void find_values() {
     found_ = true;
     const std::vector<std::string>& names = values_.value().names;
@@ -127,21 +128,39 @@ class WheelSlip final : public Metric {
 
 }  // namespace
 
-const std::vector<MetricNumber>& wheel_slip_numbers() {
-  static const std::vector<MetricNumber> numbers = {
-      zero_to(kMostSlip, "slip_rms"),        zero_to(kMostSlip, "slip_max"),
-      zero_to(kMostSlip, "slip_rms_turn"),   zero_to(kMostSlip, "slip_max_turn"),
-      from_zero("slip_angle_rms_rad"),       zero_to(kMostSlip, "slip_rms_<wheel>"),
-      zero_to(kMostSlip, "slip_max_<wheel>")};
-  return numbers;
+const std::vector<ResultSpec>& wheel_slip_results() {
+  using Range = ResultRange;
+  static const std::vector<ResultSpec> results = {
+      {"slip_rms", "1", Range::zero_to(kMaxSlip), "RMS wheel slip",
+       "Root mean square, over all wheels, of the longitudinal slip (Rω - v) / max(|Rω|, |v|), "
+       "sampled at record.truth_rate_Hz. Wheels without load are excluded, and stationary ones "
+       "(rim and vehicle slower than 0.05 m/s).",
+       "paper A, §4.1"},
+      {"slip_max", "1", Range::zero_to(kMaxSlip), "max wheel slip",
+       "Largest longitudinal slip of any wheel.", "paper A, §4.1"},
+      {"slip_rms_turn", "1", Range::zero_to(kMaxSlip), "RMS wheel slip in turns",
+       "Root mean square of the longitudinal slip of all wheels in the turns of the plan.",
+       "paper A, §4.1"},
+      {"slip_max_turn", "1", Range::zero_to(kMaxSlip), "max wheel slip in turns",
+       "Largest longitudinal slip of any wheel in the turns of the plan.", "paper A, §4.1"},
+      {"slip_angle_rms_rad", "rad", Range::from_zero(), "RMS slip angle",
+       "Root mean square, over all wheels, of the angle between the wheel's rolling direction and "
+       "its velocity.",
+       ""},
+      {"slip_rms_<wheel>", "1", Range::zero_to(kMaxSlip), "RMS slip of one wheel",
+       "Root mean square of the longitudinal slip of the named wheel.", "paper A, §4.1"},
+      {"slip_max_<wheel>", "1", Range::zero_to(kMaxSlip), "max slip of one wheel",
+       "Largest longitudinal slip of the named wheel.", "paper A, §4.1"}};
+  return results;
 }
 
 PartSpec wheel_slip_spec() {
   PartSpec spec;
   spec.name = "wheel_slip";
-  spec.description = "Slip of the wheels along their rolling direction, of all and of each";
+  spec.description =
+      "Slip of the wheels along their rolling direction, over all wheels and for each one";
   spec.reads = {"truth", "wheels (optional)", "plan (optional)"};
-  spec.writes = written(wheel_slip_numbers());
+  spec.results = wheel_slip_results();
   return spec;
 }
 

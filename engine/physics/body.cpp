@@ -9,10 +9,28 @@
 #include "engine/physics/body_shape.h"
 #include "engine/physics/bullet_convert.h"
 
+// Plan of one step from t to t + dt, with x = (p, q, v, w) in motion_:
+//
+//   start_step   free_end_ = advance_free(x(t), load)      as if there were no contacts
+//                Bullet gets the pose of x(t) and the velocities of free_end_
+//   (solver)     changes these velocities so that contacts hold, and the pose to remove overlaps
+//   end_step     x(t + dt) = free_end_                      if the solver changed nothing
+//                x(t + dt) = advance_at_velocity(Bullet)    otherwise
+//
+// So a body without contacts keeps the accuracy of free_motion.h, and Bullet's first-order rule is
+// used only where a contact pushed. All states are those of P, the principal axes at the centre of
+// mass; state() and set_state() convert to B by q_BP.
+
 namespace vinerow::physics {
 namespace {
 
 using Eigen::Vector3d;
+
+/// Largest difference of mirrored entries, relative to the largest entry. Chosen: far above the
+/// rounding of a sum of parts, far below a real asymmetry.
+constexpr double kInertiaAsymmetry = 1e-9;
+/// Largest deviation of a quaternion's norm from 1. Chosen: accepts numbers with seven digits.
+constexpr double kNormError = 1e-6;
 
 void check_spec(const BodySpec& spec) {
   const auto refuse = [&](const std::string& what) {
@@ -22,11 +40,12 @@ void check_spec(const BodySpec& spec) {
     refuse(fmt::format("mass_kg = {}, must be > 0", spec.mass_kg));
   }
   const double asymmetry = (spec.inertia_B - spec.inertia_B.transpose()).cwiseAbs().maxCoeff();
-  if (!spec.inertia_B.allFinite() || asymmetry > 1e-9 * spec.inertia_B.cwiseAbs().maxCoeff() ||
+  if (!spec.inertia_B.allFinite() ||
+      asymmetry > kInertiaAsymmetry * spec.inertia_B.cwiseAbs().maxCoeff() ||
       spec.inertia_B.llt().info() != Eigen::Success) {
     refuse("inertia_B must be symmetric and positive definite");
   }
-  if (!spec.X_WB.p.allFinite() || !(std::abs(spec.X_WB.q.norm() - 1.0) < 1e-6)) {
+  if (!spec.X_WB.p.allFinite() || !(std::abs(spec.X_WB.q.norm() - 1.0) < kNormError)) {
     refuse("X_WB must be finite with a unit quaternion");
   }
   if (!spec.v_WB_W.allFinite() || !spec.w_WB_W.allFinite()) refuse("velocities must be finite");
@@ -52,7 +71,7 @@ Body::Body(const BodySpec& spec, int index) : name_(spec.name), sampling_(spec.f
     info.m_restitution = spec.restitution;
     bullet_ = std::make_unique<btRigidBody>(info);
     bullet_->setActivationState(DISABLE_DEACTIVATION);
-    bullet_->setFlags(0);  // no gyroscopic term of Bullet's: free_motion.h has it
+    bullet_->setFlags(0);  // without Bullet's gyroscopic term, which free_motion.h includes
     bullet_->setUserIndex2(index);
   }
   set_state({spec.X_WB, spec.v_WB_W, spec.w_WB_W});
@@ -69,9 +88,10 @@ BodyState Body::state() const {
 
 void Body::set_state(const BodyState& state) {
   motion_.p_WP = state.X_WB.p;
-  motion_.q_WP = axes_are_principal_ ? state.X_WB.q : state.X_WB.q * inertia_.q_BP;
+  motion_.q_WP = axes_are_principal_ ? state.X_WB.q : state.X_WB.q * inertia_.q_BP;  // R_WB R_BP
   motion_.v_WP_W = state.v_WB_W;
   motion_.w_WP_W = state.w_WB_W;
+  // The motion jumps: velocity Verlet must not correct with a load of before the jump.
   has_load_before_ = false;
   if (bullet_ && motion_.p_WP.allFinite() && motion_.q_WP.coeffs().allFinite()) {
     place_bullet(motion_);
@@ -95,7 +115,7 @@ void Body::set_held(bool held) {
   if (!bullet_) return;
   bullet_->setLinearVelocity({0.0, 0.0, 0.0});
   bullet_->setAngularVelocity({0.0, 0.0, 0.0});
-  // Without mass it is static to the solver.
+  // For the solver a body without mass is static.
   bullet_->setMassProps(held ? 0.0 : inertia_.mass_kg,
                         held ? btVector3(0, 0, 0) : to_bullet(inertia_.moments_kgm2));
   bullet_->updateInertiaTensor();
@@ -107,7 +127,8 @@ void Body::place_bullet(const MotionState& motion) {
   bullet_->updateInertiaTensor();
 }
 
-void Body::begin_step(const Vector3d& gravity_W, double dt_s) {
+void Body::start_step(const Vector3d& gravity_W, double dt_s) {
+  // a = g + F / m, tau: the load of this step; forces count for one step only.
   load_.a_W = gravity_W + force_W_ / inertia_.mass_kg;
   load_.tau_W = torque_W_;
   force_W_.setZero();
@@ -117,10 +138,12 @@ void Body::begin_step(const Vector3d& gravity_W, double dt_s) {
     if (bullet_ && healthy_) place_bullet(motion_);
     return;
   }
+  // kSmooth: velocity Verlet with the load of the previous step. kHeld: constant load.
   const bool smooth = sampling_ == ForceSampling::kSmooth && has_load_before_;
   free_end_ = advance_free(motion_, inertia_, load_, smooth ? load_before_ : load_, dt_s);
   if (!bullet_) return;
-  // Bullet's indices and trees do not survive numbers that are none, nor do the bodies in contact.
+  // NaN or infinity would break Bullet's indices and trees, and the bodies in contact. A body with
+  // such a state keeps its last pose there, at rest.
   healthy_ = motion_.p_WP.allFinite() && motion_.q_WP.coeffs().allFinite() &&
              free_end_.v_WP_W.allFinite() && free_end_.w_WP_W.allFinite();
   if (!healthy_) {
@@ -140,19 +163,21 @@ void Body::end_step(double dt_s, bool contacts_solved) {
   }
   load_before_ = load_;
   has_load_before_ = true;
+  // Mean acceleration of the step: a without contacts, plus the solver's change of v over dt.
   acceleration_W_ = load_.a_W;
   if (bullet_ && contacts_solved && healthy_) {
     const Vector3d v_W = from_bullet(bullet_->getLinearVelocity());
     const Vector3d w_W = from_bullet(bullet_->getAngularVelocity());
     const bool moved = !(bullet_->getWorldTransform() == placed_);
-    // The solver leaves the velocities of an untouched body as they are, to the bit.
+    // The solver does not change a single bit of the velocities of an untouched body.
     if (moved || v_W != free_end_.v_WP_W || w_W != free_end_.w_WP_W) {
       acceleration_W_ += (v_W - free_end_.v_WP_W) / dt_s;
-      if (moved) {  // an overlap was undone
+      if (moved) {  // the solver removed an overlap
         motion_.p_WP = from_bullet(bullet_->getWorldTransform().getOrigin());
         motion_.q_WP = from_bullet(bullet_->getWorldTransform().getRotation()).normalized();
       }
-      // The end velocity moves the body, as in Bullet: what rests has none and stays where it is.
+      // The end velocity moves the body, as in Bullet: a body at rest has zero velocity and does
+      // not creep.
       motion_ = advance_at_velocity(motion_, v_W, w_W, dt_s);
       return;
     }

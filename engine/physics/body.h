@@ -1,5 +1,6 @@
 #pragma once
-/// One dynamic body: our own state and load beside Bullet's object. Only used in this folder.
+/// One dynamic body: state and load in double precision, next to Bullet's object. Only used in this
+/// folder.
 
 #include <btBulletDynamicsCommon.h>
 
@@ -14,7 +15,7 @@ namespace vinerow::physics {
 
 class Body {
  public:
-  /// @throws ConfigError naming the body, the value and what is allowed
+  /// @throws ConfigError that names the body, the value and what is allowed
   Body(const BodySpec& spec, int index);
 
   const std::string& name() const { return name_; }
@@ -26,7 +27,7 @@ class Body {
   BodyState state() const;
   void set_state(const BodyState& state);
   void set_kinematic(bool kinematic);
-  /// Stays where it is and cannot be pushed; others meet it as they meet a post.
+  /// Fixes the body in place; other bodies collide with it as with a post.
   void set_held(bool held);
 
   void add_force(const Eigen::Vector3d& f_W, const Eigen::Vector3d& tau_W) {
@@ -36,10 +37,10 @@ class Body {
   const Eigen::Vector3d& position_W() const { return motion_.p_WP; }
   const Eigen::Vector3d& acceleration_W() const { return acceleration_W_; }
 
-  /// Works out the step as if nothing were touched and hands pose (of now) and velocities (of the
-  /// end) to Bullet. Clears the added forces.
-  void begin_step(const Eigen::Vector3d& gravity_W, double dt_s);
-  /// Takes the end of the step: the free one, or Bullet's where a contact pushed.
+  /// Computes the step as if there were no contacts and passes pose (at its start) and velocities
+  /// (at its end) to Bullet. Clears the added forces.
+  void start_step(const Eigen::Vector3d& gravity_W, double dt_s);
+  /// Sets the state at the end of the step: the contact-free one, or Bullet's if a contact pushed.
   /// @param contacts_solved  Bullet's solver ran
   void end_step(double dt_s, bool contacts_solved);
 
@@ -50,7 +51,7 @@ class Body {
   PrincipalInertia inertia_;
   bool axes_are_principal_;
   bool kinematic_ = false;
-  bool healthy_ = true;  ///< the step's state is finite; else Bullet is left out of it
+  bool healthy_ = true;  ///< the state of the step is finite; otherwise it is not passed to Bullet
   ForceSampling sampling_;
   MotionState motion_;
   MotionState free_end_;
@@ -62,7 +63,7 @@ class Body {
 
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
   std::unique_ptr<btRigidBody> bullet_;
-  btTransform placed_;  ///< what Bullet was given at the start of the step
+  btTransform placed_;  ///< transform passed to Bullet at the start of the step
 };
 
 }  // namespace vinerow::physics

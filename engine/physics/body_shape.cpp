@@ -10,8 +10,8 @@
 namespace vinerow::physics {
 namespace {
 
-// A hull is widened by its margin; thin enough to be no geometry error, thick enough for the narrow
-// phase to work without its slower penetration search.
+// Bullet enlarges a hull by its margin. 1 mm is chosen: negligible as a geometry error, but enough
+// for the narrow phase to work without its slower penetration search.
 constexpr double kHullMargin_m = 0.001;
 
 struct ShapeMaker {

@@ -11,10 +11,9 @@
 
 namespace vinerow::physics {
 
-/// The shape of a whole body in frame P, and whatever it is made of; `parts.back()` is the one to
-/// use.
-/// @param q_BP  of P in B; both have their origin at the centre of mass
-/// @returns no parts where the body has no shapes
+/// Shape of a whole body in frame P, and its components; `parts.back()` is the one to use.
+/// @param q_BP  orientation of P in B; both have their origin at the centre of mass
+/// @returns no parts if the body has no shapes
 /// @throws ConfigError "body 'rover': radius_m = -1, must be > 0"
 std::vector<std::unique_ptr<btCollisionShape>> make_body_shape(
     const std::string& body_name, const std::vector<PlacedShape>& shapes,

@@ -9,7 +9,7 @@
 namespace vinerow::physics {
 namespace {
 
-/// Squared distance from the edges of box A to the solid box B.
+/// Smallest squared distance from the edges of box A to the solid box B.
 double edges_distance2(const Pose& X_BA, const Eigen::Vector3d& half_A,
                        const Eigen::Vector3d& half_B) {
   const Eigen::Matrix3d half_axes_B = X_BA.q.toRotationMatrix() * half_A.asDiagonal();

@@ -6,7 +6,8 @@
 namespace vinerow::physics {
 namespace {
 
-// Triangles of a leaf are looked at one by one: few enough to be quick, many enough to be small.
+// Items of a leaf are tested one by one. Chosen: few enough to be fast, enough to keep the tree
+// small.
 constexpr std::uint32_t kLeafItems = 6;
 
 }  // namespace

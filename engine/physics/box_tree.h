@@ -1,8 +1,8 @@
 #pragma once
 /// Bounding volume hierarchy over boxes, for distance queries from an oriented box.
 ///
-/// Built top-down by median split along the longest axis of the centres; the same boxes give the
-/// same tree. 32 bytes a node, 4 bytes an item.
+/// Built top-down by median split along the longest axis of the centres; equal boxes give equal
+/// trees. 32 bytes per node, 4 bytes per item.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -13,8 +13,8 @@
 
 namespace vinerow::physics {
 
-/// An oriented box seen from a tree's frame T: a point p_T is R_OT * p_T + p_OT in the box's own
-/// frame O, where it is |x_i| <= half_extents_m_i.
+/// Oriented box relative to a tree's frame T: a point p_T is R_OT * p_T + p_OT in the box's own
+/// frame O, where the box is |x_i| <= half_extents_m_i.
 struct QueryBox {
   Eigen::Matrix3d R_OT = Eigen::Matrix3d::Identity();
   Eigen::Vector3d p_OT = Eigen::Vector3d::Zero();
@@ -27,7 +27,7 @@ class BoxTree {
   explicit BoxTree(std::span<const Eigen::AlignedBox3f> boxes);
 
   /// Calls `visit(item)` for items whose box may be nearer to the query than sqrt(best2_m2),
-  /// nearest branches first. `best2_m2` is read again after each visit, which may lower it.
+  /// nearest branches first. `visit` may lower `best2_m2`, which is read again after each call.
   template <class Visit>
   void search(const QueryBox& query, const double& best2_m2, Visit&& visit) const {
     if (nodes_.empty()) return;
@@ -66,8 +66,8 @@ class BoxTree {
     std::uint32_t count;  ///< > 0: leaf
   };
 
-  /// Squared distance between the query and the node's box as seen along the query's axes: never
-  /// more than the true one.
+  /// Lower bound of the squared distance between the query and the node's box: their separation
+  /// along the query's axes.
   static double calc_bound2(const Node& node, const QueryBox& query, const Eigen::Matrix3d& R_abs) {
     const Eigen::Vector3d centre = 0.5 * (node.low + node.high).cast<double>();
     const Eigen::Vector3d half = 0.5 * (node.high - node.low).cast<double>();

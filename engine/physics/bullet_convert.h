@@ -1,5 +1,5 @@
 #pragma once
-/// Between Eigen and Bullet. Only included inside engine/physics.
+/// Conversions between Eigen and Bullet. Only included inside engine/physics.
 
 #include <LinearMath/btTransform.h>
 

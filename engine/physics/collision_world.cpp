@@ -12,21 +12,21 @@
 namespace vinerow::physics {
 namespace {
 
-/// Takes contact points from the narrow phase, after ContactNormals has looked at them.
+/// Receives contact points from the narrow phase and filters them by ContactNormals.
 class CheckedResult : public btManifoldResult {
  public:
   CheckedResult(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
                 const ContactNormals& normals)
       : btManifoldResult(a, b), normals_(normals) {
-    // The base leaves these unset; shapes without parts never set them.
+    // The base class leaves these unset, and shapes without parts never set them.
     setShapeIdentifiersA(-1, -1);
     setShapeIdentifiersB(-1, -1);
   }
 
   void addContactPoint(const btVector3& normal_B_W, const btVector3& p_B_W,
                        btScalar depth) override {
-    // Sides A and B are those of the manifold; parts and triangles those of the pair, which may be
-    // the other way round.
+    // A and B are the sides of the manifold; parts and triangles are those of the pair, which may
+    // be swapped.
     const btCollisionObject& a = *m_manifoldPtr->getBody0();
     const btCollisionObject& b = *m_manifoldPtr->getBody1();
     if (!a.isStaticObject() && !b.isStaticObject()) {
@@ -51,7 +51,7 @@ class CheckedResult : public btManifoldResult {
 
 }  // namespace
 
-/// Sets the distance up to which contact points are kept, per world: Bullet has it as a global.
+/// Sets the distance up to which contact points are kept for this world; Bullet has it as a global.
 class CollisionWorld::Dispatcher : public btCollisionDispatcher {
  public:
   Dispatcher(btCollisionConfiguration* configuration, double breaking_threshold_m,
@@ -72,7 +72,7 @@ class CollisionWorld::Dispatcher : public btCollisionDispatcher {
   double breaking_threshold_m() const { return breaking_threshold_m_; }
 
  private:
-  /// Bullet's own near callback, but with our result class.
+  /// Bullet's near callback with this file's result class.
   static void find_pair_contacts(btBroadphasePair& pair, btCollisionDispatcher& base,
                                  const btDispatcherInfo& info) {
     auto& dispatcher = static_cast<Dispatcher&>(base);
@@ -80,7 +80,7 @@ class CollisionWorld::Dispatcher : public btCollisionDispatcher {
     auto* b = static_cast<btCollisionObject*>(pair.m_pProxy1->m_clientObject);
     if (!dispatcher.needsCollision(a, b)) return;
     if (dispatcher.is_clear(*a, *b)) {
-      if (pair.m_algorithm) {  // with the contacts it may still hold
+      if (pair.m_algorithm) {  // its contacts may still exist
         pair.m_algorithm->~btCollisionAlgorithm();
         dispatcher.freeCollisionAlgorithm(pair.m_algorithm);
         pair.m_algorithm = nullptr;
@@ -100,7 +100,8 @@ class CollisionWorld::Dispatcher : public btCollisionDispatcher {
     pair.m_algorithm->processCollision(&wrap_a, &wrap_b, info, &result);
   }
 
-  /// One is the height field or a static mesh, and the other surely does not touch it.
+  /// True if one of the pair is the height field or a static mesh, and the other certainly does not
+  /// touch it.
   bool is_clear(const btCollisionObject& a, const btCollisionObject& b) const {
     const double margin_m = 2.0 * breaking_threshold_m_;
     if (a.isStaticObject() && is_clear_of_mesh(a, b, margin_m)) return true;
@@ -126,11 +127,11 @@ CollisionWorld::CollisionWorld(const PhysicsSettings& settings, const StaticScen
       world_(std::make_unique<btCollisionWorld>(dispatcher_.get(), &broadphase_, &configuration_)) {
   solver_info_.m_numIterations = settings.solver_iterations;
   solver_info_.m_linearSlop = settings.linear_slop_m;
-  // Overlaps are undone by moving the bodies, never by a velocity: a push-out adds no energy.
+  // Overlaps are removed by moving the bodies, not by a velocity, so a push-out adds no energy.
   solver_info_.m_splitImpulse = 1;
   solver_info_.m_splitImpulsePenetrationThreshold = 0.0;
   solver_info_.m_restitutionVelocityThreshold = settings.restitution_threshold_mps;
-  // Two directions make sticking hold in every direction, not only along the last slip.
+  // Two friction directions make sticking hold in every direction, not only along the last slip.
   solver_info_.m_solverMode = SOLVER_USE_WARMSTARTING | SOLVER_USE_2_FRICTION_DIRECTIONS;
   for (const auto& object : statics_) {
     world_->addCollisionObject(object.get(), btBroadphaseProxy::StaticFilter,
@@ -155,7 +156,7 @@ void CollisionWorld::ignore_statics(btRigidBody& body, bool ignore) {
   constexpr int kMoving = btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter;
   body.getBroadphaseHandle()->m_collisionFilterMask =
       ignore ? kMoving : btBroadphaseProxy::AllFilter;
-  // Takes its pairs away and finds them anew.
+  // Removes the body's pairs and finds them again.
   world_->refreshBroadphaseProxy(&body);
 }
 

@@ -1,13 +1,13 @@
 #pragma once
 /// Bullet's collision detection and contact solver, without its world's bookkeeping.
 ///
-/// btDiscreteDynamicsWorld walks all collision objects several times a step (islands, activation,
-/// bounding boxes): with thousands of posts and trunks that costs more than the physics. Here only
-/// moving bodies are touched: update their boxes, let the broad phase find pairs, run the narrow
-/// phase, give all manifolds to one sequential-impulse solve.
+/// btDiscreteDynamicsWorld visits all collision objects several times a step (islands, activation,
+/// bounding boxes). With thousands of posts and trunks that costs more than the physics. This class
+/// handles only moving bodies: it updates their boxes, lets the broad phase find pairs, runs the
+/// narrow phase, and passes all manifolds to one sequential-impulse solve.
 ///
-/// Determinism: one thread; the solver gets the manifolds in the order of their objects' numbers
-/// (what m_deterministicOverlappingPairs is for, but without its heap allocation each step).
+/// Determinism: one thread; the solver gets the manifolds in the order of their objects' numbers.
+/// m_deterministicOverlappingPairs gives the same order, but allocates heap memory each step.
 
 #include <btBulletDynamicsCommon.h>
 
@@ -29,15 +29,15 @@ class CollisionWorld {
 
   /// @param body  outlives this object; its user index is kept
   void add_body(btRigidBody& body);
-  /// Drops contact points of before, e.g. after the body was placed elsewhere.
+  /// Removes the body's old contact points, e.g. after it was moved.
   void forget_contacts(btRigidBody& body);
 
-  /// Lets a body meet moving bodies alone, or everything again.
+  /// If `ignore` is true, the body collides only with moving bodies; if false, with everything.
   void ignore_statics(btRigidBody& body, bool ignore);
 
-  /// Finds contacts at the poses the bodies have now. @returns true if some contact may push
+  /// Finds contacts at the bodies' current poses. @returns true if a contact may push
   bool find_contacts();
-  /// Changes the bodies' velocities (and, to undo overlaps, poses) so that contacts hold.
+  /// Changes the bodies' velocities (and, to remove overlaps, their poses) so that contacts hold.
   void solve_contacts(double dt_s);
 
   int manifold_count() const;
@@ -55,8 +55,9 @@ class CollisionWorld {
   std::unique_ptr<btCollisionWorld> world_;
   std::vector<btRigidBody*> bodies_;
   std::vector<btCollisionObject*> movable_;       ///< scratch of solve_contacts
-  std::vector<btPersistentManifold*> manifolds_;  ///< with points, of the last find_contacts
-  std::vector<btPersistentManifold*> pushing_;    ///< those of them that push, in solving order
+  std::vector<btPersistentManifold*> manifolds_;  ///< manifolds with points, from the last
+                                                  ///< find_contacts
+  std::vector<btPersistentManifold*> pushing_;    ///< manifolds that push, in solving order
 };
 
 }  // namespace vinerow::physics

@@ -18,23 +18,23 @@ namespace {
 
 using Eigen::Vector3d;
 
-// The narrow phase's normals scatter by about this much.
+// Chosen: the narrow phase's normals scatter by about this angle.
 constexpr double kNoise_rad = 0.01;
-// How near to an edge a contact point counts as on it.
+// Chosen: a contact point nearer to an edge counts as on the edge.
 constexpr double kEdge_m = 1e-3;
-// Overlaps beyond this are real, whatever their normal.
+// Chosen: deeper overlaps are real, whatever their normal.
 constexpr double kDeep_m = 2e-3;
 constexpr double kBendUnit_rad = kPi / kOpenEdge;
 
-/// One side of an edge, for matching.
+/// Half-edge of a triangle, for matching.
 struct HalfEdge {
   std::uint32_t low, high;  // welded corners
   std::uint32_t triangle;
   std::uint8_t edge;
-  bool upwards;  // runs from low to high
+  bool upwards;  // direction from low to high
 };
 
-/// For each vertex the first one at the same place.
+/// For each vertex the first vertex at the same position.
 std::vector<std::uint32_t> weld(const std::vector<Eigen::Vector3f>& vertices) {
   std::vector<std::uint32_t> order(vertices.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -65,10 +65,10 @@ double angle_between(const Vector3d& a, const Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-/// Bend of the surface at `half`, given its neighbour across the edge.
+/// Bend of the surface at half-edge `half`, given the neighbour's half-edge.
 std::int8_t calc_bend(const TriangleMesh& mesh, const HalfEdge& half, const HalfEdge& other) {
   const Vector3d normal = face_normal(mesh, half.triangle);
-  // Neighbours that run the shared edge the same way have opposite windings.
+  // Neighbours with the same direction of the shared edge have opposite windings.
   const Vector3d other_normal =
       face_normal(mesh, other.triangle) * (half.upwards == other.upwards ? -1.0 : 1.0);
   if (!normal.allFinite() || !other_normal.allFinite()) return kOpenEdge;
@@ -76,16 +76,15 @@ std::int8_t calc_bend(const TriangleMesh& mesh, const HalfEdge& half, const Half
       corner(mesh, other.triangle, other.edge + 2) - corner(mesh, half.triangle, 0);
   const double bend = std::ceil(angle_between(normal, other_normal) / kBendUnit_rad - 0.1);
   const double bounded = std::min(bend, kOpenEdge - 1.0);
-  // The neighbour falls away behind the face: standing out.
+  // The neighbour's far corner is behind the face: convex.
   return static_cast<std::int8_t>(across.dot(normal) < 0.0 ? bounded : -bounded);
 }
 
-/// The rule of the header, for a point where the surface may lean up to `most_rad` from `face`.
-std::optional<Vector3d> judge_normal(const Vector3d& normal, const Vector3d& face,
-                                     double most_rad) {
+/// Rule of the header for a point at which the surface may lean up to `max_rad` from `face`.
+std::optional<Vector3d> judge_normal(const Vector3d& normal, const Vector3d& face, double max_rad) {
   const double lean_rad = angle_between(normal, face);
   if (lean_rad <= kNoise_rad) return face;
-  if (lean_rad <= most_rad + kNoise_rad) return normal;
+  if (lean_rad <= max_rad + kNoise_rad) return normal;
   return std::nullopt;
 }
 
@@ -149,7 +148,7 @@ std::optional<Vector3d> ContactNormals::correct_on_terrain(const Vector3d& p_W,
   Vector3d face_W = field.normal_W(p_W.x(), p_W.y());
   if (angle_between(normal_W, face_W) <= kNoise_rad) return face_W;
 
-  // The faces that meet at the point: those at eight places around it.
+  // Faces that meet at the point: those at eight positions around it.
   constexpr int kAround = 8;
   constexpr double kDiagonal = 0.70710678118654752;
   constexpr double kX[kAround] = {1, kDiagonal, 0, -kDiagonal, -1, -kDiagonal, 0, kDiagonal};
@@ -160,16 +159,16 @@ std::optional<Vector3d> ContactNormals::correct_on_terrain(const Vector3d& p_W,
     faces_W[k] = field.normal_W(x, y);
     if (faces_W[k].dot(normal_W) > face_W.dot(normal_W)) face_W = faces_W[k];
   }
-  double most_rad = 0.0;
+  double max_rad = 0.0;
   const double height_m = field.height_m(p_W.x(), p_W.y());
   for (int k = 0; k < kAround; ++k) {
     const Eigen::Vector2d offset(kEdge_m * kX[k], kEdge_m * kX[(k + 6) % kAround]);
     const double rise_m = field.height_m(p_W.x() + offset.x(), p_W.y() + offset.y()) - height_m;
     const double plane_m = -face_W.head<2>().dot(offset) / face_W.z();
-    const bool stands_out = rise_m < plane_m - 1e-9;
-    if (stands_out) most_rad = std::max(most_rad, angle_between(faces_W[k], face_W));
+    const bool is_ridge = rise_m < plane_m - 1e-9;
+    if (is_ridge) max_rad = std::max(max_rad, angle_between(faces_W[k], face_W));
   }
-  const std::optional<Vector3d> judged = judge_normal(normal_W, face_W, most_rad);
+  const std::optional<Vector3d> judged = judge_normal(normal_W, face_W, max_rad);
   return judged || distance_m > -kDeep_m ? judged : face_W;
 }
 
@@ -188,16 +187,16 @@ std::optional<Vector3d> ContactNormals::correct_on_mesh(int mesh_index, int tria
   const Vector3d normal_M = X_MW.q * normal_W;
   const double towards = face_M.dot(normal_M) >= 0.0 ? 1.0 : -1.0;
   for (const double side : {towards, -towards}) {
-    double most_rad = 0.0;
+    double max_rad = 0.0;
     for (int k = 0; k < 3; ++k) {
       const Vector3d a = corner(mesh, triangle, k);
       const Vector3d along = (corner(mesh, triangle, k + 1) - a).normalized();
       if ((p_M - a).cross(along).squaredNorm() > kEdge_m * kEdge_m) continue;
       const int bend = bends[triangle][k];
       const double out = bend == kOpenEdge ? bend : side * bend;
-      most_rad = std::max(most_rad, out * kBendUnit_rad);
+      max_rad = std::max(max_rad, out * kBendUnit_rad);
     }
-    if (const auto judged = judge_normal(normal_M, side * face_M, most_rad)) {
+    if (const auto judged = judge_normal(normal_M, side * face_M, max_rad)) {
       return Vector3d(instance.X_WM.q * *judged);
     }
   }

@@ -1,14 +1,15 @@
 #pragma once
-/// Drops contact points that no real surface has ("ghost collisions" at edges inside a surface).
+/// Filter for contact points that no real surface has ("ghost collisions" at edges inside a
+/// surface).
 ///
-/// The narrow phase looks at one triangle at a time: a body that slides over a flat floor meets the
-/// edge of the next triangle ahead of it and is told a normal that leans against its motion. A
-/// normal is possible only between the normals of the faces that meet at the point: along the face
-/// inside a triangle and at flat or hollow edges, up to the bend at edges that stand out. Points
-/// with other normals are left out (the neighbouring triangle reports the true one); normals that
-/// lean by no more than the narrow phase's noise are set to the face's.
+/// The narrow phase considers one triangle at a time. A body that slides over a flat floor hits the
+/// edge of the next triangle and gets a normal that opposes its motion. A normal is possible only
+/// between the normals of the faces that meet at the point: along the face inside a triangle and at
+/// flat or concave edges, up to the bend angle at convex edges. Points with other normals are
+/// dropped (the neighbouring triangle reports the true one). Normals that deviate by no more than
+/// the narrow phase's noise are set to the face normal.
 ///
-/// Cost: three bytes a triangle for meshes, nothing for height fields; no heap while running.
+/// Cost: three bytes per triangle for meshes, nothing for height fields; no heap at run time.
 
 #include <Eigen/Core>
 #include <array>
@@ -21,12 +22,12 @@
 
 namespace vinerow::physics {
 
-/// How far the surface bends at each edge of a triangle (edge k: corner k to k + 1), in units of
-/// pi / 127: positive where it stands out as seen from the front, negative where it is hollow.
+/// Bend angle of the surface at each edge of a triangle (edge k: corner k to k + 1), in units of pi
+/// / 127: positive if convex as seen from the front, negative if concave.
 using EdgeBends = std::vector<std::array<std::int8_t, 3>>;
 constexpr std::int8_t kOpenEdge = 127;  ///< no neighbour, or more than one
 
-/// Corners at the same place count as one, as files of unconnected triangles need.
+/// Corners at the same position count as one, which files of unconnected triangles need.
 EdgeBends find_edge_bends(const TriangleMesh& mesh);
 
 class ContactNormals {
@@ -38,7 +39,7 @@ class ContactNormals {
   /// @param triangle    of its mesh; unused for the height field
   /// @param p_W,normal_W  point on the static surface; unit, away from it
   /// @param distance_m  < 0: overlapping. Deep overlaps are never dropped.
-  /// @returns the normal to use, or nothing if the point is to be dropped
+  /// @returns the normal to use, or nullopt if the point is to be dropped
   std::optional<Eigen::Vector3d> correct(int user_index, int triangle, const Eigen::Vector3d& p_W,
                                          const Eigen::Vector3d& normal_W, double distance_m) const;
 

@@ -14,10 +14,10 @@ using Eigen::Vector3d;
 
 constexpr int kBlockCells = 16;
 
-/// Steps through squares of a grid along a line: which square, and from which t to which t.
+/// Traversal of the squares of a grid along a line: each square with its range of t.
 class GridWalk {
  public:
-  /// Position g + t d in units of squares; squares [low, high) along each axis.
+  /// @param g,d  position g + t d in units of squares; squares [low, high) along each axis
   GridWalk(const double g[2], const double d[2], const int low[2], const int high[2], double t0) {
     for (int axis = 0; axis < 2; ++axis) {
       low_[axis] = low[axis];
@@ -33,9 +33,9 @@ class GridWalk {
   }
   int i() const { return index_[0]; }
   int j() const { return index_[1]; }
-  /// Where the line leaves this square.
+  /// t at which the line leaves this square.
   double exit_t() const { return std::min(next_[0], next_[1]); }
-  /// To the next square. @returns false at the border
+  /// Moves to the next square. @returns false at the border
   bool advance() {
     const int axis = next_[0] <= next_[1] ? 0 : 1;
     index_[axis] += step_[axis];
@@ -50,13 +50,13 @@ class GridWalk {
 
 }  // namespace
 
-/// The ray in grid units (x, y in cells, z in metres) and what was found.
+/// Ray in grid units (x, y in cells, z in metres) and the result of its traversal.
 struct HeightFieldRay::Walk {
   double g[2], d[2];  // cells, cells per metre of ray
   double z, dz;
-  int side = 0;  // sign of D so far, 0 before the first look
+  int side = 0;  // sign of D so far; 0 at the start
   double hit_t = 0.0;
-  double slope_x = 0.0, slope_y = 0.0;  // dh per cell of the triangle that was hit
+  double slope_x = 0.0, slope_y = 0.0;  // slope of the hit triangle, dh per cell
 };
 
 HeightFieldRay::HeightFieldRay(const HeightField& field)
@@ -108,7 +108,7 @@ bool HeightFieldRay::rises_above(const Vector3d& p_W, const Vector3d& dir_W) con
          p_W.z() > field_.height_m(p_W.x(), p_W.y()) + kRounding_m;
 }
 
-/// Looks for the crossing inside one cell. @returns true if found
+/// Finds the crossing inside one cell. @returns true if found
 bool HeightFieldRay::cross_cell(Walk& walk, int i, int j, double t0, double t1) const {
   const float* row = field_.heights_m.data() + static_cast<std::size_t>(j) * field_.columns + i;
   const double h00 = row[0];
@@ -127,8 +127,8 @@ bool HeightFieldRay::cross_cell(Walk& walk, int i, int j, double t0, double t1) 
     const double d_from = d0 + rate * from;
     const double d_to = d0 + rate * to;
     if (walk.side == 0) walk.side = d_from > 0.0 ? 1 : (d_from < 0.0 ? -1 : 0);
-    // side is still 0 where the ray starts on the surface: that is a hit at once. A change of sign
-    // between two pieces is rounding, and a hit at their border.
+    // side is still 0 if the ray starts on the surface: an immediate hit. A change of sign between
+    // two sections is rounding, and a hit at their border.
     const bool changed = walk.side == 0 || d_from * walk.side <= 0.0;
     if (!changed && d_to * walk.side > 0.0) return false;
     walk.hit_t = changed || rate == 0.0 ? from : std::clamp(-d0 / rate, from, to);
@@ -137,7 +137,7 @@ bool HeightFieldRay::cross_cell(Walk& walk, int i, int j, double t0, double t1) 
     return true;
   };
 
-  // u - v along the ray decides the triangle; it changes at most once.
+  // The sign of u - v along the ray selects the triangle; it changes at most once.
   const double across = u - v;
   const double across_rate = walk.d[0] - walk.d[1];
   const double across0 = across + across_rate * t0;
@@ -153,7 +153,7 @@ bool HeightFieldRay::cross_block(Walk& walk, int bi, int bj, double t0, double t
   const Range range = blocks_[static_cast<std::size_t>(bj) * block_columns_ + bi];
   const double z0 = walk.z + walk.dz * t0;
   const double z1 = walk.z + walk.dz * t1;
-  // Strictly above or below all of the block: no crossing, and the side is known.
+  // Strictly above or below the whole block: no crossing, and the side is known.
   const int whole_side =
       std::min(z0, z1) > range.high_m ? 1 : (std::max(z0, z1) < range.low_m ? -1 : 0);
   if (whole_side != 0 && (walk.side == 0 || walk.side == whole_side)) {
@@ -183,7 +183,7 @@ std::optional<HeightFieldRay::Hit> HeightFieldRay::cast(const Vector3d& p_W, con
   walk.z = p_W.z();
   walk.dz = dir_W.z();
 
-  // Not finite or far beyond any grid: nothing to hit, and no cell index to be made from it.
+  // Non-finite, or far beyond any grid: no hit, and the cell index could overflow.
   constexpr double kFarAway = 1e9;
   if (!(std::abs(walk.g[0]) < kFarAway && std::abs(walk.g[1]) < kFarAway &&
         std::abs(walk.z) < kFarAway && dir_W.squaredNorm() < 2.0 && max_distance_m >= 0.0)) {
@@ -191,7 +191,7 @@ std::optional<HeightFieldRay::Hit> HeightFieldRay::cast(const Vector3d& p_W, con
   }
   if (rises_above(p_W, dir_W)) return std::nullopt;
 
-  // The part of the ray over the grid.
+  // Section of the ray over the grid.
   double t0 = 0.0;
   double t1 = max_distance_m;
   const double extent[2] = {field_.columns - 1.0, field_.rows - 1.0};
@@ -207,7 +207,7 @@ std::optional<HeightFieldRay::Hit> HeightFieldRay::cast(const Vector3d& p_W, con
   }
   if (!(t0 <= t1)) return std::nullopt;
 
-  // The part of it within the heights: before that the side is constant, so it need not be walked.
+  // Section within the height range. Before it the side is constant, so it need not be traversed.
   // The margin keeps rounding from cutting off a crossing of the highest or lowest sample.
   constexpr double kMargin_m = 1e-3;
   const double low_m = lowest_m_ - kMargin_m;
@@ -226,7 +226,7 @@ std::optional<HeightFieldRay::Hit> HeightFieldRay::cast(const Vector3d& p_W, con
     return std::nullopt;
   }
 
-  // A short ray inside one cell, as a wheel's is, needs no walk.
+  // A short ray inside one cell, such as a wheel's, needs no traversal.
   const auto cell_of = [&](int axis, double t, int last) {
     return std::clamp(static_cast<int>(walk.g[axis] + t * walk.d[axis]), 0, last);
   };

@@ -1,11 +1,12 @@
 #pragma once
-/// Rays against the triangle surface of a HeightField, in double and without a copy of it.
+/// Rays against the triangle surface of a HeightField, in double precision and without a copy of
+/// it.
 ///
-/// Along a ray the height above the surface, D(t) = z(t) - h(x(t), y(t)), is continuous and, cell
-/// by cell, linear on either side of the diagonal. The ray walks the cells it crosses and stops
-/// where D changes sign. Blocks of cells whose height range the ray does not meet are skipped. A
-/// ray that starts above the surface and rises more steeply than it does anywhere is not walked at
-/// all: D only grows. The surface is seen from both sides; it ends at the grid's edge.
+/// Along a ray the height above the surface, D(t) = z(t) - h(x(t), y(t)), is continuous and, in
+/// each cell, linear on either side of the diagonal. The ray visits the cells that it crosses and
+/// stops where D changes sign. It skips blocks of cells whose height range it does not meet. A ray
+/// that starts above the surface and rises more steeply than the surface anywhere visits no cell: D
+/// only grows. Both sides of the surface are hit; the surface ends at the grid's edge.
 
 #include <Eigen/Core>
 #include <optional>
@@ -44,7 +45,7 @@ class HeightFieldRay {
   int block_columns_, block_rows_;
   std::vector<Range> blocks_;  ///< heights of kBlockCells x kBlockCells cells, x fastest
   double lowest_m_, highest_m_;
-  double steepest_ = 0.0;  ///< rise per metre of plan, of all triangles
+  double steepest_ = 0.0;  ///< largest rise per horizontal metre of all triangles
 };
 
 }  // namespace vinerow::physics

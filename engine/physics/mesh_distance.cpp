@@ -20,7 +20,7 @@ Eigen::AlignedBox3f calc_bounds_W(const MeshInstance& instance) {
   for (const Eigen::Vector3f& v : instance.mesh->vertices) {
     bounds.extend(instance.X_WM * v.cast<double>());
   }
-  // Rounded outwards: the tree's bounds must never be inside the triangles'.
+  // Rounded outwards: the tree's bounds must always contain the triangles.
   const Vector3d margin =
       Vector3d::Constant(1e-5) + 1e-6 * bounds.max().cwiseAbs().cwiseMax(bounds.min().cwiseAbs());
   return {(bounds.min() - margin).cast<float>(), (bounds.max() + margin).cast<float>()};
@@ -46,7 +46,7 @@ void lower_to(double candidate2, const Vector3d& a, const Vector3d& b, const Vec
   if (candidate2 < best2) best2 = std::min(best2, triangle_box_distance2(a, b, c, h));
 }
 
-/// The cells of the terrain under the box widened by the search radius.
+/// Terrain cells under the box, widened by the search radius.
 void search_terrain(const HeightField& field, const Pose& X_WBox, const Vector3d& h,
                     double& best2) {
   const Eigen::Matrix3d R_WO = X_WBox.q.toRotationMatrix();

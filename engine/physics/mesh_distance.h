@@ -1,5 +1,5 @@
 #pragma once
-/// True distance from an oriented box to the triangles of a world.
+/// Exact distance from an oriented box to the triangles of a world.
 
 #include <Eigen/Core>
 #include <memory>
@@ -11,8 +11,8 @@
 
 namespace vinerow::physics {
 
-/// A tree over the instances, and one tree per mesh, shared between its instances. Triangles and
-/// vertices are read where the WorldModel holds them; the search is exact, in double.
+/// Tree over the instances, and one tree per mesh, shared by its instances. Triangles and vertices
+/// are read in place from the WorldModel; the search is exact, in double precision.
 class MeshDistance {
  public:
   /// @param world  checked; outlives this object

@@ -3,8 +3,8 @@
 namespace vinerow::physics {
 namespace {
 
-/// Below this number of shapes the narrow phase itself is no dearer.
-constexpr int kLeastShapes = 3;
+/// Chosen: with fewer shapes the narrow phase itself is not more expensive.
+constexpr int kMinShapes = 3;
 
 struct AnyTriangle : btTriangleCallback {
   bool found = false;
@@ -20,7 +20,7 @@ bool is_clear_of_mesh(const btCollisionObject& mesh, const btCollisionObject& bo
   const btCollisionShape& shape = *body.getCollisionShape();
   if (mesh.getCollisionShape()->getShapeType() != TRIANGLE_MESH_SHAPE_PROXYTYPE ||
       !shape.isCompound() ||
-      static_cast<const btCompoundShape&>(shape).getNumChildShapes() < kLeastShapes) {
+      static_cast<const btCompoundShape&>(shape).getNumChildShapes() < kMinShapes) {
     return false;
   }
   btVector3 low, high;

@@ -27,14 +27,14 @@ std::array<Vector3d, 3> corners(const TriangleMesh& mesh, std::uint32_t triangle
           mesh.vertices[k].cast<double>()};
 }
 
-/// By how much a ray in single precision may miss the place that it has in double, if no
-/// coordinate exceeds reach_m: the roundings of its start, its direction and the change into the
-/// frame of an instance are some 10 units in the last place (6e-8), here taken three times.
+/// Bound of the error of a ray in single precision if no coordinate exceeds reach_m. The roundings
+/// of its start, its direction and the transform into the frame of an instance are some 10 units in
+/// the last place (6e-8); the bound is three times that.
 double calc_margin_m(double reach_m) {
   return 2e-6 * (reach_m + 1.0);
 }
 
-/// Where the ray enters the box, at 0 inside; nothing where it passes it or ends before.
+/// Distance at which the ray enters the box, 0 inside; nullopt if it misses the box or ends before.
 std::optional<double> enter_m(const Eigen::AlignedBox3d& box, const Vector3d& p,
                               const Vector3d& dir, double max_distance_m) {
   double first_m = 0.0, last_m = max_distance_m;
@@ -55,7 +55,7 @@ std::optional<double> enter_m(const Eigen::AlignedBox3d& box, const Vector3d& p,
 }  // namespace
 
 struct MeshRays::Impl {
-  /// One mesh where it stands, in the order of Embree's geometry ids.
+  /// Mesh instances, in the order of Embree's geometry ids.
   struct Placed {
     const MeshInstance* instance;
     int mesh_index;
@@ -63,24 +63,24 @@ struct MeshRays::Impl {
     Vector3d p_MW;
   };
 
-  /// What the callback of a geometry needs: its mesh, and how wide its boxes are.
+  /// Data of a geometry's callback: its mesh, and the margin of its boxes.
   struct Boxes {
     const TriangleMesh* mesh;
-    Pose X;           ///< the boxes' frame holds X * (vertex)
-    double margin_m;  ///< by which a ray in single precision may pass beside its place
+    Pose X;           ///< the boxes are in the frame of X * (vertex)
+    double margin_m;  ///< error bound of a ray in single precision
   };
 
-  /// A ray on its way through Embree's tree, which hands it to the callback.
+  /// A ray in Embree's tree traversal, which passes it to the callback.
   struct Cast : RTCIntersectContext {
     const std::vector<Placed>* placed;
     Vector3d p_W, dir_W;
-    double tree_start_m;  ///< where on the ray Embree's one begins
+    double tree_start_m;  ///< distance along the ray at which Embree's ray starts
     double margin_m;
-    // The ray in the frame of the mesh that was looked at last.
+    // The ray in the frame of the last tested mesh.
     unsigned entry = RTC_INVALID_GEOMETRY_ID;
     TriangleRay ray_M{Vector3d::Zero(), Vector3d::UnitZ()};
-    // The nearest hit so far; of two at the same distance the one whose mesh and triangle come
-    // first, so that it does not depend on the order in which the tree is walked.
+    // The nearest hit so far. Among hits at the same distance, the one of the first mesh and
+    // triangle, so that it does not depend on the traversal order.
     double best_m;
     unsigned best_entry = RTC_INVALID_GEOMETRY_ID;
     unsigned best_triangle = 0;
@@ -97,7 +97,7 @@ struct MeshRays::Impl {
     *asked->bounds_o = {low(0), low(1), low(2), 0.0f, high(0), high(1), high(2), 0.0f};
   }
 
-  /// A ray has met the box of a triangle.
+  /// Called if a ray meets the box of a triangle.
   static void look_at_triangle(const RTCIntersectFunctionNArguments* asked) {
     if (asked->N != 1 || asked->valid[0] == 0) return;
     auto& cast = *static_cast<Cast*>(asked->context);
@@ -118,7 +118,7 @@ struct MeshRays::Impl {
     cast.best_m = *found_m;
     cast.best_entry = entry;
     cast.best_triangle = asked->primID;
-    // Boxes that begin farther away need no look; those at the same distance do.
+    // Skip boxes that start farther away; test those at the same distance.
     auto& ray = *reinterpret_cast<RTCRayHit*>(asked->rayhit);
     ray.ray.tfar = static_cast<float>(cast.best_m - cast.tree_start_m + cast.margin_m);
     ray.hit.geomID = asked->geomID;
@@ -128,7 +128,7 @@ struct MeshRays::Impl {
   RTCScene scene = nullptr;
   std::map<const TriangleMesh*, RTCScene> shared;
   std::vector<Placed> placed;
-  std::deque<Boxes> boxes;  // geometries hold their address
+  std::deque<Boxes> boxes;  // geometries point to the elements
   Eigen::AlignedBox3d bounds_W;
   double margin_m = 0.0;
 
@@ -140,13 +140,13 @@ struct MeshRays::Impl {
 
   RTCScene new_scene() {
     RTCScene result = rtcNewScene(device);
-    // No ray may slip through between two neighbouring boxes.
+    // No ray may pass between two neighbouring boxes.
     rtcSetSceneFlags(result, RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(result, RTC_BUILD_QUALITY_MEDIUM);
     return result;
   }
 
-  /// The mesh's triangles at X, as boxes and a callback.
+  /// Geometry of the mesh's triangles at X: boxes and a callback.
   RTCGeometry new_triangles(const TriangleMesh& mesh, const Pose& X, SurfaceMask mask) {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
     boxes.push_back({&mesh, X, margin_m});
@@ -188,7 +188,8 @@ struct MeshRays::Impl {
     return geometry;
   }
 
-  /// A mesh that stands once goes straight into the scene, which saves its rays a change of frame.
+  /// A mesh with a single instance is added to the scene directly, which saves its rays a
+  /// transform.
   void add(const MeshInstance& instance, int mesh_index, bool stands_once) {
     RTCGeometry geometry =
         stands_once ? new_triangles(*instance.mesh, instance.X_WM, mask_of(instance.surface))
@@ -203,7 +204,7 @@ struct MeshRays::Impl {
 
 MeshRays::MeshRays(const WorldModel& world) : impl_(std::make_unique<Impl>()) {
   std::map<const TriangleMesh*, int> uses;
-  double reach_m = 0.0;  // largest coordinate of a vertex, in the world's frame or its mesh's
+  double reach_m = 0.0;  // largest coordinate of a vertex, in the frame of the world or of its mesh
   for (const MeshInstance& instance : world.meshes) {
     if (!is_seen_by_rays(instance)) continue;
     ++uses[instance.mesh.get()];
@@ -216,7 +217,7 @@ MeshRays::MeshRays(const WorldModel& world) : impl_(std::make_unique<Impl>()) {
   }
   if (uses.empty()) return;
   impl_->margin_m = calc_margin_m(reach_m);
-  // What lies in the box's side is entered too, whatever the rounding.
+  // Rays in the plane of a box's side enter it too, whatever the rounding.
   impl_->bounds_W.min().array() -= impl_->margin_m;
   impl_->bounds_W.max().array() += impl_->margin_m;
   impl_->device = rtcNewDevice("threads=1,set_affinity=0");
@@ -246,7 +247,8 @@ std::optional<RayHit> MeshRays::cast(const Vector3d& p_W, const Vector3d& dir_W,
   if (impl_->placed.empty() || !p_W.allFinite() || !dir_W.allFinite() || !(max_distance_m >= 0.0)) {
     return std::nullopt;
   }
-  // Embree's ray begins where the meshes do: single precision loses no digits to a far start.
+  // Embree's ray starts at the bounds of the meshes, so that a distant start costs no digits in
+  // single precision.
   const std::optional<double> start_m = enter_m(impl_->bounds_W, p_W, dir_W, max_distance_m);
   if (!start_m) return std::nullopt;
   const Vector3d p_start_W = p_W + *start_m * dir_W;

@@ -1,11 +1,11 @@
 #pragma once
-/// Rays against the triangle meshes of a world, on Embree. The only class that includes it.
+/// Rays against the triangle meshes of a world, on Embree. Only this class includes it.
 ///
-/// Embree walks a tree of boxes in single precision, each a little too large, and hands over every
-/// triangle whose box the ray may meet; `TriangleRay` decides in double precision, from the
-/// triangle's own vertices. So the hit does not depend on Embree's code, which differs from one
-/// processor to the next, and a parcel hundreds of metres wide costs no accuracy. A mesh that
-/// stands in several places is held once (instances).
+/// Embree searches a tree of slightly enlarged boxes in single precision and returns every triangle
+/// whose box the ray may meet. `TriangleRay` decides in double precision, from the triangle's own
+/// vertices. The hit therefore does not depend on Embree's code, which differs between processors,
+/// and a parcel hundreds of metres wide costs no accuracy. A mesh with several instances is stored
+/// once.
 
 #include <Eigen/Core>
 #include <memory>

@@ -24,7 +24,7 @@ const PhysicsSettings& checked(const PhysicsSettings& settings) {
   return settings;
 }
 
-/// Of a world that its owner keeps alive.
+/// Non-owning pointer to a world that its owner keeps alive.
 std::shared_ptr<const StaticScene> scene_of(const WorldModel& world) {
   return std::make_shared<const StaticScene>(
       std::shared_ptr<const WorldModel>(std::shared_ptr<const void>(), &world));
@@ -38,7 +38,7 @@ struct PhysicsWorld::Impl {
   const WorldModel& world;
   Eigen::Vector3d gravity_W;
   std::vector<std::unique_ptr<Body>> bodies;
-  CollisionWorld collisions;  // before the bodies it knows of go
+  CollisionWorld collisions;  // declared after the bodies: destroyed before them
   int bodies_with_shape = 0;
   std::vector<Contact> contacts;
   std::string terrain_name = "terrain";
@@ -64,7 +64,7 @@ struct PhysicsWorld::Impl {
       const btPersistentManifold& manifold = collisions.manifold(m);
       const int index0 = manifold.getBody0()->getUserIndex2();
       const int index1 = manifold.getBody1()->getUserIndex2();
-      // Body 0 is ours unless it is static or the other one has the smaller number.
+      // Body 0 is `body` unless it is static or the other one has the smaller number.
       const bool first = index0 >= 0 && (index1 < 0 || index0 < index1);
       const btCollisionObject& other = first ? *manifold.getBody1() : *manifold.getBody0();
       for (int k = 0; k < manifold.getNumContacts(); ++k) {
@@ -153,7 +153,7 @@ void PhysicsWorld::add_torque_W(BodyId body, const Eigen::Vector3d& tau_W) {
 
 void PhysicsWorld::step(Duration dt) {
   const double dt_s = dt.s();
-  for (const auto& body : impl_->bodies) body->begin_step(impl_->gravity_W, dt_s);
+  for (const auto& body : impl_->bodies) body->start_step(impl_->gravity_W, dt_s);
   bool solved = false;
   if (impl_->bodies_with_shape > 0) {
     solved = impl_->collisions.find_contacts();

@@ -1,11 +1,11 @@
 #pragma once
-/// Rigid bodies and contact on Bullet, double precision. The only class through which the rest
-/// meets the engine.
+/// Rigid bodies and contact on Bullet, in double precision. All other code uses the engine through
+/// this class.
 ///
-/// Static geometry comes from the WorldModel: the height field and every mesh with `collides`
-/// (canopy excepted: it is seen by rays and distances but does not push). Wires push and are known
-/// to distances; rays miss them.
-/// Dynamic bodies are added by vehicles and tests. README.md tells accuracy and limits.
+/// Static geometry comes from the WorldModel: the height field and every mesh with `collides`. The
+/// canopy does not push, but rays and distances include it. Wires push and are included in
+/// distances; rays miss them. Vehicles and tests add dynamic bodies. README.md documents accuracy
+/// and limits.
 
 #include <cstdint>
 #include <memory>
@@ -39,19 +39,20 @@ struct HullShape {
 struct NoShape {};
 using Shape = std::variant<NoShape, BoxShape, SphereShape, CylinderShape, HullShape>;
 
-/// A shape's place in the body frame.
+/// A shape and its pose in the body frame.
 struct PlacedShape {
   Shape shape;
   Pose X_BS;
 };
 
-/// How the forces on a body are read between two steps.
+/// Interpolation of the forces on a body between two steps.
 enum class ForceSampling : std::uint8_t {
-  /// Samples of a smooth course, as from springs, tyres, rotors, wings: steps are velocity Verlet,
-  /// second order, and springs keep their energy. A force that jumps acts half a step early.
+  /// Samples of a smooth function of time, as from springs, tyres, rotors, wings: steps are
+  /// velocity Verlet, second order, and springs keep their energy. A force that jumps acts half a
+  /// step early.
   kSmooth,
-  /// Constant over each step: exact for forces that really are. A spring sampled like this gains
-  /// energy at the rate w^2 dt / 2.
+  /// Constant over each step: exact for forces that really are constant. A spring sampled like this
+  /// gains energy at the rate w^2 dt / 2.
   kHeld,
 };
 
@@ -93,7 +94,7 @@ struct Contact {
   int mesh = -1;             ///< index into WorldModel::meshes; -1: height field or another body
 };
 
-/// What a wheel stands on.
+/// Ground under a wheel.
 struct GroundHit {
   double distance_m = 0.0;                              ///< along the probe
   Eigen::Vector3d normal_W = Eigen::Vector3d::UnitZ();  ///< unit, against the probe
@@ -107,39 +108,41 @@ class PhysicsWorld {
   /// @param world  outlives this object, which reads its heights and meshes in place
   /// @throws ConfigError on bad geometry, e.g. "mesh 'x' has no triangles"
   PhysicsWorld(const PhysicsSettings& settings, const WorldModel& world);
-  /// On a scene that is built already, and that others may use at the same time.
+  /// Uses an existing scene, which other worlds may use at the same time.
   /// @param scene  not null
-  /// @param world  outlives this object: the scene's, or one that differs from it in wind alone
+  /// @param world  outlives this object: the scene's world, or one that differs from it only in
+  /// wind
   PhysicsWorld(const PhysicsSettings& settings, std::shared_ptr<const StaticScene> scene,
                const WorldModel& world);
   ~PhysicsWorld();
 
-  /// @throws ConfigError on a mass, inertia, shape or state out of range, naming the body
+  /// @throws ConfigError that names the body if a mass, inertia, shape or state is out of range
   BodyId add_body(const BodySpec& spec);
   BodyState state(BodyId body) const;
-  /// Used at the start and by kinematic vehicles, which place their body themselves. A dynamic
-  /// body forgets its contacts and the course of its forces.
+  /// For the start, and for kinematic vehicles, which place their body themselves. A dynamic body
+  /// loses its contacts and the load of its previous step.
   void set_state(BodyId body, const BodyState& state);
-  /// A body that is placed by set_state each step and pushes nothing (kinematic fidelity). Its
-  /// overlaps are reported as contacts.
+  /// Makes a body kinematic: set_state places it each step and it pushes nothing. Its overlaps are
+  /// reported as contacts.
   void set_kinematic(BodyId body, bool kinematic);
   bool is_kinematic(BodyId body) const;
-  /// A parked body: at rest, meets other bodies as a post would, and static geometry not at all, so
-  /// that it costs next to nothing. @param held  false: dynamic again, from rest
+  /// Makes a body parked: at rest; other bodies collide with it as with a post. It does not collide
+  /// with static geometry, so it costs almost nothing.
+  /// @param held  false: dynamic again, from rest
   void set_held(BodyId body, bool held);
 
-  /// Accumulate until the next step. Forces in W at a point in W. Gravity is added by the world.
+  /// Accumulated until the next step. Forces in W at a point in W. The world adds gravity.
   void add_force_W(BodyId body, const Eigen::Vector3d& f_W, const Eigen::Vector3d& p_W);
   void add_central_force_W(BodyId body, const Eigen::Vector3d& f_W);
   void add_torque_W(BodyId body, const Eigen::Vector3d& tau_W);
 
-  /// One step of exactly dt. Does not throw; a state that is not finite stays so, for the caller
-  /// to find.
+  /// One step of exactly dt. Does not throw. A non-finite state stays non-finite, so that the
+  /// caller can detect it.
   void step(Duration dt);
-  /// Mean acceleration of the centre of mass over the last step: gravity, forces added, contacts.
+  /// Mean acceleration of the centre of mass over the last step: gravity, added forces, contacts.
   Eigen::Vector3d acceleration_W(BodyId body) const;
 
-  /// First rigid ground (terrain, obstacle, post, trunk) along a short ray: what a wheel asks
+  /// First rigid ground (terrain, obstacle, post, trunk) along a short ray, queried by each wheel
   /// several times a step. About 50 ns on a height field away from meshes. No heap.
   /// @param dir_W  unit, usually close to -z
   std::optional<GroundHit> probe_ground(const Eigen::Vector3d& p_W, const Eigen::Vector3d& dir_W,

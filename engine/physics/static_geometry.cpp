@@ -11,11 +11,11 @@
 namespace vinerow::physics {
 namespace {
 
-// Bullet widens concave shapes by their margin (4 cm by default), which would lift everything off
+// Bullet enlarges concave shapes by their margin (4 cm by default), which would lift everything off
 // the ground. The bodies' own margins keep the narrow phase well conditioned.
 constexpr double kStaticMargin_m = 0.0;
-// Largest number of triangles that the quantized tree's node index can name.
-constexpr std::size_t kMostQuantizedTriangles = 2'000'000;
+// Largest number of triangles that the node index of the quantized tree can address.
+constexpr std::size_t kMaxQuantizedTriangles = 2'000'000;
 
 }  // namespace
 
@@ -36,13 +36,13 @@ StaticGeometry::StaticGeometry(const WorldModel& world) {
 void StaticGeometry::add_terrain(const HeightField& field) {
   const auto [low, high] = std::minmax_element(field.heights_m.begin(), field.heights_m.end());
   constexpr int kUpAxis = 2;
-  // Not flipped, Bullet splits a cell along the other diagonal than HeightField does.
+  // Without flipping, Bullet splits a cell along the other diagonal than HeightField.
   constexpr bool kFlipQuadEdges = true;
   terrain_ = std::make_unique<btHeightfieldTerrainShape>(
       field.columns, field.rows, field.heights_m.data(), *low, *high, kUpAxis, kFlipQuadEdges);
   terrain_->setLocalScaling({field.cell_m, field.cell_m, 1.0});
   terrain_->setMargin(kStaticMargin_m);
-  // Bullet puts the middle of the grid and of the height range at the shape's origin.
+  // Bullet places the middle of the grid and of the height range at the shape's origin.
   const btVector3 origin(field.corner_W.x() + 0.5 * field.width_m(),
                          field.corner_W.y() + 0.5 * field.depth_m(),
                          0.5 * (static_cast<double>(*low) + static_cast<double>(*high)));
@@ -59,7 +59,7 @@ std::vector<std::unique_ptr<btCollisionObject>> StaticGeometry::make_objects() c
     object->setWorldTransform(place.X_WM);
     object->setCollisionFlags(btCollisionObject::CF_STATIC_OBJECT);
     object->setUserIndex(place.user_index);
-    // A contact's coefficient is the product of both sides': 1 leaves the body's own.
+    // A contact's coefficient is the product of both sides: 1 keeps the body's own.
     object->setFriction(1.0);
     object->setRestitution(1.0);
     objects.push_back(std::move(object));
@@ -80,9 +80,9 @@ StaticGeometry::MeshShape StaticGeometry::make_mesh_shape(const TriangleMesh& me
   MeshShape result;
   result.arrays = std::make_unique<btTriangleIndexVertexArray>();
   result.arrays->addIndexedMesh(part, PHY_INTEGER);
-  // addIndexedMesh takes the type of the library's build for the vertices.
+  // addIndexedMesh assumes the library's precision for the vertices.
   result.arrays->getIndexedMeshArray()[0].m_vertexType = PHY_FLOAT;
-  const bool quantized = mesh.triangles.size() <= kMostQuantizedTriangles;
+  const bool quantized = mesh.triangles.size() <= kMaxQuantizedTriangles;
   result.shape = std::make_unique<btBvhTriangleMeshShape>(result.arrays.get(), quantized);
   result.shape->setMargin(kStaticMargin_m);
   return result;

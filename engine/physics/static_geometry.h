@@ -1,5 +1,5 @@
 #pragma once
-/// The world's terrain and rigid meshes as Bullet shapes. Only used inside this folder.
+/// Terrain and rigid meshes of a world as Bullet shapes. Only used inside this folder.
 
 #include <BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>
 #include <btBulletCollisionCommon.h>
@@ -15,16 +15,16 @@ namespace vinerow::physics {
 /// User index of the height field's collision object; a mesh has its index in WorldModel::meshes.
 constexpr int kTerrainIndex = -1;
 
-/// Heights, vertices and triangles are referenced where the WorldModel holds them; only Bullet's
-/// trees are new memory. Instances of one mesh share its tree. Shapes do not change while bodies
-/// move, so that several collision worlds can share them, on several threads too.
+/// Heights, vertices and triangles are referenced in the WorldModel; only Bullet's trees use new
+/// memory. Instances of one mesh share its tree. The shapes are constant while bodies move, so
+/// several collision worlds can share them, also on several threads.
 class StaticGeometry {
  public:
   /// @param world  checked; outlives this object
   explicit StaticGeometry(const WorldModel& world);
 
-  /// Collision objects that stand on these shapes, for one collision world alone: its broad phase
-  /// keeps its notes in them. The height field comes first, then meshes in the world's order.
+  /// New collision objects on these shapes, for a single collision world, because its broad phase
+  /// stores data in them. The height field comes first, then meshes in the world's order.
   std::vector<std::unique_ptr<btCollisionObject>> make_objects() const;
 
  private:

@@ -1,9 +1,9 @@
 #pragma once
-/// All that physics prepares of a world and never changes: ray scene, trees, collision shapes, and
-/// which normals its surfaces can have.
+/// Constant data that physics derives from a world: ray scene, trees, collision shapes, and the
+/// possible normals of its surfaces.
 ///
-/// Building it is most of the work of making a PhysicsWorld. Any number of them can stand on one
-/// scene, one after the other or side by side on several threads.
+/// Building it is most of the work of making a PhysicsWorld. Any number of physics worlds can use
+/// one scene, one after the other or at the same time on several threads.
 
 #include <memory>
 

@@ -8,8 +8,8 @@
 namespace vinerow::physics {
 namespace {
 
-/// Beyond this many samples the narrow phase itself is hardly dearer.
-constexpr int kMostSamples = 4096;
+/// Chosen: with more samples the narrow phase itself is hardly more expensive.
+constexpr int kMaxSamples = 4096;
 
 }  // namespace
 
@@ -27,7 +27,7 @@ bool is_clear_of_terrain(const HeightField& terrain, const btCollisionObject& bo
   const double i1 = std::ceil(index(high_W.x(), terrain.corner_W.x()));
   const double j1 = std::ceil(index(high_W.y(), terrain.corner_W.y()));
   const bool is_on_grid = i0 >= 0 && j0 >= 0 && i1 < terrain.columns && j1 < terrain.rows;
-  if (!is_on_grid || (i1 - i0 + 1) * (j1 - j0 + 1) > kMostSamples) return false;
+  if (!is_on_grid || (i1 - i0 + 1) * (j1 - j0 + 1) > kMaxSamples) return false;
 
   const double plane = up_W.dot(X_WB.getOrigin()) + low_B.z() - margin_m;
   double highest = -INFINITY;

@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// How far x is beyond [-h, h], signed.
+/// Signed distance of x beyond [-h, h].
 double excess(double x, double h) {
   return x > h ? x - h : (x < -h ? x + h : 0.0);
 }
@@ -18,7 +18,7 @@ Vector3d excess(const Vector3d& x, const Vector3d& h) {
   return {excess(x.x(), h.x()), excess(x.y(), h.y()), excess(x.z(), h.z())};
 }
 
-/// Is p, a point of the triangle's plane, inside the triangle? n = (b-a) x (c-a).
+/// True if p, a point of the triangle's plane, is inside the triangle. n = (b-a) x (c-a).
 bool is_inside(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c,
                const Vector3d& n) {
   return (b - a).cross(p - a).dot(n) >= 0.0 && (c - b).cross(p - b).dot(n) >= 0.0 &&
@@ -33,8 +33,8 @@ double segment_box_distance2(const Vector3d& a, const Vector3d& b, const Vector3
   if (half_slope(0.0) >= 0.0) return excess(a, h).squaredNorm();
   if (half_slope(1.0) <= 0.0) return excess(b, h).squaredNorm();
 
-  // The slope changes sign between two neighbouring kinks (or ends): narrow [low, high] kink by
-  // kink, then it is linear in between.
+  // The slope changes sign between two neighbouring breakpoints (or ends): narrow [low, high]
+  // breakpoint by breakpoint; between them the slope is linear.
   double low = 0.0, high = 1.0;
   double slope_low = half_slope(0.0), slope_high = half_slope(1.0);
   for (int axis = 0; axis < 3; ++axis) {
@@ -73,7 +73,7 @@ double triangle_box_distance2(const Vector3d& a, const Vector3d& b, const Vector
   const Vector3d n = (b - a).cross(c - a);
   const double n2 = n.squaredNorm();
   if (!(n2 > 0.0)) return best;
-  // Corner of the box that is farthest along n.
+  // Corner of the box farthest along n.
   const Vector3d corner(std::copysign(h.x(), n.x()), std::copysign(h.y(), n.y()),
                         std::copysign(h.z(), n.z()));
   const double reach = n.dot(corner);  // >= 0: the box spans n.x in [-reach, reach]

@@ -1,14 +1,14 @@
 #pragma once
-/// Exact distance between a triangle and a box, in double.
+/// Exact distance between a triangle and a box, in double precision.
 ///
-/// Derivation: f(x) = sum_i max(0, |x_i| - h_i)^2 is the squared distance of a point to the box.
-/// It is convex, so its smallest value over the triangle lies (a) on an edge, or (b) inside. On an
-/// edge x = a + t d, f'(t) is piecewise linear and does not fall: its zero is found exactly between
-/// the at most six kinks. Inside, the nearest feature of the box is a corner (or an edge or face
-/// parallel to the triangle, and then (a) or the same corner gives the same distance), the one that
-/// is farthest along the triangle's normal towards it; or the box passes through the triangle's
-/// inside without touching its edges, and then the box's diagonal along the normal meets the plane
-/// inside the triangle.
+/// Derivation: f(x) = sum_i max(0, |x_i| - h_i)^2 is the squared distance of a point from the box.
+/// It is convex, so its minimum over the triangle is (a) on an edge or (b) inside. On an edge x = a
+/// + t d, f'(t) is piecewise linear and non-decreasing: its zero is found exactly between the at
+/// most six breakpoints. Inside, the nearest feature of the box is a corner, the one farthest along
+/// the triangle's normal towards it. (It may be an edge or face parallel to the triangle; then (a)
+/// or the same corner gives the same distance.) Or the box passes through the triangle's interior
+/// without touching its edges; then the box's diagonal along the normal meets the plane inside the
+/// triangle.
 
 #include <Eigen/Core>
 
@@ -19,7 +19,7 @@ double segment_box_distance2(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                              const Eigen::Vector3d& half_extents_m);
 
 /// Squared distance from triangle a-b-c, in the box's frame, to the box; 0 if they overlap, m2.
-/// Degenerate triangles (points, needles) count as the segments they are.
+/// Degenerate triangles (points, needles) count as segments.
 double triangle_box_distance2(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                               const Eigen::Vector3d& c, const Eigen::Vector3d& half_extents_m);
 

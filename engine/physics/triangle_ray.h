@@ -1,5 +1,5 @@
 #pragma once
-/// A ray against a triangle in double precision, such that no ray slips through between two
+/// Watertight intersection of a ray and a triangle in double precision: no ray passes between two
 /// triangles that share an edge.
 
 #include <Eigen/Core>
@@ -12,12 +12,12 @@ namespace vinerow::physics {
 /// A ray prepared for many triangles (Woop, Benthin, Wald: Watertight Ray/Triangle Intersection,
 /// Journal of Computer Graphics Techniques 2 (2013)).
 ///
-/// The axes are exchanged so that the ray runs mostly along the third one, and sheared so that it
-/// runs along it alone: p' = (p_x - S_x p_z, p_y - S_y p_z) of p, a place seen from the ray's
-/// start. The ray meets the triangle where the plane's origin lies on one side of all three edges
-/// of (a', b', c'). Of an edge that two triangles share, both compute the same two products, one
-/// with the opposite sign, so that one of them at least is hit. That holds because no product is
-/// fused with the difference (-ffp-contract=off).
+/// The axes are permuted so that the ray runs mostly along the third one, and sheared so that it
+/// runs along it alone: p' = (p_x - S_x p_z, p_y - S_y p_z) of p, a point relative to the ray's
+/// start. The ray meets the triangle if the plane's origin is on one side of all three edges of
+/// (a', b', c'). For an edge that two triangles share, both compute the same two products, one with
+/// the opposite sign, so that at least one of them is hit. That holds because no product is fused
+/// with the difference (-ffp-contract=off).
 class TriangleRay {
  public:
   /// @param dir_M  unit
@@ -30,17 +30,18 @@ class TriangleRay {
     shear_y_ = dir_M[y_] * scale_;
   }
 
-  /// Distance to the triangle, either side of it, its edges included. Nothing behind the start.
+  /// Distance to the triangle, hit from either side, edges included; nullopt if it is behind the
+  /// start.
   std::optional<double> distance_m(const Eigen::Vector3d& a_M, const Eigen::Vector3d& b_M,
                                    const Eigen::Vector3d& c_M) const {
     const std::array<double, 3> a = sheared(a_M), b = sheared(b_M), c = sheared(c_M);
-    // Twice the areas that the ray forms with the edges, signed.
+    // Twice the signed areas of the triangles formed by the ray and each edge.
     const double u = c[0] * b[1] - c[1] * b[0];
     const double v = a[0] * c[1] - a[1] * c[0];
     const double w = b[0] * a[1] - b[1] * a[0];
     if ((u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0)) return std::nullopt;
     const double sum = u + v + w;
-    if (sum == 0.0) return std::nullopt;  // seen edge on
+    if (sum == 0.0) return std::nullopt;  // the ray is in the triangle's plane
     const double t_m = (u * a[2] + v * b[2] + w * c[2]) * scale_ / sum;
     if (!(t_m >= 0.0)) return std::nullopt;
     return t_m;

@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 constexpr SurfaceMask kRigidMask =
     kAllSurfaces & ~mask_of(SurfaceClass::kCanopy) & ~mask_of(SurfaceClass::kWire);
 
-/// Calls `use(x0, y0, x1, y1)` with the plan of every triangle that may carry a wheel.
+/// Calls `use(x0, y0, x1, y1)` with the horizontal bounds of every triangle that may carry a wheel.
 template <class Use>
 void for_each_carrying_triangle(const WorldModel& world, Use&& use) {
   for (const MeshInstance& instance : world.meshes) {
@@ -38,9 +38,9 @@ RigidMap::RigidMap(const WorldModel& world) {
   Eigen::AlignedBox2d all;
   for_each_carrying_triangle(world, [&](const Eigen::AlignedBox2d& plan) { all.extend(plan); });
   if (all.isEmpty()) return;
-  constexpr double kMostCells = 2048.0;  // along an axis: 0.5 MB of bits
+  constexpr double kMaxCells = 2048.0;  // along an axis: 0.5 MB of bits
   corner_W_ = all.min();
-  cell_m_ = std::max(1.0, all.sizes().maxCoeff() / kMostCells);
+  cell_m_ = std::max(1.0, all.sizes().maxCoeff() / kMaxCells);
   columns_ = static_cast<int>(all.sizes().x() / cell_m_) + 1;
   rows_ = static_cast<int>(all.sizes().y() / cell_m_) + 1;
   marked_.assign(static_cast<std::size_t>(columns_) * rows_, false);

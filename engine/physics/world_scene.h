@@ -1,5 +1,5 @@
 #pragma once
-/// The static world's answers to rays, distances and ground probes.
+/// Rays, distances and ground probes on the static world.
 
 #include <cstdint>
 #include <limits>
@@ -15,8 +15,8 @@
 
 namespace vinerow::physics {
 
-/// Which square metres of the plan have a rigid mesh above or below them, so that a wheel asks
-/// Embree only there.
+/// Map of the ground cells with a rigid mesh above or below them, so that a wheel queries Embree
+/// only there.
 class RigidMap {
  public:
   explicit RigidMap(const WorldModel& world);
@@ -44,7 +44,7 @@ class WorldScene : public SceneQuery {
   double distance_to_box_m(const Pose& X_WBox, const Eigen::Vector3d& half_extents_m,
                            double max_distance_m, SurfaceMask mask) const override;
 
-  /// PhysicsWorld::probe_ground.
+  /// Implements PhysicsWorld::probe_ground.
   std::optional<RayHit> probe_rigid(const Eigen::Vector3d& p_W, const Eigen::Vector3d& dir_W,
                                     double max_distance_m) const;
 
@@ -53,7 +53,7 @@ class WorldScene : public SceneQuery {
   MeshRays mesh_rays_;
   MeshDistance mesh_distance_;
   RigidMap rigid_map_;
-  /// Heights between which meshes are ground; turned round where none is.
+  /// Height range of the meshes that are ground; inverted (empty) without such meshes.
   double meshes_top_m_ = -std::numeric_limits<double>::infinity();
   double meshes_bottom_m_ = std::numeric_limits<double>::infinity();
 };

@@ -15,7 +15,7 @@ std::string canopy_json(const std::string& vehicle, const std::string& payload,
   std::string text = head.dump();
   text.back() = ',';
   text += "\"patches\":[";
-  // Millimetres, square centimetres and six figures: what a plot can show, in a third of the bytes.
+  // Millimetres, square centimetres and six digits: enough for plots, and a third of the size.
   bool first = true;
   for (const CanopyPatch& p : coverage.patches) {
     text +=

@@ -1,5 +1,5 @@
 #pragma once
-/// What a payload did to the canopy, as a file for the report and for other programs.
+/// Effect of a payload on the canopy as a JSON file, for the report and for other programs.
 
 #include <string>
 

@@ -13,17 +13,17 @@ using Eigen::AlignedBox2d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// A view is good enough from here on.
+/// Limits of a good view: least visible share of the vehicle, largest share of near content.
 constexpr double kEnoughSeen = 0.75;
-constexpr double kMostNear = 0.03;
-/// What is nearer to the eye fills a corner of the picture.
+constexpr double kMaxNear = 0.03;
+/// Distance from the eye below which content is near: it fills a corner of the picture.
 constexpr double kNear_m = 1.3;
-/// Rays across the picture and down, which look for what is near.
+/// Numbers of rays across and down the picture that search for near content.
 constexpr int kAcross = 16, kDown = 9;
-/// A ray ends so far before its point, which may touch the ground.
+/// Distance before its point at which a ray ends, because the point may touch the ground.
 constexpr double kBefore_m = 0.08;
 
-/// In units of the picture's height.
+/// Bounding box of points in the picture, in units of the picture's height.
 AlignedBox2d seen_box(const render::Camera& camera, const std::vector<Vector3d>& points_W) {
   AlignedBox2d box;
   Vector2d pixel;
@@ -90,7 +90,7 @@ ViewQuality judge_view(const render::Camera& camera, double aspect, const Subjec
 }
 
 std::vector<render::ChaseOptions> chase_candidates(const render::ChaseOptions& asked) {
-  // Behind the vehicle where that was asked: a little to either side.
+  // A camera that was requested behind the vehicle moves a little to either side.
   const double side_rad = asked.side_rad;
   constexpr double kSmall_rad = rad_from_deg(1.0);
   const std::vector<double> sides_rad =
@@ -118,7 +118,7 @@ render::Camera find_clear_view(const std::vector<render::Camera>& candidates, do
   double best_score = -1e9;
   for (const render::Camera& camera : candidates) {
     const ViewQuality quality = judge_view(camera, aspect, subject, scene);
-    if (quality.seen >= kEnoughSeen && quality.near <= kMostNear) return camera;
+    if (quality.seen >= kEnoughSeen && quality.near <= kMaxNear) return camera;
     const double score = quality.seen - 2.0 * quality.near;
     if (score > best_score) best_score = score, best = &camera;
   }

@@ -1,6 +1,5 @@
 #pragma once
-/// Where a camera that follows a vehicle sees it: leaves, posts and slopes hide much from one place
-/// and nothing from the next.
+/// Choice of a chase camera's position from which leaves, posts and slopes do not hide the vehicle.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -16,28 +15,28 @@ namespace vinerow::playback {
 /// What a camera should show.
 struct Subject {
   std::vector<Eigen::Vector3d> points_W;  ///< spread over the vehicle
-  /// The other vehicles' likewise: one that stands before or behind it cannot be told from it.
+  /// The same for the other vehicles, which must not overlap the subject in the picture.
   std::vector<std::vector<Eigen::Vector3d>> others_W;
 };
 
-/// Points spread over a vehicle: of each link the middle, and places between that and the corners
-/// of its box.
+/// Points spread over a vehicle: for each link the centre of its box, and points between that and
+/// the corners.
 std::vector<Eigen::Vector3d> points_of(const std::vector<VehicleLink>& links,
                                        const std::vector<Pose>& X_WL);
 
 struct ViewQuality {
-  double seen = 0.0;  ///< share of the points that nothing hides, less what other vehicles overlap
-  double near = 0.0;  ///< share of the picture that is nearer to the eye than an arm's length
+  double seen = 0.0;  ///< share of the points that are visible, reduced by other vehicles' overlap
+  double near = 0.0;  ///< share of the picture whose content is closer to the eye than 1.3 m
 };
-/// By rays from the eye. Wires, which no ray meets, hide nothing.
+/// Quality of a view, by rays from the eye. Rays do not hit wires, so wires hide nothing.
 ViewQuality judge_view(const render::Camera& camera, double aspect, const Subject& subject,
                        const SceneQuery& scene);
 
-/// The chase cameras to be tried, the one that was asked for first, then from small changes to
-/// large: less and then other orbit, and higher.
+/// Chase cameras to try: first the requested one, then from small to large changes of the orbit
+/// angle (smaller, then to the other side) and of the height.
 std::vector<render::ChaseOptions> chase_candidates(const render::ChaseOptions& asked);
 
-/// The first that sees the subject well; where none does, that which sees it best.
+/// The first candidate with a good view of the subject, else the best one.
 /// @param candidates  @pre not empty  @param aspect  width / height of the picture
 render::Camera find_clear_view(const std::vector<render::Camera>& candidates, double aspect,
                                const Subject& subject, const SceneQuery& scene);

@@ -19,10 +19,10 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Track points closer than this are left out.
+/// Smallest distance between two points of the track.
 constexpr double kTrackPitch_m = 0.5;
 
-/// The parameters of the scenario's metric `survey`; its defaults where it names none.
+/// Parameters of the scenario's metric `survey`; the defaults if it has no such metric.
 ParameterSet survey_metric_parameters(const scenario::Scenario& scenario) {
   for (const scenario::NamedPart& metric : scenario.metrics) {
     if (metric.part.type == metrics::survey_coverage_spec().name) return metric.part.parameters;
@@ -59,7 +59,7 @@ std::vector<Eigen::Vector2d> track_of(const VehicleTrace& trace) {
   return track;
 }
 
-/// Around all pictures.
+/// Convex hull of all footprints.
 Polygon hull_of(const std::vector<metrics::LaneShot>& shots) {
   Polygon corners;
   for (const metrics::LaneShot& taken : shots) {
@@ -85,7 +85,7 @@ std::vector<SurveyCoverage> read_coverage(const std::filesystem::path& log,
   const auto is_shots = [&](const record::ChannelInfo& channel) {
     const auto type = channel.metadata.find("vinerow_type");
     return type != channel.metadata.end() && type->second == CameraShot::kType &&
-           channel.messages > 0 && !is_truth_beside(reader, channel.topic);
+           channel.messages > 0 && !is_truth_of_reading(reader, channel.topic);
   };
   bool has_shots = false;
   for (const record::ChannelInfo& channel : reader.info().channels) {
@@ -131,7 +131,7 @@ std::vector<SurveyCoverage> read_coverage(const std::filesystem::path& log,
 
 std::string coverage_json(const SurveyCoverage& coverage) {
   ordered_json numbers, parcel = ordered_json::array(), pictures = ordered_json::array();
-  for (const metrics::MetricNumber& number : metrics::coverage_numbers()) {
+  for (const ResultSpec& number : metrics::coverage_results()) {
     numbers[number.name] = json_of(coverage.map.numbers.at(number.name));
   }
   for (const Eigen::Vector2d& p : coverage.options.parcel_W) parcel.push_back({p.x(), p.y()});

@@ -1,5 +1,5 @@
 #pragma once
-/// The coverage of a survey from the log of its run: pictures, lanes, track and parcel.
+/// Coverage of a survey from the log of its run: pictures, lanes, track and parcel.
 
 #include <filesystem>
 #include <optional>
@@ -11,33 +11,32 @@
 
 namespace vinerow::playback {
 
-/// What the pictures of one camera showed.
+/// Coverage by the pictures of one camera.
 struct SurveyCoverage {
   std::string scenario;
   std::string vehicle;
   std::string camera;  ///< name of the sensor
   std::vector<metrics::LaneShot> shots;
-  std::vector<Eigen::Vector2d> track_W;              ///< of the vehicle, from above
-  std::vector<std::array<Eigen::Vector2d, 2>> rows;  ///< straight pieces of the world's plant rows
+  std::vector<Eigen::Vector2d> track_W;              ///< of the vehicle, in the plane
+  std::vector<std::array<Eigen::Vector2d, 2>> rows;  ///< segments of the world's plant rows, in W
   metrics::CoverageOptions options;
   metrics::CoverageMap map;
 };
 
-/// What to take instead of what the scenario's metric `survey` says; without either: the parcel of
-/// the world, else the hull of all footprints.
+/// Values that replace those of the scenario's metric `survey`. If neither has a parcel, it is that
+/// of the world, else the hull of all footprints.
 struct CoverageChoice {
   Polygon parcel_W;
   std::optional<double> cell_m;
 };
 
-/// One for every camera whose pictures the log holds, in the scenario's order; none where it holds
-/// none.
+/// Coverage of every camera with pictures in the log, in the scenario's order.
 /// @throws ConfigError if the log cannot be read, names parts that the registry does not have, or
 /// as check_coverage_options()
 std::vector<SurveyCoverage> read_coverage(const std::filesystem::path& log,
                                           const Registry& registry, const CoverageChoice& choice);
 
-/// Numbers, parcel, and of every picture its place, lane, GSD and corners on the ground, as JSON.
+/// Numbers, parcel, and each picture's position, lane, GSD and corners on the ground, as JSON.
 std::string coverage_json(const SurveyCoverage& coverage);
 
 }  // namespace vinerow::playback

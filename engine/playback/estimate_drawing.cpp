@@ -12,15 +12,15 @@ namespace {
 constexpr double kInside95 = 5.991464547107979;  // chi-square of 2 degrees: -2 ln 0.05
 constexpr int kEllipsePoints = 96;
 constexpr int kEarlierPoints = 48;
-constexpr double kLeastSpacing_m = 1.0;
+constexpr double kMinSpacing_m = 1.0;
 constexpr double kEstimatePitch_m = 0.05;
-/// What is nearer to the ground needs no plumb line.
-constexpr double kLeastPlumb_m = 0.3;
-/// What canopy hides is still seen, but as hidden.
+/// Height above ground from which a marker has a plumb line.
+constexpr double kMinPlumb_m = 0.3;
+/// Opacity of lines behind canopy, relative to visible ones.
 constexpr float kHiddenShare = 0.45f;
-/// The marker is open in the middle, so that a small ellipse is seen there; share of its strokes.
+/// Share of the marker's strokes that is left open in the middle, to show a small ellipse there.
 constexpr double kMarkerGap = 0.4;
-/// Coloured lines have a dark rim, so that they are seen on soil and leaves alike.
+/// Dark rim of coloured lines, which keeps them visible on soil and leaves alike.
 const Eigen::Vector3f kRim{0.03f, 0.03f, 0.05f};
 constexpr float kRim_px = 1.2f;
 constexpr float kRimAlpha = 0.55f;
@@ -61,12 +61,12 @@ void add_earlier_ellipses(const Trace<Odometry>& trace, const Odometry& now, std
                           std::vector<render::Polyline>& lines) {
   render::Polyline ellipses = line_of(look, 1.3f, 0.6f);
   ellipses.pairs = true;
-  // From now on backwards, so that the current ellipse stays apart from them.
+  // Backwards from now, so that the earlier ellipses keep their distance from the current one.
   const Odometry* last = &now;
   for (std::size_t i = end + 1; i-- > 0;) {
     const Odometry& earlier = trace.values[i];
     const double apart_m = (earlier.X_WB.p - last->X_WB.p).head<2>().norm();
-    if (apart_m < std::max(kLeastSpacing_m, longest_axis_m(earlier) + longest_axis_m(*last)))
+    if (apart_m < std::max(kMinSpacing_m, longest_axis_m(earlier) + longest_axis_m(*last)))
       continue;
     last = &earlier;
     const std::vector<Eigen::Vector2d> points = ellipse_95(earlier, kEarlierPoints);
@@ -95,7 +95,7 @@ void add_marker(const Odometry& now, const EstimateLook& look, const Ground& gro
                 std::vector<render::Polyline>& lines) {
   const Eigen::Vector3d p = now.X_WB.p;
   const Eigen::Vector3d foot = on_ground(p.head<2>(), ground_m);
-  if (!look.is_map && p.z() - foot.z() > kLeastPlumb_m) {
+  if (!look.is_map && p.z() - foot.z() > kMinPlumb_m) {
     render::Polyline plumb = line_of(look, 1.3f, 0.7f);
     plumb.points_W = {p, foot};
     lines.push_back(std::move(plumb));

@@ -22,18 +22,18 @@ namespace {
 const Eigen::Vector3f kPlanColour{0.05f, 0.45f, 1.0f};
 const Eigen::Vector3f kTreeColour{0.95f, 0.97f, 0.86f};
 const Eigen::Vector3f kRayColour{1.0f, 0.25f, 0.1f};
-/// A chasing eye comes no nearer to the ground behind what flies.
-constexpr double kLeastEyeHeight_m = 0.5;
-/// Beams of a laser scan that are drawn, at most; every echo is.
-constexpr std::size_t kMostBeams = 120;
+/// Smallest height above ground of a chase camera behind a flying vehicle.
+constexpr double kMinEyeHeight_m = 0.5;
+/// Largest number of a laser scan's beams that are drawn; every echo is drawn.
+constexpr std::size_t kMaxBeams = 120;
 /// Height of an echo's mark.
 constexpr double kEchoMark_m = 0.05;
-/// Points of a trail closer than this are left out.
+/// Smallest distance between two points of a trail.
 constexpr double kTrailPitch_m = 0.1;
-/// Age at which a trail that is seen aslant begins to fade, and at which it is gone.
+/// Ages at which a trail in an oblique view begins to fade, and at which it has vanished.
 constexpr double kTrailFades_s = 8.0, kTrailGone_s = 40.0;
 constexpr float kTrailAlpha = 0.9f;
-/// A line that fades has points so close that its ends are not seen.
+/// Largest time between two points of a fading line, so that single segments are not visible.
 constexpr double kFadeStep_s = 0.5;
 
 double trail_length_m(const std::vector<Eigen::Vector3d>& points) {
@@ -61,7 +61,7 @@ FrameComposer::FrameComposer(const scenario::Scenario& scenario, const WorldMode
     scene_ = std::make_unique<physics::WorldScene>(world);
   }
   if (on_meshes) ground_.emplace(world, *scene_);
-  // A world of meshes is as large as they are.
+  // A world without rows has the extent of its meshes.
   for (const MeshInstance& instance : world.meshes) {
     if (!world.rows->rows.empty() || !instance.visible) continue;
     for (const Eigen::Vector3f& v : instance.mesh->vertices) {
@@ -175,13 +175,13 @@ render::Camera FrameComposer::place_chase(const scenario::CameraConfig& camera, 
   asked.follows_slope = !flies(camera.vehicle);
   const auto above_ground = [&](render::ChaseOptions options) {
     if (options.follows_slope) return render::chase_camera(X_WB, options);
-    // Behind what flies along a slope the ground may be higher than the eye.
+    // Behind a vehicle that flies along a slope, the ground may be higher than the eye.
     const Eigen::Vector3d eye = render::chase_camera(X_WB, options).X_WC.p;
-    const double least_m = ground_m(eye.x(), eye.y()) + kLeastEyeHeight_m;
-    options.height_m += std::max(0.0, least_m - eye.z());
+    const double min_m = ground_m(eye.x(), eye.y()) + kMinEyeHeight_m;
+    options.height_m += std::max(0.0, min_m - eye.z());
     return render::chase_camera(X_WB, options);
   };
-  // What compares estimates with the truth, or a map, is looked at from where it was asked for.
+  // Views that compare estimates or a map with the truth keep the requested position.
   if (!options_.seeks_clear_views || camera.show_estimate || camera.show_map) {
     return above_ground(asked);
   }
@@ -219,8 +219,8 @@ void FrameComposer::add_trails(const scenario::CameraConfig& camera, Time t,
     const scenario::VehicleConfig& config = scenario_.vehicles[v];
     const Trace<Odometry>& truth = trace_of(config.name).truth;
     if (truth.empty() || looks_out_of(camera, config.name)) continue;
-    // A map shows all of the work that is being done. Aslant an old trail is a line in the sky that
-    // belongs to nothing, but beside an estimate's it is as long as that.
+    // A top view shows the whole trail of the present work. In an oblique view an old trail would
+    // be a line in the sky, so it fades, unless it is compared with an estimate's trail.
     const bool fades = camera.kind != scenario::CameraKind::kTop && !camera.show_estimate;
     const auto work = work_at(scenario_, config.name, t, options_.phases);
     if (!work) continue;
@@ -238,7 +238,7 @@ void FrameComposer::add_trails(const scenario::CameraConfig& camera, Time t,
       const Time at = truth.times[i];
       const bool moved =
           trail.points_W.empty() || (trail.points_W.back() - p).norm() >= kTrailPitch_m;
-      // Where it stands only the last of its points is as old as the stand's end.
+      // While the vehicle is stationary no points are added, except to fade, and the last one.
       if (!moved && i != end && !(fades && (at - last).s() >= kFadeStep_s)) continue;
       last = at;
       trail.points_W.push_back(p);
@@ -249,7 +249,7 @@ void FrameComposer::add_trails(const scenario::CameraConfig& camera, Time t,
     }
     if (trail_length_m(trail.points_W) < kTrailPitch_m) continue;
     if (fades) {
-      // Where it crosses itself what was drawn first is seen: the latest.
+      // The first segment drawn is on top where the trail crosses itself: draw the latest first.
       std::reverse(trail.points_W.begin(), trail.points_W.end());
       std::reverse(trail.fade.begin(), trail.fade.end());
     }
@@ -264,7 +264,7 @@ void FrameComposer::add_trails(const scenario::CameraConfig& camera, Time t,
 void FrameComposer::add_markers(const scenario::CameraConfig& camera, Time t,
                                 render::Frame& frame) const {
   const bool is_map = camera.kind == scenario::CameraKind::kTop;
-  // Others follow their vehicle; estimates have marks of their own.
+  // Other cameras follow their vehicle, and views of estimates have markers already.
   if (!(is_map || camera.kind == scenario::CameraKind::kFixed) || camera.show_estimate) return;
   for (std::size_t v = 0; v < scenario_.vehicles.size(); ++v) {
     const std::string& name = scenario_.vehicles[v].name;
@@ -275,7 +275,7 @@ void FrameComposer::add_markers(const scenario::CameraConfig& camera, Time t,
     const bool inside = render::project(frame.camera, frame.width, frame.height, p, pixel) &&
                         (pixel.array() >= 0.0).all() && pixel.x() <= frame.width &&
                         pixel.y() <= frame.height;
-    // On a map who works elsewhere is worth an arrow.
+    // In a top view an arrow shows a vehicle that works outside the picture.
     if (!inside && !(is_map && at_work)) continue;
     const double radius_m =
         vehicles_[v]->description().collision_half_extents_m.head<2>().maxCoeff();
@@ -305,7 +305,7 @@ void FrameComposer::add_caption(const scenario::CameraConfig& camera, Time t,
     return std::any_of(frame.lines.begin(), frame.lines.end(), has_it) ||
            std::any_of(frame.markers.begin(), frame.markers.end(), has_it);
   };
-  // With something in their colours vehicles are the legend.
+  // A vehicle is part of the legend if something is drawn in its colour.
   for (std::size_t v = 0; v < scenario_.vehicles.size(); ++v) {
     const std::string& name = scenario_.vehicles[v].name;
     if (trace_of(name).truth.empty() || !works(name, t)) continue;
@@ -361,7 +361,7 @@ void FrameComposer::add_rays(Time t, render::Frame& frame) const {
       const RangeSample& sample = ranges.values[ranges.index_at(t)];
       const bool seen = std::isfinite(sample.range_m);
       const double length_m = seen ? sample.range_m : sample.max_range_m;
-      // The axis and the rim of the cone.
+      // The axis (k = -1) and eight lines on the cone.
       for (int k = -1; k < 8; ++k) {
         const double off = k < 0 ? 0.0 : sample.half_angle_rad, around = 2.0 * kPi * k / 8.0;
         const Eigen::Vector3d dir(std::cos(off), std::sin(off) * std::cos(around),
@@ -389,7 +389,7 @@ void FrameComposer::add_scans(Time t, render::Frame& frame) const {
       beams.alpha = 0.45f;
       echoes.width_px = 3.0f;
       echoes.alpha = 0.9f;
-      const std::size_t every = scan.ranges_m.size() / kMostBeams + 1;
+      const std::size_t every = scan.ranges_m.size() / kMaxBeams + 1;
       for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
         const double r = scan.ranges_m[i];
         if (!std::isfinite(r)) continue;
@@ -418,7 +418,7 @@ render::Frame FrameComposer::compose(const scenario::CameraConfig& camera, Time 
   }
   frame.camera = place(camera, t, static_cast<double>(frame.width) / frame.height);
   for (std::size_t v = 0; v < scenario_.vehicles.size(); ++v) {
-    // The lens looks out of the hull.
+    // A survey camera does not see its own vehicle.
     if (is_shot && scenario_.vehicles[v].name == camera.vehicle) continue;
     frame.vehicles.push_back({&vehicles_[v]->links(),
                               trace_of(scenario_.vehicles[v].name).links_at(t),

@@ -1,5 +1,5 @@
 #pragma once
-/// From a log's trace at one instant to the frame of one camera.
+/// Composition of one camera's frame from a log's trace at one instant.
 
 #include <map>
 #include <memory>
@@ -12,21 +12,21 @@
 #include "engine/playback/phase_moments.h"
 #include "engine/render/scene.h"
 #include "engine/scenario/scenario.h"
-#include "engine/sim/standing_ground.h"
+#include "engine/sim/placement_ground.h"
 
 namespace vinerow::playback {
 
-/// Tangents of half the angles of view of a survey camera, from where its corners met the ground.
+/// Tangents of half the angles of view of a survey camera, from its corners on the ground.
 struct ShotView {
   double across = 0.0;
   double along = 0.0;
 };
-/// @returns nullopt where no picture has all its corners on the ground
+/// @returns nullopt if no picture has all its corners on the ground
 std::optional<ShotView> view_of(const Trace<CameraShot>& shots);
 
 struct ComposerOptions {
   std::map<std::string, PhaseSpan> phases;  ///< of the log; empty for a run without a mission
-  /// Chasing cameras go higher or orbit where something hides their vehicle (clear_view.h). Not for
+  /// Chase cameras move up or sideways if something hides their vehicle (clear_view.h). Not for
   /// films, in which they would jump.
   bool seeks_clear_views = false;
 };
@@ -38,8 +38,8 @@ class FrameComposer {
                 const std::vector<std::unique_ptr<Vehicle>>& vehicles, const LogTrace& trace,
                 ComposerOptions options = {});
 
-  /// @param camera  one of kind shots shows the last picture taken until t; @pre view_of() knows
-  /// the camera's view
+  /// Frame of a camera at t. A camera of kind shots shows the last picture taken until t.
+  /// @pre view_of() returns such a camera's view
   render::Frame compose(const scenario::CameraConfig& camera, Time t) const;
 
  private:
@@ -69,14 +69,13 @@ class FrameComposer {
   const std::vector<std::unique_ptr<Vehicle>>& vehicles_;
   const LogTrace& trace_;
   const ComposerOptions options_;
-  std::unique_ptr<SceneQuery> scene_;     // of a world whose ground is meshes, or for clear views
-  std::optional<StandingGround> ground_;  // of a world whose ground is meshes
-  // What a top view shows: rows or else meshes, plans and tracks; of what has wings only where
-  // nothing else works, as it comes from far away.
+  std::unique_ptr<SceneQuery> scene_;      // if the world's ground is meshes, or for clear views
+  std::optional<PlacementGround> ground_;  // if the world's ground is meshes
+  // Extent of a top view: rows or else meshes, plans and tracks. Those of fixed-wing vehicles count
+  // only if no other vehicle works, because they come from far away.
   Eigen::AlignedBox3d extent_W_;
   Eigen::AlignedBox3d parcel_W_;  // the same with the parcel's boundary, for views with the grid
-  std::shared_ptr<const OccupancyGrid>
-      grid_;  // of the log or else the world; null: neither has one
+  std::shared_ptr<const OccupancyGrid> grid_;  // of the log, else of the world; may be null
 };
 
 }  // namespace vinerow::playback

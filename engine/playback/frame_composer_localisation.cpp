@@ -1,4 +1,4 @@
-/// What frames show of maps and estimates.
+/// Maps and estimates in frames. Part of FrameComposer.
 
 #include <fmt/format.h>
 
@@ -12,14 +12,16 @@
 namespace vinerow::playback {
 namespace {
 
-/// Estimates of the first vehicle, then of its observers and of further vehicles; more start again.
+/// Colours of the estimates of the first vehicle, of its observers and of further vehicles; then
+/// they start again.
 const Eigen::Vector3f kEstimateColours[] = {{1.0f, 0.08f, 0.08f},
                                             {1.0f, 1.0f, 1.0f},
                                             {0.72f, 0.35f, 1.0f},
                                             {0.25f, 1.0f, 0.35f},
                                             {0.55f, 0.8f, 1.0f}};
 const Eigen::Vector3f kMapColour{0.1f, 0.92f, 1.0f};
-/// Seen aslant, edges of a map run together with distance: fainter ones from here to there.
+/// Range of distances from the eye in which a map's edges have a share of the full opacity. In
+/// oblique views distant edges would merge otherwise.
 struct MapBand {
   double from_m, to_m;
   float share;
@@ -28,13 +30,13 @@ constexpr MapBand kMapBands[] = {{0.0, 8.0, 1.0f}, {8.0, 16.0, 0.5f}, {16.0, 32.
 constexpr MapBand kWholeMap{0.0, 1e9, 1.0f};
 constexpr float kMapAlpha = 0.85f;
 constexpr float kHiddenMapAlpha = 0.35f;
-/// Half the length of an estimate's marker, at least, and in views from above of the picture.
+/// Half the length of an estimate's marker: minimum, and share of the picture in top views.
 constexpr double kMarker_m = 0.2;
 constexpr double kMarkerShare = 0.013;
-/// As of the true trail.
+/// Height of the trail above the ground, equal to that of the true trail.
 constexpr double kTrailHover_m = 0.06;
 
-/// Horizontal, over the whole log.
+/// Mean horizontal variance over the whole log.
 double mean_variance_m2(const Trace<Odometry>& trace) {
   double sum_m2 = 0.0;
   for (const Odometry& estimate : trace.values) {
@@ -115,7 +117,7 @@ void FrameComposer::add_estimates(const scenario::CameraConfig& camera, Time t,
                      e.head<2>().norm()),
          one.look.colour});
   }
-  // The small lies over the large, in the same order in all frames of a log.
+  // Draw smaller ellipses over larger ones, in the same order in all frames of a log.
   std::stable_sort(drawn.begin(), drawn.end(),
                    [](const Drawn& a, const Drawn& b) { return a.variance_m2 > b.variance_m2; });
   for (Drawn& one : drawn) {

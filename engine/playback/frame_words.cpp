@@ -9,7 +9,7 @@
 namespace vinerow::playback {
 namespace {
 
-/// As many characters fill two thirds of a picture of 16:9.
+/// Number of characters that fill two thirds of the width of a 16:9 picture.
 constexpr std::size_t kLongestTitle = 52;
 
 std::string in_words(std::string name) {
@@ -54,7 +54,7 @@ std::map<std::string, double> parse_seen(const std::string& text) {
 }
 
 std::string clock_text(Time t) {
-  // Cut, not rounded: 59.96 s is not 00:60.0.
+  // Truncated, because rounding 59.96 s would give 00:60.0.
   const std::int64_t tenths = t.ns / 100'000'000;
   return fmt::format("{:02d}:{:02d}.{}", tenths / 600, tenths / 10 % 60, tenths % 10);
 }

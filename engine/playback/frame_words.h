@@ -1,5 +1,5 @@
 #pragma once
-/// What is written into frames of a run, for readers who do not know its files.
+/// Text in frames of a run, for readers who do not know its files.
 
 #include <map>
 #include <string>
@@ -14,14 +14,14 @@ namespace vinerow::playback {
 /// "cooperative_small" -> "Cooperative small".
 std::string title_of_name(const std::string& name);
 
-/// The description's first sentence, or what stands before its colon or dash, where that is short
-/// enough for a picture, else the name in words: "Paper C in open loop", "Cooperative small".
+/// The description's first sentence, or the part before its colon or dash, if that is short enough
+/// for a picture, else the name in words: "Paper C in open loop", "Cooperative small".
 std::string picture_title(const scenario::Scenario& scenario);
 
-/// Keyword of the text in a frame's file that says what of it shows which vehicle.
+/// Keyword of the text in a frame's file that lists the share of the picture for each vehicle.
 inline constexpr const char* kSeenKey = "vinerow:seen";
-/// Shares of a picture by vehicle, as such a text and back: "rover 0.0312" a line. What is no such
-/// line is left out.
+/// Conversion between shares of a picture by vehicle and this text, with one line "rover 0.0312"
+/// for each vehicle. Other lines are ignored.
 std::string seen_text(const std::map<std::string, double>& shares);
 std::map<std::string, double> parse_seen(const std::string& text);
 

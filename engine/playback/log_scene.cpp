@@ -26,7 +26,8 @@ constexpr const char* kWorldFrame = "map";
 constexpr std::array<double, 4> kGround = {0.46, 0.44, 0.30, 1.0};
 constexpr std::array<double, 4> kCanopy = {0.25, 0.47, 0.16, 1.0};
 
-/// Of things that stand in a world, dearest first: what is left out where there is too much.
+/// Classes of solid objects in a world, in the order in which they are left out if there are too
+/// many points.
 struct SolidClass {
   SurfaceClass surface;
   std::array<double, 4> colour;
@@ -50,7 +51,7 @@ void add_mesh(const TriangleMesh& mesh, const Pose& X_WM, SceneTriangles& out) {
   }
 }
 
-/// Two triangles, counter-clockwise seen from outside.
+/// Adds two triangles, counter-clockwise seen from outside.
 void add_quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d,
               SceneTriangles& out) {
   out.indices.insert(out.indices.end(), {a, b, c, a, c, d});
@@ -61,7 +62,7 @@ void add_box(const Eigen::AlignedBox3d& box, SceneTriangles& out) {
   for (int corner = 0; corner < 8; ++corner) {
     out.points.push_back(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
   }
-  // Bits of a corner: x, y, z at their maximum.
+  // Bits 0, 1, 2 of a corner's index: x, y, z is at its maximum.
   constexpr std::uint32_t kFaces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
                                           {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
   for (const auto& f : kFaces) {
@@ -69,7 +70,7 @@ void add_box(const Eigen::AlignedBox3d& box, SceneTriangles& out) {
   }
 }
 
-/// "trunk/x#lod0" is the nearer of two: the next one stands for it.
+/// False for levels of detail such as "trunk/x#lod0" for which a coarser mesh exists.
 bool is_coarsest(const MeshInstance& instance, const std::set<std::string_view>& names) {
   const std::size_t mark = instance.name.find("#lod");
   if (mark == std::string::npos || mark + 5 != instance.name.size()) return true;
@@ -87,7 +88,7 @@ class GroundMaker {
     const Eigen::AlignedBox2d all(
         field_.corner_W, field_.corner_W + Eigen::Vector2d(field_.width_m(), field_.depth_m()));
     const Eigen::AlignedBox2d inner = all.intersection(focus_W);
-    // Where the coarse samples lie above the fine ones' surface they would hide it.
+    // Lowers the coarse surface, which would hide the fine one where it is higher.
     constexpr double kBelow_m = 0.15;
     if (inner.isEmpty()) {
       add(all, {}, 0.0);
@@ -99,7 +100,7 @@ class GroundMaker {
   }
 
  private:
-  /// Samples of an area, none inside `hole`.
+  /// Adds samples of an area, except inside `hole`.
   void add(const Eigen::AlignedBox2d& area, const Eigen::AlignedBox2d& hole, double below_m) {
     const Eigen::Vector2d size = area.sizes();
     const double cell_m =
@@ -135,7 +136,7 @@ class GroundMaker {
   SceneTriangles out_;
 };
 
-/// A row as a bar of its canopy's width and height that follows the ground.
+/// Adds a row as a bar of its canopy's width and height that follows the ground.
 void add_row_bar(const WorldModel& world, const PlantRow& row, double step_m, SceneTriangles& out) {
   const auto ground_m = [&](const Vector3d& p) {
     return world.terrain ? world.terrain->height_m(p.x(), p.y()) : p.z();
@@ -199,14 +200,14 @@ SceneTriangles canopy_of(const WorldModel& world, const SceneLimits& limits) {
   }
   double row_length_m = 0.0;
   for (const PlantRow& row : world.rows->rows) row_length_m += row_line_length_m(row);
-  // Four points a section.
+  // Four points for each section of a bar.
   const double step_m =
       std::max(2.0, 4.0 * row_length_m / static_cast<double>(limits.canopy_points));
   for (const PlantRow& row : world.rows->rows) add_row_bar(world, row, step_m, canopy);
   return canopy;
 }
 
-/// Of one class of surface what is not foliage, each thing once.
+/// Meshes of one class, without foliage and with only the coarsest level of detail.
 SceneTriangles solids_of(const WorldModel& world, const SolidClass& kind) {
   std::set<std::string_view> names;
   for (const MeshInstance& instance : world.meshes) names.insert(instance.name);
@@ -219,7 +220,7 @@ SceneTriangles solids_of(const WorldModel& world, const SolidClass& kind) {
   return solids;
 }
 
-/// Linear light to what screens are told.
+/// sRGB value of a linear intensity.
 double srgb_of(double linear) {
   linear = std::clamp(linear, 0.0, 1.0);
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
@@ -228,7 +229,7 @@ double srgb_of(double linear) {
 std::array<double, 4> colour_of(const VehicleLink& link) {
   Eigen::Vector3f colour = link.material.colour;
   if (!link.mesh->colours.empty()) {
-    // Tints of the material: their mean stands for them.
+    // Vertex colours are represented by their mean.
     Eigen::Vector3f mean = Eigen::Vector3f::Zero();
     for (const Eigen::Vector3f& tint : link.mesh->colours) mean += tint;
     colour = colour.cwiseProduct(mean / static_cast<float>(link.mesh->colours.size()));

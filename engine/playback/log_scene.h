@@ -1,6 +1,6 @@
 #pragma once
-/// What viewers of a log see beside its signals: ground, rows, posts, wires and vehicles as solid
-/// things, and where each sensor sits.
+/// Scene of a log for viewers: ground, rows, posts, wires and vehicles as solids, and the
+/// mountings of the sensors.
 
 #include <map>
 #include <string>
@@ -11,33 +11,33 @@
 
 namespace vinerow::playback {
 
-/// Bounds of a scene: a log that is many times larger for its decoration would help nobody.
+/// Limits on the size of a scene, so that it does not dominate the size of the log.
 struct SceneLimits {
-  std::size_t ground_samples = 12'000;  ///< about; half of them around the rows
-  std::size_t canopy_points = 40'000;   ///< more than that: rows are drawn as boxes
+  std::size_t ground_samples = 12'000;  ///< approximate; half of them around the rows
+  std::size_t canopy_points = 40'000;   ///< if exceeded, rows are drawn as boxes
   std::size_t solid_points = 40'000;    ///< of posts, trunks, wires and obstacles together
-  std::size_t vehicle_points = 40'000;  ///< of each vehicle; a link beyond that is a box
+  std::size_t vehicle_points = 40'000;  ///< of each vehicle; further links are drawn as boxes
 };
 
-/// Ground and what stands on it, in frame "map". Of what exceeds its limit the dearest is left out
-/// first: trunks, then wires, posts, obstacles.
+/// Ground and the objects on it, in frame "map". If they exceed the limit, the most expensive
+/// classes are left out first: trunks, then wires, posts, obstacles.
 std::vector<record::SceneEntity> world_scene(const WorldModel& world,
                                              const SceneLimits& limits = {});
 
-/// The links of a vehicle, each in its own frame "<vehicle>/<link>", which moves with the log.
+/// Links of a vehicle, each in its own frame "<vehicle>/<link>", which moves with the log.
 std::vector<record::SceneEntity> vehicle_scene(const std::string& vehicle,
                                                const std::vector<VehicleLink>& links,
                                                const SceneLimits& limits = {});
 
-/// Frame of a sensor in a log: "rover/lidar", or "rover/lidar_sensor" where a link of the vehicle
-/// has that name.
+/// Frame of a sensor in a log: "rover/lidar", or "rover/lidar_sensor" if a link of the vehicle has
+/// the sensor's name.
 std::string sensor_frame(const std::string& vehicle, const std::string& sensor,
                          const std::vector<VehicleLink>& links);
 
-/// Where the sensors of all vehicles sit. @pre the vehicles' parts were built once
+/// Mountings of the sensors of all vehicles. @pre the vehicles' parts were built once
 std::vector<record::StaticTransform> sensor_transforms(const Simulation& simulation);
 
-/// Frame of a sensor's readings, and of what it would have read without error, by signal.
+/// Frames of the signals of sensors' readings, and of their error-free readings, by signal.
 std::map<std::string, std::string> frames_of_readings(const Simulation& simulation);
 
 }  // namespace vinerow::playback

@@ -5,7 +5,7 @@
 namespace vinerow::playback {
 namespace {
 
-/// The two samples around an instant and how far it is from the first to the second, 0 to 1.
+/// The two samples around an instant, and the instant's share of the time between them, 0 to 1.
 struct Bracket {
   std::size_t before;
   std::size_t after;
@@ -35,7 +35,7 @@ void read_into(const record::LogReader& log, const std::string& topic, Trace<T>&
 
 }  // namespace
 
-bool is_truth_beside(const record::LogReader& log, const std::string& topic) {
+bool is_truth_of_reading(const record::LogReader& log, const std::string& topic) {
   constexpr std::string_view kEnd = "_truth";
   return topic.ends_with(kEnd) && log.has_topic(topic.substr(0, topic.size() - kEnd.size()));
 }
@@ -71,7 +71,7 @@ std::vector<Pose> VehicleTrace::links_at(Time t) const {
   const std::vector<Pose>& before = links.values[at.before].X_WL;
   const std::vector<Pose>& after = links.values[at.after].X_WL;
   std::vector<Pose> poses;
-  // Another writer's messages may tell of more links at one instant than at another.
+  // The number of links may vary between messages of a log by another program.
   for (std::size_t i = 0; i < std::min(before.size(), after.size()); ++i) {
     poses.push_back(pose_between(before[i], after[i], at.share));
   }
@@ -99,7 +99,7 @@ LogTrace read_trace(const record::LogReader& log, const std::vector<std::string>
       const auto type = channel.metadata.find("vinerow_type");
       if (type == channel.metadata.end() || !channel.topic.starts_with(prefix)) continue;
       const std::string sensor = channel.topic.substr(prefix.size());
-      if (is_truth_beside(log, channel.topic)) continue;
+      if (is_truth_of_reading(log, channel.topic)) continue;
       if (type->second == Odometry::kType && wishes.estimates && sensor != "truth") {
         read_into(log, channel.topic, vehicle.estimates[sensor]);
       }

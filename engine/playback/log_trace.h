@@ -1,6 +1,6 @@
 #pragma once
-/// What pictures need of a log, in memory: where every vehicle and link was, what was planned and
-/// measured.
+/// Contents of a log that pictures need, in memory: poses of vehicles and links, plans and
+/// measurements.
 
 #include <filesystem>
 #include <map>
@@ -17,7 +17,7 @@
 
 namespace vinerow::playback {
 
-/// Samples of one signal in rising time.
+/// Samples of one signal in ascending time.
 template <class T>
 struct Trace {
   std::vector<Time> times;
@@ -28,8 +28,8 @@ struct Trace {
   std::size_t index_at(Time t) const;
 };
 
-/// Pose, speed and covariance at t, between the samples around it (constant twist is not assumed:
-/// straight and slerp). @pre !trace.empty()
+/// Pose, speed and covariance at t, interpolated between the samples around it (positions linearly,
+/// attitudes by slerp). @pre !trace.empty()
 Odometry odometry_at(const Trace<Odometry>& trace, Time t);
 
 struct VehicleTrace {
@@ -38,11 +38,11 @@ struct VehicleTrace {
   Trace<PlannedPath> plan;
   Trace<LineList> plan_tree;
   std::map<std::string, Trace<RangeSample>> ranges;  ///< by sensor
-  std::map<std::string, Trace<LaserScan>> scans;     ///< by sensor, where they were asked for
+  std::map<std::string, Trace<LaserScan>> scans;     ///< by sensor, if requested
   std::map<std::string, Trace<CameraShot>> shots;    ///< by sensor
-  /// "estimate" and those of observers by signal, where they were asked for.
+  /// "estimate" and the estimates of observers by signal, if requested.
   std::map<std::string, Trace<Odometry>> estimates;
-  LineList map_edges;  ///< of its own map, where they were asked for; empty where it has none
+  LineList map_edges;  ///< of its own map, if requested; empty if it has no row meshes
 
   /// Pose and speed at t.
   Odometry truth_at(Time t) const { return odometry_at(truth, t); }
@@ -53,22 +53,22 @@ struct VehicleTrace {
 struct LogTrace {
   Time first;
   Time last;
-  OccupancyGrid map;  ///< of the run; empty where the log has none
+  OccupancyGrid map;  ///< of the run; empty if the log contains no map
   std::map<std::string, VehicleTrace> vehicles;
 };
 
-/// Whether a topic tells what the sensor beside it would have read without error: "<sensor>_truth".
-bool is_truth_beside(const record::LogReader& log, const std::string& topic);
+/// True for topics "<sensor>_truth", which contain a sensor's error-free readings.
+bool is_truth_of_reading(const record::LogReader& log, const std::string& topic);
 
-/// What is read beside the rest.
+/// Optional contents of a trace.
 struct TraceWishes {
   bool scans = false;  ///< half a megabyte for each second of a laser scanner
   bool estimates = false;
   bool map_edges = false;
 };
 
-/// What is_truth_beside() is left out.
-/// @param vehicles  names to look for
+/// Reads a trace, without the topics for which is_truth_of_reading() is true.
+/// @param vehicles  names of the vehicles to read
 LogTrace read_trace(const record::LogReader& log, const std::vector<std::string>& vehicles,
                     const TraceWishes& wishes = {});
 

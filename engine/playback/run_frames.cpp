@@ -32,7 +32,7 @@ std::vector<scenario::CameraConfig> chosen_cameras(const scenario::Scenario& sce
   for (const std::string& name : wanted) {
     const auto found = std::find(known.begin(), known.end(), name);
     if (found == known.end() && name == "chase" && !scenario.vehicles.empty()) {
-      // As a scenario without cameras has it: behind the first vehicle.
+      // The default camera of a scenario without cameras: behind the first vehicle.
       scenario::CameraConfig chase;
       chase.name = name;
       chase.vehicle = scenario.vehicles.front().name;
@@ -49,7 +49,7 @@ std::vector<scenario::CameraConfig> chosen_cameras(const scenario::Scenario& sce
   return chosen;
 }
 
-/// What the cameras show that is not always read.
+/// Optional contents of the log that the cameras show.
 TraceWishes wishes_of(const std::vector<scenario::CameraConfig>& cameras) {
   TraceWishes wishes;
   for (const scenario::CameraConfig& camera : cameras) {
@@ -60,7 +60,7 @@ TraceWishes wishes_of(const std::vector<scenario::CameraConfig>& cameras) {
   return wishes;
 }
 
-/// Frames more often than that make a film.
+/// Period of frames below which they count as a film.
 constexpr double kFilmPeriod_s = 2.0;
 
 bool has_chase(const std::vector<scenario::CameraConfig>& cameras) {
@@ -69,25 +69,25 @@ bool has_chase(const std::vector<scenario::CameraConfig>& cameras) {
   });
 }
 
-/// Whether an instant lies in the span that is asked for.
+/// True if an instant is in the requested span.
 bool is_wanted(Time t, const PictureOptions& options) {
   return t >= Time{duration_from_s(options.from_s.value_or(0.0)).ns} &&
          (!options.to_s || t <= Time{duration_from_s(*options.to_s).ns});
 }
 
-/// @throws ConfigError where the span that is asked for holds nothing of the log
+/// @throws ConfigError if the requested span and the log do not overlap
 void check_span(const PictureOptions& options, const LogTrace& trace) {
   const double from_s = options.from_s.value_or(trace.first.s());
   const double to_s = options.to_s.value_or(trace.last.s());
   if (from_s > to_s || from_s > trace.last.s() || to_s < trace.first.s()) {
-    throw ConfigError(fmt::format("there is no frame from {:g} s{}: the log holds {:g} s to {:g} s",
-                                  from_s, options.to_s ? fmt::format(" to {:g} s", to_s) : " on",
-                                  trace.first.s(), trace.last.s()));
+    throw ConfigError(fmt::format(
+        "there is no frame from {:g} s{}: the log covers {:g} s to {:g} s", from_s,
+        options.to_s ? fmt::format(" to {:g} s", to_s) : " on", trace.first.s(), trace.last.s()));
   }
 }
 
-/// Instants of the frames of all cameras, in order, each once. Instants after the log's end are
-/// left out.
+/// Instants of the frames of all cameras, in order, each once; without instants after the log's
+/// end.
 std::set<Time> frame_times(const scenario::PicturesConfig& pictures, const PictureOptions& options,
                            const LogTrace& trace) {
   std::set<Time> times;
@@ -99,7 +99,7 @@ std::set<Time> frame_times(const scenario::PicturesConfig& pictures, const Pictu
   for (const double t_s : options.times_s.value_or(std::vector<double>{})) {
     if (t_s >= trace.first.s() && t_s <= trace.last.s()) continue;
     throw ConfigError(
-        fmt::format("there is no frame at {:.9g} s: the log holds {:.9g} s to {:.9g} s", t_s,
+        fmt::format("there is no frame at {:.9g} s: the log covers {:.9g} s to {:.9g} s", t_s,
                     trace.first.s(), trace.last.s()));
   }
   for (const double t_s :
@@ -109,11 +109,11 @@ std::set<Time> frame_times(const scenario::PicturesConfig& pictures, const Pictu
   if (every_s > 0.0) {
     const double first_s = options.from_s.value_or(0.0);
     const double span_s = std::min(trace.last.s(), options.to_s.value_or(trace.last.s())) - first_s;
-    if (span_s / every_s > scenario::kMostPictureInstants) {
+    if (span_s / every_s > scenario::kMaxPictureInstants) {
       throw ConfigError(
           fmt::format("a frame every {:.9g} s is {:.0f} instants of {:.9g} s, must be at most "
                       "{:.0f}",
-                      every_s, span_s / every_s, span_s, scenario::kMostPictureInstants));
+                      every_s, span_s / every_s, span_s, scenario::kMaxPictureInstants));
     }
     const auto count = static_cast<std::int64_t>(std::floor(span_s / every_s + 1e-9));
     for (std::int64_t k = 0; k <= count; ++k) add(first_s + static_cast<double>(k) * every_s);
@@ -129,8 +129,8 @@ std::set<Time> frame_times(const scenario::PicturesConfig& pictures, const Pictu
   return times;
 }
 
-/// Instants of one camera's frames. Of a camera of kind shots: when its pictures were taken, or the
-/// given instants from the first picture on where the schedule is not the scenario's.
+/// Instants of one camera's frames. For a camera of kind shots these are the times of its pictures
+/// or, if the caller gave a schedule, the scheduled instants from the first picture on.
 std::set<Time> times_of(const scenario::CameraConfig& camera, const std::set<Time>& schedule,
                         bool own_schedule, const LogTrace& trace) {
   if (camera.kind != scenario::CameraKind::kShots) return schedule;
@@ -153,8 +153,8 @@ scenario::Scenario scenario_in(const record::LogReader& reader, const std::files
                                const scenario::Overrides& overrides = {}) {
   const auto found = reader.info().attachments.find("scenario.resolved.yaml");
   if (found == reader.info().attachments.end()) {
-    throw ConfigError(fmt::format("{}: holds no scenario.resolved.yaml, so its world is not known",
-                                  log.string()));
+    throw ConfigError(fmt::format(
+        "{}: contains no scenario.resolved.yaml, so its world is not known", log.string()));
   }
   return scenario::parse_scenario(found->second, log.parent_path(), registry, overrides);
 }

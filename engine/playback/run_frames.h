@@ -1,5 +1,5 @@
 #pragma once
-/// Frames of a run, drawn from its log: `vinerow run` and `vinerow render` share this one way.
+/// Rendering of a run's frames from its log, shared by `vinerow run` and `vinerow render`.
 
 #include <filesystem>
 #include <functional>
@@ -18,27 +18,27 @@ struct Image;
 
 namespace vinerow::playback {
 
-/// What to draw otherwise than the scenario in the log says.
+/// Options that replace settings of the scenario in the log.
 struct PictureOptions {
-  std::vector<std::string> cameras;            ///< names; empty = all of the scenario
+  std::vector<std::string> cameras;            ///< names; if empty, all cameras of the scenario
   std::optional<std::vector<double>> times_s;  ///< instead of the scenario's schedule
   std::optional<double> every_s;
   std::optional<double> from_s;  ///< no frame before; every_s counts from here
   std::optional<double> to_s;    ///< no frame after
   std::optional<int> width;
   std::optional<int> height;
-  scenario::Overrides overrides;  ///< written over the log's scenario: cameras of one's own
-  /// Takes each frame in place of a file.
+  scenario::Overrides overrides;  ///< applied to the log's scenario, e.g. for additional cameras
+  /// Receives each frame; no file is written then.
   std::function<void(const render::Image&)> take_frame;
   std::function<void(int done, int total)> progress;
-  std::function<bool()> interrupted;  ///< asked before each frame; true ends the drawing
+  std::function<bool()> interrupted;  ///< called before each frame; true ends the drawing
 };
 
 struct PictureReport {
   std::vector<std::filesystem::path> files;
   std::vector<std::string> digests;  ///< of the pixels, same order
-  std::string note;                  ///< why there are no pictures, or not all
-  std::string write_failure;         ///< why a frame could not be stored; empty: all were
+  std::string note;                  ///< reason for missing pictures
+  std::string write_failure;         ///< why a frame could not be stored; empty if all were
   double wall_s = 0.0;
 };
 
@@ -47,11 +47,11 @@ struct PictureReport {
 PictureReport render_log(const std::filesystem::path& log, const std::filesystem::path& out,
                          const Registry& registry, const PictureOptions& options);
 
-/// The scenario that a log holds. @param overrides  written over it and checked like it
+/// Scenario that a log contains. @param overrides  applied to it and checked like it
 scenario::Scenario scenario_of_log(const std::filesystem::path& log, const Registry& registry,
                                    const scenario::Overrides& overrides = {});
 
-/// A scenario's vehicles, built and not spawned: their links and descriptions, in its order.
+/// Vehicles of a scenario, built but not spawned: their links and descriptions, in its order.
 std::vector<std::unique_ptr<Vehicle>> vehicles_of_scenario(const scenario::Scenario& scenario,
                                                            const Registry& registry);
 

@@ -1,6 +1,6 @@
 #pragma once
-/// The colours of a run's vehicles, in the scenario's order: of their trails in frames and in the
-/// replay, and of their lines in the report. The one place that tells them.
+/// Colours of a run's vehicles, in the scenario's order: for their trails in frames and in the
+/// replay, and for their lines in the report.
 
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@ struct VehicleColour {
   const char* on_paper;  ///< the same hue, dark enough for a line on white, "#rrggbb"
 };
 
-/// More vehicles than colours begin again.
+/// Further vehicles start again with the first colour.
 inline const std::array<VehicleColour, 8> kVehicleColours = {{{{1.0f, 0.72f, 0.05f}, "#b87700"},
                                                               {{1.0f, 0.3f, 0.7f}, "#cf1f87"},
                                                               {{0.3f, 0.95f, 0.9f}, "#0f8f88"},
@@ -31,7 +31,7 @@ inline const VehicleColour& vehicle_colour(std::size_t vehicle) {
   return kVehicleColours[vehicle % kVehicleColours.size()];
 }
 
-/// "#ffb80d" of a colour of 0..1.
+/// Hexadecimal form, "#ffb80d", of a colour with components 0..1.
 inline std::string hex_colour(const Eigen::Vector3f& rgb) {
   const auto byte = [](float share) { return static_cast<int>(std::lround(255.0f * share)); };
   return fmt::format("#{:02x}{:02x}{:02x}", byte(rgb.x()), byte(rgb.y()), byte(rgb.z()));

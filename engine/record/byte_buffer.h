@@ -1,6 +1,6 @@
 #pragma once
-/// Growable bytes for records and messages. Unlike std::vector it does not clear what it grows by,
-/// and it keeps its memory when emptied, so that a running recorder allocates nothing.
+/// Growable byte buffer for records and messages. Unlike std::vector it does not initialise new
+/// bytes. It keeps its memory when cleared, so that a running recorder does not allocate.
 
 #include <bit>
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace vinerow::record {
 
-// Numbers are copied to and from files as they lie in memory; MCAP and our CDR are little-endian.
+// Numbers are copied to and from files in memory order; MCAP and our CDR are little-endian.
 static_assert(std::endian::native == std::endian::little, "engine/record assumes little-endian");
 
 class ByteBuffer {
@@ -23,7 +23,7 @@ class ByteBuffer {
   bool empty() const { return size_ == 0; }
   std::span<const std::uint8_t> view() const { return {bytes_.get(), size_}; }
 
-  /// Forgets the content, keeps the memory.
+  /// Removes the content, keeps the memory.
   void clear() { size_ = 0; }
 
   void reserve(std::size_t capacity) {
@@ -34,13 +34,13 @@ class ByteBuffer {
     capacity_ = capacity;
   }
 
-  /// Makes the size `size`; new bytes are undefined.
+  /// Changes the size; new bytes are undefined.
   void resize(std::size_t size) {
     ensure(size);
     size_ = size;
   }
 
-  /// Adds `count` undefined bytes. @returns the first of them, valid until the next growth
+  /// Adds `count` undefined bytes. @returns pointer to the first, valid until the next growth
   std::uint8_t* extend(std::size_t count) {
     ensure(size_ + count);
     std::uint8_t* first = bytes_.get() + size_;
@@ -55,7 +55,7 @@ class ByteBuffer {
     if (count > 0) std::memset(extend(count), 0, count);
   }
 
-  /// A number in the order of MCAP and little-endian CDR, unaligned.
+  /// Appends a number in the byte order of MCAP and little-endian CDR, unaligned.
   template <class T>
   void add(T value) {
     std::memcpy(extend(sizeof value), &value, sizeof value);

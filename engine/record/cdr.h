@@ -1,5 +1,5 @@
 #pragma once
-/// CDR, the byte order of ROS 2 messages: XCDR version 1, little-endian.
+/// CDR, the encoding of ROS 2 messages: XCDR version 1, little-endian.
 ///
 /// Source: OMG "DDS Interoperability Wire Protocol" 2.2, section 10 (encapsulation header 00 01 00
 /// 00 = CDR_LE), and OMG CORBA 3 part 2, section 9.3 (alignment). Every number is aligned to its
@@ -18,7 +18,7 @@ namespace vinerow::record {
 
 constexpr std::size_t kCdrHeaderSize = 4;
 
-/// Appends one message to a buffer, the encapsulation header first.
+/// Writer of one message to the end of a buffer; starts with the encapsulation header.
 class CdrWriter {
  public:
   explicit CdrWriter(ByteBuffer& out) : out_(out) {
@@ -39,7 +39,7 @@ class CdrWriter {
     out_.add_bytes(text.data(), text.size());
     out_.add(std::uint8_t{0});
   }
-  /// One string made of two.
+  /// One string, joined from two.
   void add_joined(std::string_view first, std::string_view second) {
     add(static_cast<std::uint32_t>(first.size() + second.size() + 1));
     out_.add_bytes(first.data(), first.size());
@@ -54,8 +54,7 @@ class CdrWriter {
     align(8);
     out_.add_bytes(values, count * sizeof(double));
   }
-  /// Numbers of `size` bytes each, as they lie in memory: of an array, or of a sequence after its
-  /// count.
+  /// Numbers of `size` bytes each in memory order, of an array or of a sequence after its count.
   void add_numbers(const void* values, std::size_t count, std::size_t size) {
     if (count == 0) return;
     align(size);
@@ -66,13 +65,13 @@ class CdrWriter {
     out_.add_zeros(count * sizeof(double));
   }
   void add(const Eigen::Vector3d& v) { add_doubles(v.data(), 3); }
-  /// Points one after the other: elements of a sequence, after its count.
+  /// Elements of a sequence of points, after its count.
   void add(std::span<const Eigen::Vector3d> points) {
     static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double));
     if (!points.empty()) add_doubles(points.front().data(), 3 * points.size());
   }
-  /// Room for the single bytes of a sequence, after its count. @returns the first of them, to be
-  /// filled before anything else is added
+  /// Adds the bytes of a sequence, after its count. @returns pointer to the first; fill them before
+  /// the next call
   std::uint8_t* extend_octets(std::size_t count) { return out_.extend(count); }
 
  private:
@@ -85,12 +84,12 @@ class CdrWriter {
   std::size_t origin_ = 0;
 };
 
-/// Reads one message. Reading past the end, or a count that cannot fit, sets ok() to false and
-/// gives zeros from then on; nothing throws.
+/// Reader of one message. Reading past the end, or a count that cannot fit, sets ok() to false; all
+/// later values are zero. Nothing throws.
 class CdrReader {
  public:
   explicit CdrReader(std::span<const std::uint8_t> message) : bytes_(message) {
-    // Only CDR_LE is written by us; other encodings of the same types are not guessed at.
+    // Only CDR_LE is supported, the encoding that this project writes.
     ok_ = bytes_.size() >= kCdrHeaderSize && bytes_[0] == 0 && bytes_[1] == 1;
     at_ = kCdrHeaderSize;
   }
@@ -111,18 +110,19 @@ class CdrReader {
     const std::string_view view = read_text();
     text.assign(view.data(), view.size());
   }
-  /// Text inside the message, without its closing zero.
+  /// View of a text in the message, without its closing zero.
   std::string_view read_text() {
     const auto size = read<std::uint32_t>();
-    // Some writers leave out the zero of an empty string and send length 0.
+    // Some writers omit the zero of an empty string and write length 0.
     if (size == 0 || !fits(size)) return {};
     const auto* first = reinterpret_cast<const char*>(bytes_.data() + at_);
     at_ += size;
     if (first[size - 1] != '\0') ok_ = false;
     return ok_ ? std::string_view(first, size - 1) : std::string_view();
   }
-  /// @param min_element_size  bytes that every element needs at least: bounds the count by what is
-  /// left, so that a damaged count cannot ask for more memory than the message has bytes
+  /// @param min_element_size  minimum size of an element in bytes. It bounds the count by the
+  /// remaining bytes, so that a damaged count cannot request more memory than the message has
+  /// bytes.
   std::size_t read_count(std::size_t min_element_size) {
     const auto count = read<std::uint32_t>();
     return fits(std::size_t{count} * min_element_size) ? count : 0;

@@ -12,17 +12,17 @@
 namespace vinerow::record {
 namespace {
 
-// Level 3 (the library's default): log data is mostly the noise in the low bits of doubles, which
-// no level shrinks; the rest is repetition, which level 3 finds already.
+// Level 3 (the library's default): log data is mostly noise in the low bits of doubles, which no
+// level compresses; level 3 already finds the repetitions in the rest.
 constexpr int kZstdLevel = 3;
 
-// A chunk larger than this is taken for damage.
+// Larger chunks are treated as damaged.
 constexpr std::uint64_t kLargestChunk = std::uint64_t{1} << 30;
 
-// First guess at the output when the compressed bytes do not state their size.
+// First size of the output if the compressed bytes do not state it.
 constexpr std::size_t kFirstOutput = std::size_t{1} << 20;
 
-/// Makes room for more output; false when everything that the chunk may hold is there.
+/// Enlarges the output buffer; false if the size stated by the chunk is already reached.
 bool grow(ByteBuffer& out, std::size_t filled, std::uint64_t size) {
   if (filled >= size) return false;
   out.resize(static_cast<std::size_t>(
@@ -64,8 +64,7 @@ bool decompress_lz4(std::span<const std::uint8_t> in, std::uint64_t size, ByteBu
   std::size_t used = 0;
   std::size_t filled = 0;
   while (true) {
-    // LZ4 has no block that expands: when all output is there, a last call still reads the end
-    // mark.
+    // When the output is complete, LZ4 needs one more call to read the end mark.
     if (filled == out.size()) grow(out, filled, size);
     std::size_t out_size = out.size() - filled;
     std::size_t in_size = in.size() - used;

@@ -18,7 +18,7 @@ class Compressor {
   explicit Compressor(const std::string& name);
   ~Compressor();
 
-  /// As MCAP writes it: "zstd", "lz4" or "".
+  /// Name of the compression in MCAP: "zstd", "lz4" or "".
   const std::string& mcap_name() const { return mcap_name_; }
 
   /// @returns the compressed bytes, valid until the next call (`in` itself for "none")
@@ -31,10 +31,10 @@ class Compressor {
   ByteBuffer out_;
 };
 
-/// Undoes Compressor, and what other MCAP writers produce.
+/// Decompresses chunks of Compressor and of other MCAP writers.
 /// @param size  the uncompressed size that the chunk states
-/// @returns false if the bytes are damaged, do not give exactly `size` bytes, or the compression is
-/// unknown. Memory grows with what the bytes really hold, not with what a damaged `size` says.
+/// @returns false if the bytes are damaged, do not decompress to exactly `size` bytes, or the
+/// compression is unknown. Memory grows with the real content, not with a damaged `size`.
 bool decompress(std::string_view mcap_name, std::span<const std::uint8_t> in, std::uint64_t size,
                 ByteBuffer& out);
 

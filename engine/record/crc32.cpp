@@ -16,7 +16,7 @@ constexpr Tables make_tables() {
     for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ ((crc & 1u) ? 0xEDB88320u : 0u);
     tables[0][byte] = crc;
   }
-  // tables[k][b]: the effect of byte b that is followed by k zero bytes.
+  // tables[k][b]: effect of byte b followed by k zero bytes.
   for (std::size_t k = 1; k < kSlices; ++k) {
     for (std::size_t byte = 0; byte < 256; ++byte) {
       const std::uint32_t before = tables[k - 1][byte];

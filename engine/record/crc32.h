@@ -1,9 +1,10 @@
 #pragma once
-/// CRC-32 as MCAP wants it: polynomial 0xEDB88320 reflected, start and end inverted (ISO 3309, the
-/// CRC of zip and PNG).
+/// CRC-32 of MCAP: polynomial 0xEDB88320 reflected, start and end inverted (ISO 3309, also used by
+/// zip and PNG).
 ///
-/// Method: eight tables, eight bytes a round ("slicing by 8": Kounavis and Berry, "Novel Table
-/// Lookup-Based Algorithms for High-Performance CRC Generation", IEEE Trans. Computers 57, 2008).
+/// Method: eight tables, eight bytes per iteration ("slicing by 8": Kounavis and Berry, "Novel
+/// Table Lookup-Based Algorithms for High-Performance CRC Generation", IEEE Trans. Computers 57,
+/// 2008).
 
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +16,7 @@ class Crc32 {
  public:
   void add(const void* data, std::size_t size);
   void add(std::span<const std::uint8_t> bytes) { add(bytes.data(), bytes.size()); }
-  /// Of everything added so far.
+  /// CRC of all bytes added so far.
   std::uint32_t value() const { return ~state_; }
 
  private:

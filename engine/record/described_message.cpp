@@ -6,9 +6,9 @@
 namespace vinerow::record {
 namespace {
 
-/// A sensor's pose as the body's and its own in the body. The body's is the same bytes as in the
-/// truth beside it, which compresses to nothing.
-void write_pose_beside_body(CdrWriter& out, const WriteContext& to, const Pose& X_WS) {
+/// Writes a sensor's pose as the body's pose and the pose relative to the body. The body's pose has
+/// the same bytes as in the truth message, so it compresses to almost nothing.
+void write_pose_in_body(CdrWriter& out, const WriteContext& to, const Pose& X_WS) {
   write_pose(out, to.X_WB ? *to.X_WB : Pose{});
   write_pose(out, to.X_WB ? pose_in_body(*to.X_WB, X_WS) : X_WS);
 }
@@ -66,7 +66,7 @@ class WriteField final : public FieldVisitor {
  private:
   void write(const FieldInfo& info, const Pose& pose) {
     if (info.beside_body) {
-      write_pose_beside_body(out_, to_, pose);
+      write_pose_in_body(out_, to_, pose);
     } else {
       write_pose(out_, pose);
     }
@@ -76,7 +76,7 @@ class WriteField final : public FieldVisitor {
   const WriteContext& to_;
 };
 
-/// Keeps the fields of a message to show them in another order.
+/// Visitor that collects the fields of a message to visit them in another order.
 class SortFields final : public FieldVisitor {
  public:
   void field(const FieldView& view) override {
@@ -115,7 +115,7 @@ const char* ros_name(FieldKind kind) {
   return kNames[static_cast<int>(kind)];
 }
 
-/// Writes the .msg text of a message, and those of the messages inside it.
+/// Visitor that writes the .msg text of a message and of its nested messages.
 class DefineField final : public FieldVisitor {
  public:
   DefineField(std::string package, std::vector<RosDefinition>& inside)
@@ -203,11 +203,11 @@ std::string described_definition(std::string_view ros_type, LogOrder order,
   return full_ros_definition("std_msgs/Header header\n" + define.text(), inside);
 }
 
-void read_pose_beside_body(CdrReader& in, Pose& X_WS) {
+void read_pose_in_body(CdrReader& in, Pose& X_WS) {
   Pose X_WB;
   read_pose(in, X_WB);
   read_pose(in, X_WS);
-  // Not multiplied by the identity, which would turn -0 into 0.
+  // No multiplication by the identity, which would turn -0 into 0.
   const bool is_in_world = X_WB.p.isZero(0) && X_WB.q.coeffs() == Pose{}.q.coeffs();
   if (!is_in_world) X_WS = X_WB * X_WS;
 }

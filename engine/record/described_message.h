@@ -1,9 +1,9 @@
 #pragma once
-/// Messages by the fields that they list: their bytes in a log, their ROS 2 definition, and reading
-/// them back. Serves our vinerow_msgs types and what plug-ins bring.
+/// Encoding, ROS 2 definition and decoding of messages from their field lists, for the vinerow_msgs
+/// types and for messages of plug-ins.
 ///
-/// A message begins with a std_msgs/Header; then come the fields in order. A Pose that is
-/// `beside_body` is two: "body", and its own in the body.
+/// A message starts with a std_msgs/Header, followed by the fields in order. A Pose with
+/// `beside_body` is stored as two: "body", and its pose relative to the body.
 
 #include <array>
 #include <cstdint>
@@ -20,14 +20,14 @@
 
 namespace vinerow::record {
 
-/// Shows the fields of one message to a visitor.
+/// Visitable fields of one message.
 class MessageFields {
  public:
   virtual ~MessageFields() = default;
   virtual void visit(FieldVisitor& visitor) const = 0;
 };
 
-/// @tparam T  a message, which must live as long as this
+/// Fields of a message of type T. The message must outlive this object.
 template <class T>
 class FieldsOf final : public MessageFields {
  public:
@@ -38,28 +38,28 @@ class FieldsOf final : public MessageFields {
   const T& message_;
 };
 
-/// Order of a message's fields in logs; empty: as they are listed.
+/// Order of a message's fields in logs; empty: the listed order.
 using LogOrder = std::span<const std::string_view>;
 
-/// Appends header and fields. No heap but the buffer's.
-/// @pre at most 32 fields where there is an order
+/// Appends header and fields. Allocates only in the buffer.
+/// @pre at most 32 fields if `order` is not empty
 void write_described(CdrWriter& out, const WriteContext& to, MessageFrame frame, LogOrder order,
                      const MessageFields& message);
 
-/// "vinerow_msgs/msg/SoilSample" of "SoilSample", "acme/msg/SoilSample" of "acme/SoilSample".
+/// "vinerow_msgs/msg/SoilSample" for "SoilSample", "acme/msg/SoilSample" for "acme/SoilSample".
 std::string ros_type_of(std::string_view message_type);
 
-/// The .msg text with every message inside it, as MCAP stores it (encoding "ros2msg").
-/// @param ros_type  "vinerow_msgs/msg/SoilSample": its package is that of messages inside too
+/// The .msg text with all nested messages, as MCAP stores it (encoding "ros2msg").
+/// @param ros_type  "vinerow_msgs/msg/SoilSample": nested messages have the same package
 std::string described_definition(std::string_view ros_type, LogOrder order,
                                  const MessageFields& message);
 
-/// A sensor's pose from the body's and its own in the body.
-void read_pose_beside_body(CdrReader& in, Pose& X_WS);
+/// Reads a sensor's pose from the body's pose and the relative pose.
+void read_pose_in_body(CdrReader& in, Pose& X_WS);
 
-/// Least bytes of one value in a message: bounds the count that a damaged sequence claims.
+/// Minimum size of one value in a message, in bytes. It bounds the count of a damaged sequence.
 template <class T>
-std::size_t least_size() {
+std::size_t min_size() {
   if constexpr (Number<T>) {
     return sizeof(T);
   } else if constexpr (std::is_same_v<T, Eigen::Vector3d>) {
@@ -71,27 +71,27 @@ std::size_t least_size() {
   } else if constexpr (std::is_same_v<T, std::string>) {
     return sizeof(std::uint32_t);
   } else {
-    // Paddings come on top of it.
+    // A lower bound: padding is not included.
     std::size_t size = 0;
     const T fresh{};
     T::fields(fresh, [&]<class Field>(const FieldInfo&, const Field&) {
       if constexpr (Number<Field> || std::is_same_v<Field, Eigen::Vector3d>) {
-        size += least_size<Field>();
+        size += min_size<Field>();
       }
     });
     return size > 0 ? size : 1;
   }
 }
 
-/// Reads fields in the order in which they are shown.
+/// Visitor that reads fields in visiting order.
 struct ReadField {
   CdrReader& in;
-  bool& good;  ///< false: a value that its enumeration does not have
+  bool& good;  ///< set to false for a value that is not in its enumeration
 
   template <class T>
   void operator()(const FieldInfo& info, T& value) const {
     if constexpr (std::is_same_v<T, Pose>) {
-      if (info.beside_body) return read_pose_beside_body(in, value);
+      if (info.beside_body) return read_pose_in_body(in, value);
     }
     read(value);
   }
@@ -130,7 +130,7 @@ struct ReadField {
   }
   template <class T>
   void read(std::vector<T>& values) const {
-    values.resize(in.read_count(least_size<T>()));
+    values.resize(in.read_count(min_size<T>()));
     if constexpr (std::is_same_v<T, double>) {
       in.read_doubles(values.data(), values.size());
     } else if constexpr (std::is_same_v<T, std::uint8_t>) {
@@ -141,7 +141,7 @@ struct ReadField {
   }
 };
 
-/// Reads what write_described() wrote. @returns false if the bytes do not hold such a message
+/// Reads a message of write_described(). @returns false if the bytes do not hold such a message
 template <HasFields T>
 bool read_described(CdrReader& in, LogOrder order, T& value) {
   skip_header(in);

@@ -14,7 +14,8 @@
 namespace vinerow::record {
 namespace {
 
-/// Later stamps (the year 2116) are damage; differences of two stamps stay within 64 bits.
+/// Later stamps (the year 2116) are treated as damaged, so that differences of two stamps fit into
+/// 64 bits.
 constexpr std::uint64_t kLastStamp_ns = std::uint64_t{1} << 62;
 
 Time time_of(std::uint64_t ns) {
@@ -26,7 +27,7 @@ Time time_of(std::uint64_t ns) {
 struct LogReader::Impl {
   struct KeptMessage {
     std::uint64_t stamp_ns = 0;
-    std::uint64_t index = 0;  ///< in its channel, from 1
+    std::uint64_t index = 0;  ///< number in its channel, from 1
     std::vector<std::uint8_t> data;
   };
 
@@ -63,7 +64,7 @@ struct LogReader::Impl {
                                   did_you_mean(topic, topics), join(topics)));
   }
 
-  /// The channel to decode a message from.
+  /// Channel from which a message is decoded.
   const ChannelInfo& channel_of(const std::string& topic, const MessageNames& names) const {
     const ChannelInfo* channel = &get(topic);
     const std::string& type = names.exact_type.empty() ? names.type : names.exact_type;
@@ -71,13 +72,13 @@ struct LogReader::Impl {
       channel = &get(topic + "/exact");
     }
     if (channel->schema != type) {
-      throw ConfigError(fmt::format("{}: topic '{}' holds {}, which is no {} ({})", name,
+      throw ConfigError(fmt::format("{}: topic '{}' holds {}, which is not {} ({})", name,
                                     channel->topic, channel->schema, names.message, type));
     }
     return *channel;
   }
 
-  /// Channels whose stamps fall somewhere; found out once, by a walk over all messages.
+  /// Channels whose stamps are not ascending; determined once by a scan of all messages.
   const std::set<std::uint16_t>& channels_out_of_order() {
     if (out_of_order) return *out_of_order;
     out_of_order.emplace();
@@ -94,7 +95,7 @@ struct LogReader::Impl {
     return *out_of_order;
   }
 
-  /// The messages of a channel in the order of their stamps.
+  /// Calls back for the messages of a channel in the order of their stamps.
   void for_each_in_order(const ChannelInfo& channel,
                          const std::function<void(std::uint64_t stamp_ns, std::uint64_t index,
                                                   std::span<const std::uint8_t>)>& callback) {
@@ -111,7 +112,7 @@ struct LogReader::Impl {
       }
     });
     if (is_sorted) return;
-    if (told_as_sorted.insert(channel.id).second) {
+    if (stated_as_sorted.insert(channel.id).second) {
       info.warnings.push_back(
           fmt::format("{}: the messages of topic '{}' are not in the order of their stamps; they "
                       "were sorted",
@@ -122,7 +123,7 @@ struct LogReader::Impl {
   }
 
   void note_damage() {
-    // The reader below appends; messages that could not be decoded stand between.
+    // The MCAP reader appends warnings; warnings about undecoded messages are interleaved.
     for (; mcap_warnings < mcap.warnings().size(); ++mcap_warnings) {
       info.warnings.push_back(mcap.warnings()[mcap_warnings]);
     }
@@ -135,7 +136,7 @@ struct LogReader::Impl {
   std::size_t mcap_warnings = 0;
   std::set<std::pair<int, std::uint64_t>> undecoded;  ///< channel, number in it
   std::optional<std::set<std::uint16_t>> out_of_order;
-  std::set<int> told_as_sorted;  ///< channels
+  std::set<int> stated_as_sorted;  ///< channels
 };
 
 LogReader::LogReader(const std::filesystem::path& file) : impl_(std::make_unique<Impl>(file)) {}
@@ -164,10 +165,9 @@ void LogReader::read_messages(
     if (!impl_->undecoded.insert({channel.id, index}).second) return;
     impl_->info.warnings.push_back(
         stamp_ns > kLastStamp_ns
-            ? fmt::format(
-                  "{}: message {} of topic '{}' has a stamp beyond 2^62 ns and was left out",
-                  impl_->name, index, channel.topic)
-            : fmt::format("{}: message {} of topic '{}' does not hold {} and was left out",
+            ? fmt::format("{}: message {} of topic '{}' has a stamp beyond 2^62 ns and was skipped",
+                          impl_->name, index, channel.topic)
+            : fmt::format("{}: message {} of topic '{}' does not hold {} and was skipped",
                           impl_->name, index, channel.topic, channel.schema));
   });
   impl_->note_damage();

@@ -1,5 +1,6 @@
 #pragma once
-/// Reads MCAP logs: whole ones by their index, cut ones (a killed run) by walking the chunks.
+/// Reader of MCAP logs: complete files by their index, truncated ones (of a killed run) by scanning
+/// the chunks.
 
 #include <cstdint>
 #include <filesystem>
@@ -19,14 +20,14 @@ struct ChannelInfo {
   std::string topic;   ///< "/rover/gps"
   std::string schema;  ///< "sensor_msgs/msg/NavSatFix"
   std::uint64_t messages = 0;
-  /// "signal": "rover/gps", and either "vinerow_type": "GnssFix" (what read<T>() takes) or
-  /// "exact_of": "/rover/gps" where this channel only holds what the standard type of another
-  /// cannot (lists for people may leave it out).
+  /// "signal": "rover/gps", and one of two keys. "vinerow_type": "GnssFix" is the type for
+  /// read<T>(). "exact_of": "/rover/gps" marks a channel that holds the exact values of another
+  /// channel, whose standard type cannot; lists for users may omit it.
   std::map<std::string, std::string> metadata;
 };
 
 struct LogInfo {
-  bool complete = false;  ///< false: no (readable) summary, the run was cut off
+  bool complete = false;  ///< false: no readable summary, the run was interrupted
   Time first;             ///< log time
   Time last;
   std::uint64_t messages = 0;
@@ -35,7 +36,8 @@ struct LogInfo {
   std::map<std::string, std::string> metadata;     ///< of the "vinerow" record
   std::map<std::string, std::string> attachments;  ///< name -> content
 
-  // What was left out. A whole file's chunks are checked when they are read, so both grow then.
+  // Skipped data. Chunks of a complete file are checked when they are read; both members can grow
+  // then.
   std::uint64_t damaged = 0;          ///< chunks, records and messages
   std::vector<std::string> warnings;  ///< one sentence for each
 };
@@ -50,11 +52,11 @@ class LogReader {
   const LogInfo& info() const;
   bool has_topic(const std::string& topic) const;
 
-  /// Calls back for every message of a topic in the order of the stamps that they were written
-  /// with, decoded; equal stamps in the order of the file. Where a topic has an exact channel, that
-  /// is read. A topic whose messages lie in another order (a merged log, another writer's) is held
-  /// in memory to be sorted, and a warning says so.
-  /// @tparam T  a message (engine/api/field.h), also one that a plug-in brought
+  /// Decodes every message of a topic and passes it to the callback, in the order of the stamps;
+  /// messages with equal stamps keep the file's order. If a topic has an exact channel, that
+  /// channel is read. If the messages are in another order in the file (a merged log, another
+  /// writer), they are sorted in memory, with a warning.
+  /// @tparam T  a message (engine/api/field.h), also one of a plug-in
   /// @throws ConfigError if there is no such topic, or it has another type
   template <class T>
   void read(const std::string& topic, const std::function<void(Time, const T&)>& callback) const {
@@ -69,13 +71,13 @@ class LogReader {
   }
 
  private:
-  /// What a message is called: by us, and in the log.
+  /// Names of a message in this project and in the log.
   struct MessageNames {
     std::string message;
     std::string type;
     std::string exact_type;  ///< "": none
   };
-  /// @param take  false where the bytes hold no such message
+  /// @param take  returns false if the bytes are not such a message
   void read_messages(const std::string& topic, const MessageNames& names,
                      const std::function<bool(CdrReader&, const FrameNames&, Time)>& take) const;
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The records of an MCAP file, version 0 (the specification: mcap.dev/spec).
+/// Records of MCAP files, version 0 (specification: mcap.dev/spec).
 ///
 ///     magic | Header | Metadata, Schemas, Channels, { Chunk, MessageIndex... }, Attachments,
 ///     DataEnd
@@ -7,7 +7,7 @@
 ///           MetadataIndexes | SummaryOffsets | Footer | magic
 ///
 /// A record is an opcode (1 byte), the length of its content (8 bytes) and the content. Numbers are
-/// little-endian; texts, maps and lists have their length in bytes (4 bytes) in front.
+/// little-endian; texts, maps and lists start with their length in bytes (4 bytes).
 
 #include <array>
 #include <cstdint>
@@ -65,7 +65,8 @@ inline void add_map(ByteBuffer& out, const TextMap& map) {
   }
 }
 
-/// Begins a record and, when it goes out of scope, writes the length of what was added since.
+/// Scope of a record being written: the constructor starts the record, the destructor fills in its
+/// length.
 class RecordScope {
  public:
   RecordScope(ByteBuffer& out, Opcode opcode) : out_(out) {
@@ -84,7 +85,7 @@ class RecordScope {
 
 // Reading ----------------------------------------------------------------------------------------
 
-/// Takes fields from the content of a record. Past the end it gives zeros and ok() turns false.
+/// Reader of the fields in a record's content. Past the end it returns zeros and ok() is false.
 class FieldReader {
  public:
   explicit FieldReader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
@@ -131,13 +132,13 @@ class FieldReader {
   bool ok_ = true;
 };
 
-/// One record inside a piece of memory.
+/// View of one record in memory.
 struct RecordView {
   Opcode opcode{};
   std::span<const std::uint8_t> content;
 };
 
-/// Takes the next record. @returns false at the end or where the rest is no whole record
+/// Reads the next record. @returns false at the end, or if the rest is not a complete record
 inline bool read_record(FieldReader& from, RecordView& record) {
   if (from.at_end()) return false;
   record.opcode = static_cast<Opcode>(from.read<std::uint8_t>());

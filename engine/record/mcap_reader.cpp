@@ -98,7 +98,7 @@ bool McapReader::load_summary() {
   const std::uint64_t covered = summary_size + kRecordHeadSize + 16;
   if (!read_at(summary_start, covered, summary)) return false;
   if (crc != 0 && calc_crc32(summary.view()) != crc) {
-    warnings_.push_back(name_ + ": the summary is damaged; the file was walked instead");
+    warnings_.push_back(name_ + ": the summary is damaged; the file was scanned instead");
     return false;
   }
   return parse_summary(summary.view().first(summary_size));
@@ -145,7 +145,7 @@ bool McapReader::parse_summary(std::span<const std::uint8_t> records) {
           offsets.read<std::uint64_t>();
         }
         if (!fields.ok() || !offsets.ok()) return false;
-        // Some writers leave the message indexes out: then any channel may be inside.
+        // Some writers omit the message indexes: the chunk may then contain any channel.
         if (piece.channels.empty()) {
           for (const auto& [id, channel] : channels_) piece.channels.insert(id);
         }
@@ -163,7 +163,7 @@ bool McapReader::parse_summary(std::span<const std::uint8_t> records) {
     if (!fields.ok()) return false;
   }
   if (!in.ok() || !has_statistics) return false;
-  // Messages outside chunks are in no index.
+  // Messages outside chunks are not in an index.
   if (message_count_ > 0 && pieces_.empty()) return false;
   std::ranges::sort(pieces_, {}, &Piece::offset);
   return load_indexed_records(attachments, Opcode::kAttachment) &&
@@ -196,7 +196,7 @@ void McapReader::scan() {
   Head head;
   while (read_head(at, head)) {
     const std::uint64_t next = at + kRecordHeadSize + head.length;
-    // The summary behind DataEnd repeats what was seen.
+    // The summary after DataEnd repeats earlier records.
     if (head.opcode == Opcode::kDataEnd || head.opcode == Opcode::kFooter) break;
     const bool is_wanted = head.opcode == Opcode::kSchema || head.opcode == Opcode::kChannel ||
                            head.opcode == Opcode::kMessage || head.opcode == Opcode::kMetadata ||
@@ -324,12 +324,12 @@ bool McapReader::load_chunk(const Piece& piece, ByteBuffer& out) {
 void McapReader::warn_damaged(std::uint64_t offset, const std::string& what) {
   if (!damaged_.insert(offset).second) return;
   warnings_.push_back(
-      fmt::format("{}: the {} at byte {} is damaged and was left out", name_, what, offset));
+      fmt::format("{}: the {} at byte {} is damaged and was skipped", name_, what, offset));
 }
 
 void McapReader::for_each_message(const std::set<std::uint16_t>& channels,
                                   const std::function<void(const McapMessage&)>& callback) {
-  // A buffer of this call's own: the callback may read another topic.
+  // A local buffer, since the callback may read another topic.
   ByteBuffer records_of_piece;
   for (const Piece& piece : pieces_) {
     const bool wanted = std::ranges::any_of(

@@ -1,11 +1,11 @@
 #pragma once
-/// Reads MCAP files record by record, whole or damaged: knows chunks, indexes and checksums,
-/// nothing of signals.
+/// Reader of MCAP files at the level of records, for complete and damaged files. It handles chunks,
+/// indexes and checksums, and does not know signals.
 ///
-/// A whole file is opened by its summary. Where that is missing or damaged (a killed run, a bad
-/// copy) the records are walked from the front and everything up to the first broken one counts. A
-/// damaged chunk in the middle is left out and reported; nothing in a file's bytes can crash the
-/// reader or make it ask for much more memory than the file's own size warrants.
+/// A complete file is opened by its summary. If the summary is missing or damaged (a killed run, a
+/// bad copy), the records are scanned from the front, up to the first broken one. A damaged chunk
+/// in the middle is skipped and reported. No content of a file can crash the reader or make it
+/// allocate much more memory than the size of the file.
 
 #include <cstdint>
 #include <filesystem>
@@ -62,20 +62,20 @@ class McapReader {
   const std::map<std::uint16_t, McapChannel>& channels() const { return channels_; }
   /// Record name -> values.
   const std::map<std::string, TextMap>& metadata() const { return metadata_; }
-  /// File name -> content; those whose checksum is right.
+  /// File name -> content, for attachments with a correct checksum.
   const std::map<std::string, std::string>& attachments() const { return attachments_; }
 
-  /// One sentence per damaged piece that was left out; grows while messages are read.
+  /// One sentence for each skipped damaged piece; grows while messages are read.
   const std::vector<std::string>& warnings() const { return warnings_; }
   std::uint64_t damaged_chunks() const { return damaged_.size(); }
 
-  /// Calls back for the messages of these channels in the order of the file. The data lives until
-  /// the callback returns.
+  /// Calls back for each message of these channels in file order. The data is valid until the
+  /// callback returns.
   void for_each_message(const std::set<std::uint16_t>& channels,
                         const std::function<void(const McapMessage&)>& callback);
 
  private:
-  /// A chunk, or a run of messages outside chunks.
+  /// A chunk, or consecutive messages outside chunks.
   struct Piece {
     std::uint64_t offset = 0;  ///< of the first record
     std::uint64_t length = 0;
@@ -107,7 +107,7 @@ class McapReader {
   std::string name_;
   std::ifstream file_;
   std::uint64_t file_size_ = 0;
-  std::uint64_t first_record_ = 0;  ///< behind the header
+  std::uint64_t first_record_ = 0;  ///< offset after the header
   std::string profile_, library_;
   bool complete_ = false;
   std::uint64_t message_count_ = 0;

@@ -17,7 +17,7 @@ McapWriter::McapWriter(const std::filesystem::path& file, const std::string& com
   if (!file_) {
     throw_cannot_write("log '" + file.string() + "'", errno);
   }
-  // Records are put together here; a second buffer would only delay them.
+  // Records are assembled here; a second buffer would only delay them.
   std::setvbuf(file_.get(), nullptr, _IONBF, 0);
   // A chunk is closed after the message that fills it.
   chunk_.reserve(chunk_bytes + chunk_bytes / 4);
@@ -36,7 +36,8 @@ void McapWriter::write(std::span<const std::uint8_t> bytes) {
   errno = 0;
   if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) {
     failure_ = words_of_write_failure(errno);
-    // What fitted of the record would be half a chunk; the file ends with the last whole one.
+    // The written part of the record would be half a chunk: truncate the file to the last complete
+    // one.
     static_cast<void>(::ftruncate(::fileno(file_.get()), static_cast<off_t>(bytes_written_)));
     return;
   }
@@ -104,7 +105,7 @@ void McapWriter::add_attachment(const std::string& name, const std::string& medi
   close_chunk();
   const std::uint64_t offset = bytes_written_;
   const std::uint64_t log_time = end_time_;
-  // The time of creation would be the wall clock's, and a log tells nothing of that.
+  // No creation time, since a log does not depend on wall time.
   const std::uint64_t create_time = 0;
   {
     const RecordScope record(scratch_, Opcode::kAttachment);
@@ -130,7 +131,7 @@ void McapWriter::add_attachment(const std::string& name, const std::string& medi
   add_text(attachment_indexes_, media_type);
 }
 
-ByteBuffer& McapWriter::begin_message(std::uint16_t channel_id, std::uint64_t log_time,
+ByteBuffer& McapWriter::start_message(std::uint16_t channel_id, std::uint64_t log_time,
                                       std::uint64_t publish_time) {
   Channel& channel = channels_[channel_id - 1];
   message_start_ = chunk_.size();
@@ -190,7 +191,7 @@ void McapWriter::close_chunk() {
     index.clear();
   }
   summary.index_length = scratch_.size() - summary.length;
-  // One write: a reader of a growing file sees the chunk with its indexes or not at all.
+  // A single write: a reader of a growing file sees the chunk with its indexes or not at all.
   write_record();
   chunk_.clear();
 }

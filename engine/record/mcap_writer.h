@@ -1,8 +1,9 @@
 #pragma once
-/// Writes an MCAP file record by record: knows chunks, indexes and checksums, nothing of signals.
+/// Writer of MCAP files at the level of records. It handles chunks, indexes and checksums, and does
+/// not know signals.
 ///
-/// What is in a closed chunk is in the file: a process that is killed loses the open chunk only
-/// (a machine that loses power may lose more, nothing waits for the disk).
+/// Closed chunks are handed to the system at once: a killed process loses only the open chunk. A
+/// machine that loses power may lose more, since the writer does not wait for the disk.
 
 #include <cstdint>
 #include <cstdio>
@@ -40,7 +41,7 @@ class McapWriter {
                       std::string_view content);
 
   /// Starts a message; add its bytes to the returned buffer, then call end_message().
-  ByteBuffer& begin_message(std::uint16_t channel, std::uint64_t log_time,
+  ByteBuffer& start_message(std::uint16_t channel, std::uint64_t log_time,
                             std::uint64_t publish_time);
   void end_message();
 
@@ -51,7 +52,8 @@ class McapWriter {
   /// Closes the chunk, writes summary and footer, closes the file.
   void finish();
 
-  /// Of the first write that failed ("the disk is full"), or "". Nothing is written after it.
+  /// Reason of the first failed write ("the disk is full"), or "". Nothing is written after a
+  /// failure.
   const std::string& failure() const { return failure_; }
   std::uint64_t bytes_written() const { return bytes_written_; }
   std::uint64_t message_count() const { return message_count_; }
@@ -96,7 +98,7 @@ class McapWriter {
   std::uint64_t start_time_ = 0;
   std::uint64_t end_time_ = 0;
   std::vector<ChunkSummary> chunks_;
-  // The summary repeats these records; they are kept as they were written.
+  // The summary repeats these records; they are kept as written.
   ByteBuffer schema_records_, channel_records_, attachment_indexes_, metadata_indexes_;
   ByteBuffer summary_offsets_;
 };

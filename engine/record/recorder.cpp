@@ -19,7 +19,7 @@ struct RecordedSignal {
   Duration min_period;
   FrameNames frames;
   const Signal<Odometry>* truth = nullptr;  ///< of the same vehicle
-  std::uint16_t channel = 0;                ///< 0: the exact one alone
+  std::uint16_t channel = 0;                ///< 0: only the exact channel
   std::uint16_t exact_channel = 0;          ///< 0: none
   std::uint64_t seen = 0;
   bool recorded = false;
@@ -44,18 +44,18 @@ void write_messages(McapWriter& writer, const RecordedSignal& entry, Time now) {
   const auto log_time = static_cast<std::uint64_t>(now.ns);
   const auto publish_time = static_cast<std::uint64_t>(stamp.ns);
   if (entry.channel != 0) {
-    CdrWriter out(writer.begin_message(entry.channel, log_time, publish_time));
+    CdrWriter out(writer.start_message(entry.channel, log_time, publish_time));
     RosMapping<T>::write(out, context, value);
     writer.end_message();
   }
   if constexpr (requires { &RosMapping<T>::write_exact; }) {
-    CdrWriter out(writer.begin_message(entry.exact_channel, log_time, publish_time));
+    CdrWriter out(writer.start_message(entry.exact_channel, log_time, publish_time));
     RosMapping<T>::write_exact(out, context, value);
     writer.end_message();
   }
 }
 
-/// The fields of a signal whose type only its maker knows.
+/// Fields of a signal whose type is known only to its plug-in.
 class FieldsOfSignal final : public MessageFields {
  public:
   explicit FieldsOfSignal(const SignalBase& signal) : signal_(signal) {}
@@ -67,7 +67,7 @@ class FieldsOfSignal final : public MessageFields {
 
 void write_described_signal(McapWriter& writer, const RecordedSignal& entry, Time now) {
   const SignalBase& signal = *entry.signal;
-  CdrWriter out(writer.begin_message(entry.channel, static_cast<std::uint64_t>(now.ns),
+  CdrWriter out(writer.start_message(entry.channel, static_cast<std::uint64_t>(now.ns),
                                      static_cast<std::uint64_t>(signal.stamp().ns)));
   write_described(out, context_of(entry), signal.message_type().frame, {}, FieldsOfSignal(signal));
   writer.end_message();
@@ -77,7 +77,8 @@ void write_described_signal(McapWriter& writer, const RecordedSignal& entry, Tim
 
 namespace {
 
-/// As rosbag2 stores it: who comes later is given the message as well (reliable, transient local).
+/// QoS profile as rosbag2 stores it: late subscribers also receive the message (reliable, transient
+/// local).
 constexpr const char* kLatchedQos =
     "- history: 1\n  depth: 1\n  reliability: 1\n  durability: 1\n"
     "  deadline:\n    sec: 9223372036\n    nsec: 854775807\n"
@@ -99,7 +100,7 @@ struct Recorder::Impl {
                "vinerow " VINEROW_VERSION_STRING) {}
 
   std::uint16_t schema_id(const std::string& type, const std::string& definition) {
-    // Two plug-ins may mean different things by one name.
+    // Two plug-ins may use one name for different definitions.
     const std::pair key(type, definition);
     const auto found = schema_ids.find(key);
     if (found != schema_ids.end()) return found->second;
@@ -108,20 +109,21 @@ struct Recorder::Impl {
     return id;
   }
 
-  /// A channel of one message, at time 0.
+  /// Adds a channel with one message at time 0.
   template <class F>
   void add_once(const std::string& topic, const std::string& type, const F& write) {
     const std::uint16_t channel =
         writer.add_channel(schema_id(type, full_ros_definition(type)), topic, "cdr",
                            {{"offered_qos_profiles", kLatchedQos}});
-    CdrWriter out(writer.begin_message(channel, 0, 0));
+    CdrWriter out(writer.start_message(channel, 0, 0));
     write(out);
     writer.end_message();
   }
 
   std::uint16_t add_channel(const SignalBase& signal, const std::string& type,
                             const std::string& definition, std::string_view suffix) {
-    // offered_qos_profiles: asked for by the ros2 profile; an empty list: nothing was published.
+    // The ros2 profile requires offered_qos_profiles; an empty list means that nothing was
+    // published.
     TextMap metadata = {{"signal", signal.name()}, {"offered_qos_profiles", "[]"}};
     if (suffix.empty()) {
       metadata["vinerow_type"] = signal.type();
@@ -151,7 +153,7 @@ struct Recorder::Impl {
     }
   }
 
-  /// Of a type that a plug-in brought.
+  /// Sets the mapping of a plug-in's type.
   void set_described_type(RecordedSignal& entry) {
     const std::string type = ros_type_of(entry.signal->type());
     entry.write = &write_described_signal;
@@ -159,7 +161,7 @@ struct Recorder::Impl {
                                 described_definition(type, {}, FieldsOfSignal(*entry.signal)), "");
   }
 
-  /// Every signal learns where its vehicle is from "<vehicle>/truth", in whatever order they come.
+  /// Connects each signal to "<vehicle>/truth" for the vehicle's pose, in any order of signals.
   void connect_truth() {
     for (const RecordedSignal& truth : entries) {
       if (truth.signal->name() != truth.frames.prefix + "truth") continue;
@@ -201,7 +203,7 @@ Recorder::~Recorder() {
   try {
     finish();
   } catch (const SimulationError&) {
-    // Who wants to know calls finish(); a destructor cannot tell.
+    // A destructor cannot report failures; call finish() to see them.
   }
 }
 

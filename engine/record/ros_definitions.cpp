@@ -196,7 +196,7 @@ std::string_view find_text(std::string_view type, std::span<const RosDefinition>
   return found->text;
 }
 
-/// Types of other packages' messages in a text, in order: the words with a '/' at line starts.
+/// Adds the types of other packages in a text, in order: the words with a '/' at line starts.
 void add_used_types(std::string_view text, std::vector<std::string_view>& types) {
   while (!text.empty()) {
     const std::size_t end = text.find('\n');

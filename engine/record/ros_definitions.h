@@ -1,6 +1,6 @@
 #pragma once
-/// The .msg texts of the standard ROS 2 messages that a log holds, so that a log explains itself: a
-/// reader needs no ROS installation to decode it.
+/// The .msg texts of the standard ROS 2 messages in a log. The log contains them, so that it can be
+/// decoded without a ROS installation.
 
 #include <span>
 #include <string>
@@ -14,12 +14,13 @@ struct RosDefinition {
   std::string text;
 };
 
-/// A text as MCAP wants it ("ros2msg"): itself, then every type it uses, directly or not, each
-/// behind a line of 80 "=" and "MSG: package/Type".
-/// @param inside  types that are no standard ones
+/// Definition in MCAP's encoding "ros2msg": the text, then every type that it uses, directly or
+/// indirectly, each after a line of 80 "=" and a line "MSG: package/Type".
+/// @param inside  nested types that are not standard types
 std::string full_ros_definition(std::string_view text, std::span<const RosDefinition> inside);
 
-/// The same of a standard type. @param type  "nav_msgs/msg/Odometry"; one of those of ros_mapping.h
+/// The same for a standard type. @param type  a type of ros_mapping.h, such as
+/// "nav_msgs/msg/Odometry"
 std::string full_ros_definition(std::string_view type);
 
 }  // namespace vinerow::record

@@ -1,5 +1,5 @@
 #pragma once
-/// The small messages inside ROS 2 messages: time, header, pose. Internal to engine/record.
+/// Nested parts of ROS 2 messages: time, header, pose. Internal to engine/record.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -58,11 +58,11 @@ inline void read_pose(CdrReader& in, Pose& pose) {
 }
 
 inline double round_to_grid(double value) {
-  // + 0.0 turns -0 into 0: one pattern of bits for nothing.
+  // + 0.0 turns -0 into 0: zero then has one bit pattern.
   return std::round(value / kPoseGrid) * kPoseGrid + 0.0;
 }
 
-/// X_BA from X_WB and X_WA, on the grid.
+/// X_BA from X_WB and X_WA, rounded to the grid.
 inline Pose pose_in_body(const Pose& X_WB, const Pose& X_WA) {
   Pose X_BA = X_WB.inverse() * X_WA;
   X_BA.p = X_BA.p.unaryExpr(&round_to_grid);
@@ -72,8 +72,8 @@ inline Pose pose_in_body(const Pose& X_WB, const Pose& X_WA) {
 
 /// Square and root of a standard deviation. The pair is exact in IEEE binary arithmetic for values
 /// whose square neither overflows nor underflows (S. Boldo, "Stupid is as stupid does: taking the
-/// square root of the square of a floating-point number", ENTCS 317, 2015), so covariances lose
-/// nothing.
+/// square root of the square of a floating-point number", ENTCS 317, 2015), so covariances are
+/// stored without loss.
 inline double variance(double std) {
   return std * std;
 }

@@ -1,10 +1,11 @@
 #pragma once
-/// Which ROS 2 message each signal type becomes, and how its bytes are written and read back.
+/// Mapping of signal types to ROS 2 messages, with encoding and decoding.
 ///
-/// Types that a standard ROS 2 message can hold are mapped to it by hand. Where it cannot hold the
-/// whole value (single precision, missing fields), a second channel "<topic>/exact" has every field
-/// as the message describes itself; reading back uses that one. Types without a standard message
-/// have only their description (described_message.h). README.md has the table and its reasons.
+/// Types with a suitable standard ROS 2 message are mapped to it by hand. If the standard message
+/// cannot hold the exact value (single precision, missing fields), a second channel "<topic>/exact"
+/// holds every field by the message's own description, and reading uses that channel. Types without
+/// a standard message use only their description (described_message.h). README.md has the table and
+/// its reasons.
 
 #include <array>
 #include <string>
@@ -18,7 +19,7 @@
 
 namespace vinerow::record {
 
-/// Order of fields in logs, of messages whose logs were laid out before their list of fields.
+/// Order of fields in logs, for messages whose log layout is older than their field list.
 template <class T>
 inline constexpr std::array<std::string_view, 0> kLogOrder{};
 template <>
@@ -34,7 +35,7 @@ template <>
 inline constexpr std::array<std::string_view, 5> kLogOrder<ReferenceTrajectory> = {
     "phase", "distance", "remaining", "step", "points"};
 
-/// A message as it describes itself.
+/// Mapping of a message by its own description.
 template <class T>
 struct DescribedMapping {
   static void write(CdrWriter& out, const WriteContext& to, const T& value) {
@@ -43,15 +44,15 @@ struct DescribedMapping {
   static bool read(CdrReader& in, const FrameNames&, T& value) {
     return read_described(in, kLogOrder<T>, value);
   }
-  /// @param ros_type  what the message is called
+  /// @param ros_type  name of the message
   static std::string definition(std::string_view ros_type) {
     const T fresh{};
     return described_definition(ros_type, kLogOrder<T>, FieldsOf<T>(fresh));
   }
 };
 
-/// What every mapping has. `read` fills all fields of T from what write_exact wrote, or write where
-/// exact_type() is empty. @returns false if the bytes do not hold such a message
+/// Interface of all mappings. `read` fills all fields of T from the bytes of write_exact, or of
+/// write if exact_type() is empty. It returns false if the bytes are not such a message.
 template <class T>
 struct RosMapping {
   static std::string type() { return ros_type_of(T::kType); }
@@ -65,7 +66,7 @@ struct RosMapping {
   }
 };
 
-/// A standard type that holds all: `write` and `read` by hand.
+/// A standard type that holds the exact value: `write` and `read` by hand.
 #define VINEROW_STANDARD_MESSAGE(T, ros_type)                      \
   template <>                                                      \
   struct RosMapping<T> {                                           \
@@ -77,7 +78,8 @@ struct RosMapping {
     static void write(CdrWriter&, const WriteContext&, const T&);  \
     static bool read(CdrReader&, const FrameNames&, T&);           \
   };
-/// A standard type that does not: `write` by hand, the rest from the description.
+/// A standard type that does not hold the exact value: `write` by hand, the rest from the
+/// description.
 #define VINEROW_EXACT_MESSAGE(T, ros_type, ros_exact_type)                                      \
   template <>                                                                                   \
   struct RosMapping<T> {                                                                        \

@@ -1,4 +1,4 @@
-/// Mappings of what planners know and search: grid, tree.
+/// Mappings of planner data: occupancy grid and search tree.
 
 #include <algorithm>
 
@@ -13,7 +13,7 @@ constexpr std::int32_t kMarkerLineList = 5;
 constexpr std::int32_t kMarkerAdd = 0;
 constexpr std::uint8_t kTaken = 100;  ///< per cent
 
-// How a tree looks in a viewer.
+// Appearance of a search tree in a viewer; chosen for legibility.
 constexpr double kLineWidth_m = 0.03;
 constexpr float kLineColour[4] = {0.2f, 0.6f, 1.0f, 0.6f};  // red, green, blue, alpha
 

@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t kCovarianceSize = 36;
 constexpr std::size_t kCovarianceYaw = 35;
 
-/// The part of x, y, z: diagonal and what is beside it (xy, xz, yz).
+/// Fills the block of x, y, z: diagonal and off-diagonal elements (xy, xz, yz).
 void fill_position(const Eigen::Vector3d& diagonal, const Eigen::Vector3d& beside,
                    double* covariance) {
   covariance[0] = diagonal.x(), covariance[7] = diagonal.y(), covariance[14] = diagonal.z();
@@ -23,8 +23,8 @@ void take_position(const double* covariance, Eigen::Vector3d& diagonal, Eigen::V
   beside = {covariance[1], covariance[2], covariance[8]};
 }
 
-// Least bytes of one element of a sequence: bounds a damaged count.
-constexpr std::size_t kLeastTransform = 8 + 4 + 4 + 7 * 8;
+// Minimum bytes of one element of a sequence; bounds a damaged count.
+constexpr std::size_t kMinTransform = 8 + 4 + 4 + 7 * 8;
 
 }  // namespace
 
@@ -32,7 +32,7 @@ FrameNames FrameNames::of_signal(const std::string& signal) {
   const std::string vehicle = signal.substr(0, signal.find('/'));
   FrameNames names;
   names.prefix = vehicle + "/";
-  // What belongs to the run and to no vehicle has no body.
+  // Signals of the run do not belong to a vehicle and have no body.
   names.body = vehicle == "run" ? names.world : names.prefix + "base_link";
   names.own = signal;
   return names;
@@ -103,7 +103,7 @@ bool RosMapping<VelocityCommand>::read(CdrReader& in, const FrameNames&, Velocit
 
 void RosMapping<LinkPoses>::write(CdrWriter& out, const WriteContext& to, const LinkPoses& value) {
   const std::size_t count = std::min(value.names.size(), value.X_WL.size());
-  // A tree world -> body -> links where the body is known, else every link in the world.
+  // A tree world -> body -> links if the body is known, else all links in the world.
   const bool is_tree = to.X_WB != nullptr && count > 0;
   out.add_count(is_tree ? count + 1 : count);
   if (is_tree) {
@@ -119,7 +119,7 @@ void RosMapping<LinkPoses>::write(CdrWriter& out, const WriteContext& to, const 
 }
 
 bool RosMapping<LinkPoses>::read(CdrReader& in, const FrameNames& frames, LinkPoses& value) {
-  std::size_t count = in.read_count(kLeastTransform);
+  std::size_t count = in.read_count(kMinTransform);
   value.names.resize(count);
   value.X_WL.resize(count);
   Pose X_WB;
@@ -127,7 +127,7 @@ bool RosMapping<LinkPoses>::read(CdrReader& in, const FrameNames& frames, LinkPo
   for (std::size_t i = 0; i < count; ++i) {
     skip_time(in);
     const bool is_in_body = in.read_text() == frames.body;
-    // The first link in the body's frame tells that what came before it was the body.
+    // If the second transform is in the body's frame, the first one was the body.
     if (is_in_body && i == 1) {
       X_WB = value.X_WL[0];
       k = 0;

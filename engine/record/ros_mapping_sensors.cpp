@@ -33,7 +33,7 @@ constexpr float kNotMeasured = std::numeric_limits<float>::quiet_NaN();
 
 void RosMapping<ImuSample>::write(CdrWriter& out, const WriteContext& to, const ImuSample& value) {
   write_header(out, to.stamp, to.frames.own);
-  // No orientation: identity, and -1 as its first covariance says so.
+  // No orientation: identity, marked by -1 as the first covariance.
   const double orientation[4 + 9] = {0, 0, 0, 1, -1};
   out.add_doubles(orientation, 4 + 9);
   out.add(value.w_WS_S);
@@ -113,7 +113,7 @@ void RosMapping<LaserScan>::write(CdrWriter& out, const WriteContext& to, const 
   out.add(static_cast<float>(value.first_angle_rad));
   out.add(static_cast<float>(value.first_angle_rad + steps * value.angle_step_rad));
   out.add(static_cast<float>(value.angle_step_rad));
-  out.add(0.0f);  // time_increment: a scan is of one instant
+  out.add(0.0f);  // time_increment: all rays have the same time
   out.add(0.0f);  // scan_time
   out.add(static_cast<float>(value.min_range_m));
   out.add(static_cast<float>(value.max_range_m));
@@ -125,7 +125,7 @@ void RosMapping<LaserScan>::write(CdrWriter& out, const WriteContext& to, const 
 void RosMapping<BatteryState>::write(CdrWriter& out, const WriteContext& to,
                                      const BatteryState& value) {
   write_header(out, to.stamp, to.frames.body);
-  // voltage, temperature, current, charge, capacity, design_capacity: the model has power and
+  // voltage, temperature, current, charge, capacity, design_capacity: the model has only power and
   // energy.
   for (int i = 0; i < 6; ++i) out.add(kNotMeasured);
   out.add(static_cast<float>(value.charge));

@@ -1,4 +1,4 @@
-/// Mapping of what a flying vehicle is to follow.
+/// Mapping of the reference trajectory of flying vehicles.
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 namespace vinerow::record {
 namespace {
 
-constexpr double kMostSeconds = 2'147'483'647;  ///< that builtin_interfaces/Duration holds
+constexpr double kMaxSeconds = 2'147'483'647;  ///< limit of builtin_interfaces/Duration
 
 }  // namespace
 
@@ -30,7 +30,7 @@ void RosMapping<ReferenceTrajectory>::write(CdrWriter& out, const WriteContext& 
     out.add(point.a_W);
     out.add_zero_doubles(3);
     const double from_start_s =
-        std::clamp(static_cast<double>(i) * value.dt_s, -kMostSeconds, kMostSeconds);
+        std::clamp(static_cast<double>(i) * value.dt_s, -kMaxSeconds, kMaxSeconds);
     write_time(out, Time{std::llround(from_start_s * 1e9)});  // a Duration has the same two fields
   }
 }

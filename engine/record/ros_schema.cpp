@@ -35,7 +35,7 @@ std::optional<RosKind> kind_of(std::string_view name) {
   return std::nullopt;
 }
 
-/// "geometry_msgs/Pose" of "geometry_msgs/msg/Pose".
+/// "geometry_msgs/Pose" for "geometry_msgs/msg/Pose".
 std::string short_name(std::string_view name) {
   const std::size_t middle = name.find("/msg/");
   if (middle == std::string_view::npos) return std::string(name);
@@ -49,7 +49,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
-/// Cuts the first line off.
+/// Removes and returns the first line.
 std::string_view take_line(std::string_view& text) {
   const std::size_t end = text.find('\n');
   const std::string_view line = text.substr(0, end);
@@ -89,9 +89,9 @@ class SchemaParser {
       if (!before->second.done) fail(fmt::format("has the type '{}', which holds itself", type));
       return before->second.index;
     }
-    // Each level is a call within a call, here and where messages are decoded.
-    constexpr int kMostLevels = 64;
-    if (levels_ == kMostLevels) fail(fmt::format("is deeper than {} messages", kMostLevels));
+    // Chosen: bounds the recursion here and in the decoder.
+    constexpr int kMaxLevels = 64;
+    if (levels_ == kMaxLevels) fail(fmt::format("is deeper than {} messages", kMaxLevels));
     ++levels_;
     const std::size_t index = schema_.messages.size();
     places_[type] = {index, false};
@@ -119,7 +119,7 @@ class SchemaParser {
       return;  // a constant
     }
     if (type.ends_with(']')) read_shape(type, field);
-    type = type.substr(0, type.find("<="));  // of bounded text
+    type = type.substr(0, type.find("<="));  // bounded text
     if (const std::optional<RosKind> kind = kind_of(type)) {
       field.kind = *kind;
     } else {
@@ -129,7 +129,7 @@ class SchemaParser {
     fields.push_back(std::move(field));
   }
 
-  /// "[]", "[36]" or "[<=5]" at a type's end, which is cut off.
+  /// Removes "[]", "[36]" or "[<=5]" from a type's end and sets the shape.
   void read_shape(std::string_view& type, RosField& field) const {
     const std::size_t open = type.rfind('[');
     if (open == std::string_view::npos) fail(fmt::format("has the type '{}'", type));
@@ -147,7 +147,7 @@ class SchemaParser {
     type = type.substr(0, open);
   }
 
-  /// A type without package is of its owner's; Header alone is std_msgs'.
+  /// A type without package is in its owner's package; a plain Header is in std_msgs.
   std::string resolve(const std::string& type, const std::string& owner) const {
     std::string name = short_name(type);
     if (name.find('/') == std::string::npos) {

@@ -1,9 +1,9 @@
 #pragma once
-/// The .msg text that stands in a log, as types: any message can be decoded by it, also one that no
-/// part of this program knows.
+/// Parsed .msg definitions from a log. Any message can be decoded with them, even of types unknown
+/// to this program.
 ///
 /// Source: https://docs.ros.org/en/humble/Concepts/Basic/About-Interfaces.html (.msg files), and
-/// https://mcap.dev/spec/registry#ros2msg (messages inside follow, each behind a line of "=" and a
+/// https://mcap.dev/spec/registry#ros2msg (nested messages follow, each after a line of "=" and a
 /// line "MSG: package/Type").
 
 #include <cstddef>
@@ -29,7 +29,7 @@ enum class RosKind {
   kMessage,
 };
 
-/// Bytes of one number in a message; 0 for text and messages.
+/// Size of one number in a message, in bytes; 0 for text and messages.
 std::size_t size_of(RosKind kind);
 
 struct RosField {
@@ -39,7 +39,7 @@ struct RosField {
   RosKind kind = RosKind::kFloat64;
   Shape shape = Shape::kOne;
   std::size_t length = 0;   ///< of an array
-  std::size_t message = 0;  ///< of kMessage: its place in RosSchema::messages
+  std::size_t message = 0;  ///< for kMessage: index in RosSchema::messages
 };
 
 struct RosMessageType {
@@ -48,9 +48,9 @@ struct RosMessageType {
 };
 
 struct RosSchema {
-  std::vector<RosMessageType> messages;  ///< the first is the whole message
+  std::vector<RosMessageType> messages;  ///< the first one is the top-level message
 
-  /// Constants, default values, comments and limits of sequences are left out.
+  /// Parses a definition. Constants, default values, comments and limits of sequences are skipped.
   /// @param name  "nav_msgs/msg/Odometry"  @param text  encoding "ros2msg"
   /// @throws ConfigError "the definition of a/B names the type 'c/D', which it does not hold" |
   /// "...

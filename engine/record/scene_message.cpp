@@ -12,7 +12,7 @@ void write_triangles(CdrWriter& out, const SceneTriangles& triangles) {
   out.add_count(triangles.points.size());
   out.add(std::span(triangles.points));
   out.add_doubles(triangles.colour.data(), triangles.colour.size());
-  out.add_count(0);  // colors: one for all
+  out.add_count(0);  // colors: one colour for all
   out.add_count(triangles.indices.size());
   out.add_numbers(triangles.indices.data(), triangles.indices.size(), sizeof(std::uint32_t));
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// What a log adds to its signals for people who look at it: where sensors sit on their vehicles,
-/// and a scene of solid things. Nothing of it is a signal, so no digest knows it.
+/// Display data in a log besides the signals: mounting poses of sensors, and a scene of solid
+/// objects. They are not signals, so they are not part of the digest.
 
 #include <Eigen/Core>
 #include <array>
@@ -13,24 +13,24 @@
 
 namespace vinerow::record {
 
-/// Where a frame stands in another for the whole run.
+/// Constant pose of a frame in another one.
 struct StaticTransform {
   std::string parent;  ///< "rover/base_link"
   std::string child;   ///< "rover/lidar"
   Pose X_PC;
 };
 
-/// Triangles of one colour, in their entity's frame.
+/// Triangles of one colour, in the entity's frame.
 struct SceneTriangles {
   std::vector<Eigen::Vector3d> points;
-  std::vector<std::uint32_t> indices;                   ///< three each
+  std::vector<std::uint32_t> indices;                   ///< three per triangle
   std::array<double, 4> colour = {0.7, 0.7, 0.7, 1.0};  ///< sRGB and opacity, 0 to 1
 };
 
-/// Something to be drawn, for the whole run.
+/// Object that is drawn for the whole run.
 struct SceneEntity {
   std::string id;
-  std::string frame;  ///< it moves with this frame
+  std::string frame;  ///< the entity moves with this frame
   std::vector<SceneTriangles> triangles;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What a message in a log says beside the value: frames, time, where the vehicle was.
+/// Context of a message in a log: frames, time, pose of the vehicle.
 
 #include <string>
 
@@ -19,18 +19,19 @@ struct FrameNames {
   static FrameNames of_signal(const std::string& signal);
 };
 
-/// What a message says beside the value.
+/// Data of a message besides its value.
 struct WriteContext {
   const FrameNames& frames;
   Time stamp;
-  /// Where the vehicle's body was at `stamp`, if it is known: poses of its links and sensors are
-  /// then stored relative to it, rounded to kPoseGrid, because a log is mostly the noise of poses.
+  /// Pose of the vehicle's body at `stamp`; null: unknown. If set, poses of links and sensors are
+  /// stored relative to it, rounded to kPoseGrid, because noise in the low bits of poses takes most
+  /// of a log's space.
   const Pose* X_WB = nullptr;
 };
 
-/// Step of positions (m) and quaternion components in poses relative to the body: about 1 nm and
-/// 2 nrad, a power of two, so that a rounded number has few bits and a fixed mounting is the same
-/// bytes in every message.
+/// Step of positions (m) and quaternion components in poses relative to the body: about 1 nm and 2
+/// nrad. It is a power of two, so that rounded numbers have few bits and a fixed mounting has the
+/// same bytes in every message.
 constexpr double kPoseGrid = 0x1p-30;
 
 }  // namespace vinerow::record

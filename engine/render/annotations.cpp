@@ -38,7 +38,7 @@ std::vector<Vector2d> circle(const Vector2d& at, double radius_px) {
   return points;
 }
 
-/// Light text with a dark rim, readable on any ground.
+/// Light text with a dark outline, legible on any background.
 void write(Canvas& canvas, const std::string& text, int size_px, const Vector2d& at) {
   const double rim = std::max(1.0, 0.09 * size_px);
   for (int k = 0; k < 8; ++k) {
@@ -53,7 +53,7 @@ bool overlaps_any(const AlignedBox2d& box, const std::vector<AlignedBox2d>& othe
                      [&](const AlignedBox2d& other) { return box.intersects(other); });
 }
 
-/// What is so many times larger than a ring is seen without one.
+/// Objects larger than a ring by this factor are marked without a ring.
 constexpr double kRinged = 2.5;
 
 double pixels_per_metre(const Frame& frame, const Eigen::Vector3d& p_W) {
@@ -62,8 +62,8 @@ double pixels_per_metre(const Frame& frame, const Eigen::Vector3d& p_W) {
   return 0.5 * frame.height / std::tan(0.5 * frame.camera.fov_rad) / std::max(0.1, depth_m);
 }
 
-/// Right of what is there, left, above or below: where nothing is written yet. @returns the text's
-/// box
+/// Places a text to the right of an object, to the left, above or below, where no other text is.
+/// @returns the text's box
 AlignedBox2d place_of_text(const AlignedBox2d& there, double away_px, const Vector2d& size_px,
                            const Frame& frame, const std::vector<AlignedBox2d>& taken) {
   const AlignedBox2d picture(Vector2d(0, 0), Vector2d(frame.width, frame.height));
@@ -81,7 +81,7 @@ AlignedBox2d place_of_text(const AlignedBox2d& there, double away_px, const Vect
   return first;
 }
 
-/// What is seen there, else all that may be there: a name stands beside the former.
+/// Box of the visible part of an object, else of the whole object; its name is placed next to it.
 AlignedBox2d box_at(const Vector2d& at, const AlignedBox2d& around,
                     const std::vector<AlignedBox2d>& vehicles) {
   for (const AlignedBox2d& seen : vehicles) {
@@ -90,7 +90,7 @@ AlignedBox2d box_at(const Vector2d& at, const AlignedBox2d& around,
   return around;
 }
 
-/// @param vehicles  boxes of those seen  @returns boxes of what was drawn
+/// @param vehicles  boxes of the visible vehicles @returns boxes of the drawn markers
 std::vector<AlignedBox2d> draw_markers(const Frame& frame,
                                        const std::vector<AlignedBox2d>& vehicles, Canvas& canvas) {
   std::vector<AlignedBox2d> taken;
@@ -112,7 +112,7 @@ std::vector<AlignedBox2d> draw_markers(const Frame& frame,
     const bool inside = (at.array() >= 0.0).all() && (at.array() <= size.array()).all();
     std::string text = marker.text;
     if (!inside) {
-      // Towards it, as far as the edge; how far beyond it is stands beside its name.
+      // Outside the picture: an arrow at the edge, and the distance next to the name.
       const Vector2d way = at - middle;
       const Vector2d room = middle - Vector2d::Constant(1.6 * text_px);
       const double share = std::min(room.x() / std::max(1e-9, std::abs(way.x())),
@@ -158,13 +158,13 @@ std::vector<AlignedBox2d> draw_markers(const Frame& frame,
   return taken;
 }
 
-/// Lower right. @returns its box
+/// Draws the scale bar in the lower right. @returns its box
 AlignedBox2d draw_scale(const Frame& frame, Canvas& canvas) {
   const int text_px = caption_text_px(frame.height);
   const double size = text_px / 17.0, px_per_m = frame.height / frame.camera.ortho_height_m;
   const Vector2d end(frame.width - 2.0 * text_px, frame.height - 2.0 * text_px);
   const double wanted_m = 0.16 * frame.width / px_per_m;
-  // First where nothing is seen of it, for its length.
+  // The first call draws outside the picture, only to measure the length.
   Canvas measured(1, 1, kDarkInk);
   const double left = draw_scale_bar(measured, end, wanted_m, px_per_m, kDarkInk, size);
   const AlignedBox2d box(Vector2d(left - 0.6 * text_px, end.y() - 47.0 * size),

@@ -1,5 +1,5 @@
 #pragma once
-/// What is written over a picture once its pixels are there: markers, scale, caption.
+/// Annotations drawn over a finished picture: markers, scale, caption.
 
 #include <vector>
 
@@ -8,8 +8,8 @@
 
 namespace vinerow::render {
 
-/// @param seen  where the frame's vehicles are seen: the caption goes to a corner where it hides
-/// none
+/// @param seen  places of the frame's vehicles in the picture; the caption is placed in a corner
+/// where it hides none of them
 void annotate(const Frame& frame, const std::vector<SeenMark>& seen, Image& image);
 
 }  // namespace vinerow::render

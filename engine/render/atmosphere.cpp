@@ -41,7 +41,7 @@ Eigen::Array3d transmittance(const Eigen::Array2d& depth) {
   return (-(kAir * depth[0] + kHaze * 1.1 * depth[1])).exp();
 }
 
-/// Radiance from a direction; the viewer stands near the ground.
+/// Radiance from a direction, for a viewer near the ground.
 Eigen::Array3d calc_radiance(const Eigen::Vector3d& direction, const Eigen::Vector3d& sun) {
   constexpr int kSteps = 24;
   const Eigen::Vector3d eye(0, 0, kGroundRadius + 200.0);
@@ -50,7 +50,7 @@ Eigen::Array3d calc_radiance(const Eigen::Vector3d& direction, const Eigen::Vect
   const double g = kHazeForward;
   const double phase_air = 3.0 / (16.0 * kPi) * (1.0 + mu * mu);
   const double phase_haze = (1.0 - g * g) / (4.0 * kPi * std::pow(1.0 + g * g - 2.0 * g * mu, 1.5));
-  // Beyond the first order light has lost its direction and takes part of the first's amount.
+  // Higher scattering orders: isotropic light, as a share of the first order.
   constexpr double kHigherOrders = 0.9;
   const double isotropic = 1.0 / (4.0 * kPi);
 
@@ -58,7 +58,7 @@ Eigen::Array3d calc_radiance(const Eigen::Vector3d& direction, const Eigen::Vect
   Eigen::Array3d radiance = Eigen::Array3d::Zero();
   double from = 0.0;
   for (int i = 0; i < kSteps; ++i) {
-    // Steps grow with distance, because air is densest here.
+    // Steps grow with distance, because air is densest near the viewer.
     const double share = (i + 1.0) / kSteps;
     const double to = length * share * share;
     const double step = to - from;
@@ -105,7 +105,7 @@ Atmosphere calc_atmosphere(double sun_elevation_rad) {
       level += radiance * (band * width * std::sin(e));
     }
   }
-  // Haze in front of hills takes the mean colour of the first degrees above the horizon.
+  // Haze in front of hills has the mean colour of the first degrees above the horizon.
   for (int i = 2; i < 12; ++i) {
     near_sun += result.sky[i * Atmosphere::kAzimuths + 8].cast<double>().array() / 10.0;
     far_sun += result.sky[i * Atmosphere::kAzimuths + 38].cast<double>().array() / 10.0;

@@ -1,5 +1,5 @@
 #pragma once
-/// Procedural textures: made once per process, pure functions of nothing.
+/// Procedural textures, generated once per process without inputs.
 
 #include <vector>
 
@@ -7,8 +7,8 @@
 
 namespace vinerow::render {
 
-/// Leaf cards. Channels: R brightness (0.5 = leaf's own green), G and B tilt of the leaf's surface
-/// against the card (0.5 = none), A coverage. Layers of vines, then of trees:
+/// Layers of the card texture: leaf cards of vines, then of trees. Channels: R brightness (0.5 =
+/// leaf's own green), G and B tilt of the leaf surface against the card (0.5 = none), A coverage.
 enum LeafLayer : int {
   kLeafSingle = 0,  ///< 2 layers: one leaf
   kLeafSpray = 2,   ///< 3 layers: a dozen leaves
@@ -22,15 +22,15 @@ constexpr int kCardLayers = kGrassLayer + kGrassLayers;
 /// kCardLayers square pictures of equal size.
 const std::vector<Pixels>& card_textures();
 
-/// Tile of the ground seen from above. R grass brightness, G grass dryness, B soil brightness,
-/// A height (of clods and blades).
+/// Ground tile seen from above. R grass brightness, G grass dryness, B soil brightness, A height
+/// (of clods and blades).
 const Pixels& ground_texture();
 
-/// Four smooth noises that tile. R and G: value noise of 4 and 8 cells; B: soft clouds; A:
+/// Four smooth noises, tileable. R and G: value noise of 4 and 8 cells; B: soft clouds; A:
 /// blotches.
 const Pixels& noise_texture();
 
-/// Grain along v. RGB colour.
+/// Wood with grain along v. RGB colour.
 const Pixels& wood_texture();
 const Pixels& bark_texture();
 

@@ -13,7 +13,7 @@ std::uint8_t byte(float v) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(v, 0.0f, 1.0f) * 255.0f));
 }
 
-/// Grey planes that strokes are painted on; wraps around at the edges.
+/// Grey planes for painting strokes; they wrap around at the edges.
 struct GreyPlane {
   int size;
   std::vector<float> value;
@@ -23,7 +23,7 @@ struct GreyPlane {
   }
 };
 
-/// Blades of grass lying and standing in all directions, the later the lighter and higher.
+/// Paints blades of grass in all directions; later ones are lighter and higher.
 void paint_grass(GreyPlane& brightness, GreyPlane& dryness, GreyPlane& height) {
   Scatter scatter(31);
   const int n = brightness.size;
@@ -58,7 +58,7 @@ void paint_grass(GreyPlane& brightness, GreyPlane& dryness, GreyPlane& height) {
   }
 }
 
-/// Clods, crumbs and a few pale stones and straws.
+/// Paints clods, crumbs and a few pale stones and straws.
 float soil_value(float u, float v, float& height) {
   float id = 0.0f;
   const float warp = 0.6f * tiled_fbm(u, v, 16, 3, 60);
@@ -109,7 +109,7 @@ const Pixels& noise_texture() {
   static const Pixels texture = [] {
     constexpr int kSize = 512;
     Pixels pixels(kSize, kSize);
-    // Stretches the narrow band that a sum of octaves fills over the whole range.
+    // Stretches the narrow range of a sum of octaves to the full range.
     const auto stretch = [](float v) { return (v - 0.5f) * 1.7f + 0.5f; };
     for (int y = 0; y < kSize; ++y) {
       for (int x = 0; x < kSize; ++x) {
@@ -142,7 +142,7 @@ Pixels grain(const float (&dark)[3], const float (&light)[3], int across, int al
       const float u = (static_cast<float>(x) + 0.5f) / kSize;
       const float v = (static_cast<float>(y) + 0.5f) / kSize;
       const float wobble = tiled_noise(u * 4.0f, v * 4.0f, 4, seed) * 0.6f;
-      // Different cell counts in x and y make fibres; both repeat over the tile.
+      // Different cell counts in x and y give fibres; both repeat over the tile.
       const float fu = u * static_cast<float>(across) + wobble;
       const float fv = v * static_cast<float>(along);
       const float coarse = tiled_noise(fu, fv, across, seed + 1);

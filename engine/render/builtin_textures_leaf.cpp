@@ -14,18 +14,18 @@ constexpr float kPiF = 3.14159265f;
 
 struct Leaf {
   float x, y;        ///< where the stalk meets the blade, 0..1
-  float radius;      ///< of the longest lobe, 0..1
-  float angle;       ///< of the middle lobe
+  float radius;      ///< length of the longest lobe, 0..1
+  float angle;       ///< direction of the middle lobe
   float brightness;  ///< 0..1, 0.5 = mean
   float tilt_x, tilt_y;
   std::uint32_t seed;
 };
 
 /// Outline of a grapevine leaf: five lobes, an open sinus at the stalk, toothed edge.
-/// @param t angle from the middle lobe, [-pi, pi]. @returns radius, 1 = tip of the middle lobe
+/// @param t  angle from the middle lobe, [-pi, pi]. @returns radius, 1 = tip of the middle lobe
 float vine_leaf_radius(float t) {
   const float a = std::abs(t);
-  // Lobes at 0, 62 and 118 deg, with widths that overlap into shallow bays.
+  // Lobes at 0, 62 and 118 deg, wide enough to overlap into shallow bays.
   const auto lobe = [a](float centre, float width, float height) {
     const float d = (a - centre) / width;
     return height * std::exp(-d * d);
@@ -62,7 +62,7 @@ void set_pixel(std::uint8_t* p, float brightness, float tilt_x, float tilt_y, fl
   p[3] = byte(old + alpha * (1.0f - old));
 }
 
-/// Paints one leaf over what is there.
+/// Paints one leaf over the present content.
 void paint_leaf(Pixels& card, const Leaf& leaf, bool vine) {
   const float reach = leaf.radius * 1.12f;
   const auto low = [&](float c) { return std::max(0, static_cast<int>((c - reach) * kSize)); };
@@ -108,7 +108,7 @@ void paint_leaf(Pixels& card, const Leaf& leaf, bool vine) {
   }
 }
 
-/// A thin green shoot or stalk.
+/// Paints a thin green shoot or stalk.
 void paint_shoot(Pixels& card, float x0, float y0, float x1, float y1, float width) {
   const int steps = static_cast<int>(std::hypot(x1 - x0, y1 - y0) * kSize * 1.5f) + 1;
   for (int i = 0; i <= steps; ++i) {
@@ -127,7 +127,7 @@ void paint_shoot(Pixels& card, float x0, float y0, float x1, float y1, float wid
   }
 }
 
-/// Leaves scattered over the card, the lowest painted first and darkest.
+/// Paints leaves scattered over the card; the lowest are painted first and are darkest.
 Pixels leaf_card(bool vine, int count, float radius, std::uint32_t seed) {
   Pixels card(kSize, kSize);
   Scatter scatter(seed);
@@ -144,7 +144,7 @@ Pixels leaf_card(bool vine, int count, float radius, std::uint32_t seed) {
     paint_shoot(card, 0.5f, 0.5f, 0.5f + 0.36f * std::cos(a), 0.5f + 0.36f * std::sin(a), 0.006f);
   }
   for (int i = 0; i < count; ++i) {
-    // Sunflower spiral: even cover without a grid; jitter makes the outline ragged.
+    // Sunflower spiral: even coverage without a grid; jitter makes the outline ragged.
     const float share = (static_cast<float>(i) + 0.5f) / static_cast<float>(count);
     const float a = static_cast<float>((i * 7) % count) * 2.39996f + scatter.between(-0.4f, 0.4f);
     const float spread = 0.5f - 0.95f * radius;
@@ -166,7 +166,7 @@ Pixels leaf_card(bool vine, int count, float radius, std::uint32_t seed) {
   return card;
 }
 
-/// Grass blades that grow from the lower edge.
+/// Paints grass blades that grow from the lower edge.
 Pixels grass_card(std::uint32_t seed) {
   Pixels card(kSize, kSize);
   Scatter scatter(seed);

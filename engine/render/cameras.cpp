@@ -29,7 +29,7 @@ Camera look_at(const Eigen::Vector3d& eye_W, const Eigen::Vector3d& target_W, do
 }
 
 Camera chase_camera(const Pose& X_WB, const ChaseOptions& options) {
-  // Up and down the slope with the body's x axis, but never with its roll.
+  // Pitches with the body's x axis, but never rolls.
   const Eigen::Vector3d forward = X_WB.q * Eigen::Vector3d::UnitX();
   const double level = std::max(forward.head<2>().norm(), 0.2);
   const double slope = options.follows_slope ? forward.z() / level : 0.0;

@@ -1,5 +1,5 @@
 #pragma once
-/// Cameras that one wants: each is a pure function of poses.
+/// Common cameras as pure functions of poses.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -16,15 +16,16 @@ Camera look_at(const Eigen::Vector3d& eye_W, const Eigen::Vector3d& target_W,
 struct ChaseOptions {
   double distance_m = 5.0;  ///< behind the vehicle, horizontally
   double height_m = 2.2;    ///< above it (and above the line of its slope)
-  double side_rad = 0.0;    ///< eye is turned by this around the vehicle, positive to the left
+  double side_rad = 0.0;    ///< angle of the eye around the vehicle, positive to the left
   double target_ahead_m = 1.5;
   double target_height_m = 0.3;
   double fov_rad = 0.96;
-  /// Goes up and down with the body's x axis. Not for what pitches to gain speed, as rotorcraft do.
+  /// true: the camera pitches with the body's x axis. Not suitable for rotorcraft, which pitch to
+  /// accelerate.
   bool follows_slope = true;
 };
 
-/// Follows a vehicle up and down hill, with the horizon level: roll does not reach the picture.
+/// Camera that follows a vehicle uphill and downhill with a level horizon; roll is ignored.
 Camera chase_camera(const Pose& X_WB, const ChaseOptions& options = {});
 
 /// Orthographic view from above, north up, that shows the whole box.
@@ -36,7 +37,7 @@ Camera top_camera(const Eigen::AlignedBox3d& box_W, double aspect, double margin
 Camera on_board_camera(const Pose& X_WB, const Pose& X_BS, double fov_rad = 1.2);
 
 /// Pixel coordinates (origin: upper left corner of the picture) of a point, by the pinhole model.
-/// @returns false when the point is behind a perspective camera
+/// @returns false if the point is behind a perspective camera
 bool project(const Camera& camera, int width, int height, const Eigen::Vector3d& p_W,
              Eigen::Vector2d& pixel);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Plane drawing with smooth edges on an 8-bit picture: areas, lines, text.
+/// Antialiased 2-D drawing on an 8-bit picture: areas, lines, text.
 
 #include <Eigen/Core>
 #include <array>
@@ -11,9 +11,10 @@
 
 namespace vinerow::render {
 
-using Rgb = std::array<int, 3>;  ///< 0 to 255, as seen on the screen
+using Rgb = std::array<int, 3>;  ///< 0 to 255, sRGB
 
-/// Points are in pixels, x to the right, y down, (0, 0) the upper left corner of the picture.
+/// Canvas with points in pixels: x to the right, y down, (0, 0) is the upper left corner of the
+/// picture.
 class Canvas {
  public:
   Canvas(int width, int height, const Rgb& background);
@@ -27,11 +28,11 @@ class Canvas {
             double alpha = 1.0);
   void outline(const std::vector<Eigen::Vector2d>& polygon, double width_px, const Rgb& colour,
                double alpha = 1.0);
-  /// @param anchor  share of the text's width that lies left of x: 0 begins, 0.5 centred there
+  /// @param anchor  share of the text's width to the left of x: 0 starts at x, 0.5 is centred on x
   void text(const std::string& text, int size_px, const Eigen::Vector2d& at, const Rgb& colour,
             double anchor = 0.0);
 
-  /// Replaces what is there. What reaches beyond the canvas is left out.
+  /// Copies a picture onto the canvas; parts outside the canvas are cut off.
   void paste(const Image& picture, int left, int top);
 
   const Image& image() const { return image_; }

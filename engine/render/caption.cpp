@@ -31,7 +31,7 @@ class Fonts {
   Fonts(const Fonts&) = delete;
   Fonts& operator=(const Fonts&) = delete;
   ~Fonts() {
-    if (library_ != nullptr) FT_Done_FreeType(library_);  // releases the faces too
+    if (library_ != nullptr) FT_Done_FreeType(library_);  // also releases the faces
   }
   FT_Face plain() const { return plain_; }
   FT_Face bold() const { return bold_ != nullptr ? bold_ : plain_; }
@@ -46,7 +46,7 @@ class Fonts {
   FT_Face bold_ = nullptr;
 };
 
-/// Next code point of UTF-8 text; a broken byte stands for itself.
+/// Next code point of UTF-8 text; an invalid byte is returned as it is.
 char32_t next_code_point(const std::string& text, std::size_t& at) {
   const auto byte = static_cast<unsigned char>(text[at++]);
   const int more = byte >= 0xF0 ? 3 : byte >= 0xE0 ? 2 : byte >= 0xC0 ? 1 : 0;
@@ -109,7 +109,7 @@ void draw_panel(Image& image, int x0, int y0, int x1, int y1, double radius) {
   constexpr Rgb kShade = {18, 24, 20};
   for (int y = y0; y < y1; ++y) {
     for (int x = x0; x < x1; ++x) {
-      // Distance to the rectangle that is smaller by the radius gives rounded, smooth corners.
+      // Distance to the rectangle shrunk by the radius: gives rounded, smooth corners.
       const double dx = std::max({x0 + radius - (x + 0.5), x + 0.5 - (x1 - radius), 0.0});
       const double dy = std::max({y0 + radius - (y + 0.5), y + 0.5 - (y1 - radius), 0.0});
       const double cover = std::clamp(radius - std::hypot(dx, dy) + 0.5, 0.0, 1.0);
@@ -118,7 +118,7 @@ void draw_panel(Image& image, int x0, int y0, int x1, int y1, double radius) {
   }
 }
 
-/// Legend entries side by side, with where each begins in its row, pixels.
+/// Row of legend entries, with the start of each in pixels.
 struct LegendPlace {
   int row = 0;
   double x = 0.0;
@@ -130,12 +130,12 @@ struct LegendLayout {
 };
 
 LegendLayout lay_out(const std::vector<LegendEntry>& legend, FT_Face face, int size_px,
-                     double most_width) {
+                     double max_width) {
   LegendLayout layout;
   double x = 0.0;
   for (const LegendEntry& entry : legend) {
     const double width = size_px + draw_line(face, size_px, entry.text, 0.0, 0, nullptr);
-    if (layout.rows == 0 || x + width > most_width) {
+    if (layout.rows == 0 || x + width > max_width) {
       ++layout.rows;
       x = 0.0;
     }
@@ -146,7 +146,7 @@ LegendLayout lay_out(const std::vector<LegendEntry>& legend, FT_Face face, int s
   return layout;
 }
 
-/// A square as high as small letters, and the text behind it.
+/// Draws a square as high as small letters, and the text after it.
 void draw_entry(const LegendEntry& entry, FT_Face face, int size_px, double x, int baseline,
                 Image& image) {
   const int side = static_cast<int>(std::lround(0.62 * size_px));
@@ -158,12 +158,12 @@ void draw_entry(const LegendEntry& entry, FT_Face face, int size_px, double x, i
   draw_line(face, size_px, entry.text, x + size_px, baseline, &image);
 }
 
-/// The text, or as much of it as fits with an ellipsis.
-std::string fit_line(FT_Face face, int size_px, const std::string& text, double most_width) {
+/// The text, or as much of it as fits, with an ellipsis.
+std::string fit_line(FT_Face face, int size_px, const std::string& text, double max_width) {
   std::string fitted = text;
   std::size_t length = text.size();
-  while (length > 0 && draw_line(face, size_px, fitted, 0.0, 0, nullptr) > most_width) {
-    // Back to the beginning of a character.
+  while (length > 0 && draw_line(face, size_px, fitted, 0.0, 0, nullptr) > max_width) {
+    // Step back to the start of a UTF-8 character.
     do --length;
     while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xC0) == 0x80);
     fitted = text.substr(0, length) + "…";
@@ -192,8 +192,8 @@ Eigen::Vector2i free_corner(const Image& image, const Eigen::Vector2i& panel, in
 
 int caption_text_px(int picture_height) {
   constexpr double kShare = 0.03;
-  constexpr int kLeast_px = 11;
-  return std::max(kLeast_px, static_cast<int>(std::lround(picture_height * kShare)));
+  constexpr int kMin_px = 11;
+  return std::max(kMin_px, static_cast<int>(std::lround(picture_height * kShare)));
 }
 
 bool draw_caption(const std::vector<std::string>& lines, Image& image,
@@ -207,17 +207,17 @@ bool draw_caption(const std::vector<std::string>& lines, Image& image,
   const int gap = static_cast<int>(std::lround(small * 0.45));
   const int padding = static_cast<int>(std::lround(small * 0.7));
   const int margin = static_cast<int>(std::lround(small * 0.8));
-  const double most_width = image.width - 2.0 * (margin + padding);
+  const double max_width = image.width - 2.0 * (margin + padding);
 
   double width = 0.0;
   std::vector<std::string> fitted;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const FT_Face face = i == 0 ? fonts.bold() : fonts.plain();
     const int size_px = i == 0 ? large : small;
-    fitted.push_back(fit_line(face, size_px, lines[i], most_width));
+    fitted.push_back(fit_line(face, size_px, lines[i], max_width));
     width = std::max(width, draw_line(face, size_px, fitted.back(), 0.0, 0, nullptr));
   }
-  const LegendLayout layout = lay_out(legend, fonts.plain(), small, most_width);
+  const LegendLayout layout = lay_out(legend, fonts.plain(), small, max_width);
   width = std::max(width, layout.width);
   const int count = static_cast<int>(lines.size()) + layout.rows;
   const int panel_width = static_cast<int>(width) + 2 * padding;

@@ -1,5 +1,5 @@
 #pragma once
-/// Text in a translucent rounded panel in a corner of a picture, by FreeType on the CPU.
+/// Text in a translucent rounded panel in a corner of a picture, drawn by FreeType on the CPU.
 
 #include <Eigen/Geometry>
 #include <array>
@@ -10,29 +10,27 @@
 
 namespace vinerow::render {
 
-/// Size of a caption's text, and of what else is written over a picture of that height. Pages show
-/// pictures at half their width: what is read there must be twice as large as what can just be
-/// read.
+/// Text size of captions and other annotations for a picture height. Pages show pictures at half
+/// their width, so text is twice as large as the smallest legible size.
 int caption_text_px(int picture_height);
 
-/// The first line is bold and larger; sizes follow the picture's height. UTF-8. Where the fonts
-/// (DejaVu Sans, Debian package fonts-dejavu-core) are absent the picture stays as it is. A line
-/// wider than the picture ends with an ellipsis.
-/// @param legend  below the lines, each text behind a square of its colour, in as many rows as the
-///   picture's width asks for
-/// @param keep_clear  boxes in pixels that the panel should not cover: it goes to the first corner
-///   of lower left, lower right, upper left, upper right where it covers none, else lower left
-/// @returns whether the text was drawn
+/// Draws a caption. The first line is bold and larger; sizes scale with the picture's height. Text
+/// is UTF-8. Without the fonts (DejaVu Sans, Debian package fonts-dejavu-core) the picture is not
+/// changed. A line wider than the picture ends with an ellipsis.
+/// @param legend  drawn below the lines: each text after a square of its colour, in as many rows as
+/// the picture's width requires
+/// @param keep_clear  boxes in pixels that the panel should not cover. The panel takes the first
+/// corner without overlap of lower left, lower right, upper left, upper right, else lower left.
+/// @returns true if the text was drawn
 bool draw_caption(const std::vector<std::string>& lines, Image& image,
                   const std::vector<LegendEntry>& legend = {},
                   const std::vector<Eigen::AlignedBox2d>& keep_clear = {});
 
-/// One line of text, without a panel. @param x,baseline  pixels, where it begins
-/// @param rgb  0 to 255 @returns its width in pixels; 0 where the fonts are absent, or drawn
-/// outside
+/// Draws one line of text without a panel. @param x,baseline  start of the text in pixels
+/// @param rgb  0 to 255 @returns its width in pixels; 0 without the fonts or outside the picture
 double draw_text(const std::string& text, int size_px, double x, double baseline,
                  const std::array<int, 3>& rgb, Image& image);
-/// How wide draw_text() makes it.
+/// Width of a text in draw_text(), in pixels.
 double text_width(const std::string& text, int size_px);
 
 }  // namespace vinerow::render

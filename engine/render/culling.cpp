@@ -15,7 +15,7 @@ Frustum::Frustum(const Eigen::Matrix4d& clip_from_world) {
 bool Frustum::may_see(const Eigen::AlignedBox3d& box_W) const {
   if (box_W.isEmpty()) return false;
   for (const Eigen::Vector4d& plane : planes_) {
-    // The corner that lies farthest along the plane's normal.
+    // The corner that is farthest along the plane's normal.
     Eigen::Vector3d corner;
     for (int i = 0; i < 3; ++i) corner[i] = plane[i] > 0.0 ? box_W.max()[i] : box_W.min()[i];
     if (plane.head<3>().dot(corner) + plane[3] < 0.0) return false;

@@ -1,5 +1,5 @@
 #pragma once
-/// The standing world and the vehicles' links as things that can be drawn.
+/// Drawable objects of the static world and of the vehicles' links.
 
 #include <map>
 #include <memory>
@@ -29,18 +29,18 @@ struct Drawable {
   bool leaf_cards = false;
 };
 
-/// Alternatives of one thing, finest first; one is drawn.
+/// Levels of detail of one object, finest first; one of them is drawn.
 struct LodGroup {
   std::vector<Drawable> levels;
   Eigen::AlignedBox3d box_W;
 };
 
-/// Uploads each mesh and image once and keeps them as long as the context.
+/// Store that uploads each mesh and image once and keeps them as long as the context.
 class DrawableStore {
  public:
   explicit DrawableStore(const Gl& gl) : gl_(gl) {}
 
-  /// Visible instances, in the world's order, with their levels of detail gathered.
+  /// Visible instances in the world's order, grouped by object with its levels of detail.
   std::vector<LodGroup> make_groups(const std::vector<MeshInstance>& instances);
   Drawable make_drawable(const std::shared_ptr<const TriangleMesh>& mesh, const Pose& X_WM,
                          SurfaceClass surface, const Material& material);
@@ -50,7 +50,7 @@ class DrawableStore {
   GLuint find_image(const std::string& name);
 
   struct Kept {
-    std::shared_ptr<const TriangleMesh> mesh;  // keeps the address from being used again
+    std::shared_ptr<const TriangleMesh> mesh;  // keeps the address from being reused
     std::unique_ptr<GpuMesh> gpu;
   };
   const Gl& gl_;

@@ -1,5 +1,5 @@
 #pragma once
-/// The uniform block that all shaders read (see shaders::frame_block), in the std140 layout.
+/// Uniform block of all shaders (see shaders::frame_block), in the std140 layout.
 
 #include <Eigen/Core>
 
@@ -25,7 +25,7 @@ struct FrameBlock {
   float grass_look[4];
 };
 
-/// Column-major floats.
+/// Stores values as column-major floats.
 inline void store(float (&to)[16], const Eigen::Matrix4d& from) {
   for (int i = 0; i < 16; ++i) to[i] = static_cast<float>(from.data()[i]);
 }

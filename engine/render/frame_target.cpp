@@ -21,7 +21,7 @@ void FrameTarget::make() {
   attach(colour_, GL_RGBA8, GL_COLOR_ATTACHMENT0);
   attach(depth_, GL_DEPTH24_STENCIL8, GL_DEPTH_STENCIL_ATTACHMENT);
   if (gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-    throw std::runtime_error(fmt::format("OpenGL makes no picture of {} x {} pixels",
+    throw std::runtime_error(fmt::format("OpenGL cannot make a picture of {} x {} pixels",
                                          width_ * scale_, height_ * scale_));
   }
 }

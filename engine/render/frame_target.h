@@ -1,10 +1,9 @@
 #pragma once
-/// Where a frame is drawn: colour, depth and stencil, larger than the picture by a whole factor,
-/// and reading back.
+/// Render target with colour, depth and stencil buffers, larger than the picture by an integer
+/// factor.
 ///
-/// Several full pixels for one (supersampling) instead of multisampling: with leaves, llvmpipe
-/// takes as long for 4 samples as for 4 pixels, and pixels smooth alpha-tested edges and textures
-/// too.
+/// It supersamples instead of multisampling: with leaves, llvmpipe takes as long for 4 samples as
+/// for 4 pixels, and supersampling also smooths alpha-tested edges and textures.
 
 #include <Eigen/Geometry>
 #include <vector>
@@ -14,24 +13,24 @@
 
 namespace vinerow::render {
 
-/// Where a mark of the stencil is.
+/// Area of one stencil value in the picture.
 struct SeenMark {
   double share = 0.0;          ///< of the picture
-  Eigen::AlignedBox2i box_px;  ///< in the picture; empty where it is nowhere
+  Eigen::AlignedBox2i box_px;  ///< in the picture; empty if not visible
 };
 
 class FrameTarget {
  public:
   explicit FrameTarget(const Gl& gl) : gl_(gl) {}
 
-  /// Makes buffers if sizes differ from before, binds and clears them.
-  /// @param scale  pixels drawn for one of the picture, along each side
+  /// Binds and clears the buffers; recreates them if the size changed.
+  /// @param scale  drawn pixels per pixel of the picture, along each side
   /// @throws std::runtime_error if the implementation cannot make them
   void begin(int width, int height, int scale);
-  /// The picture: means of scale x scale pixels, taken of squares of the screen's values, which is
-  /// nearly the mean of light.
+  /// The picture: means of scale x scale pixels. The mean is taken over squared sRGB values, which
+  /// approximates the mean of linear light.
   Image read() const;
-  /// Where the stencil holds 1, 2, ... count; clears it.
+  /// Areas of the stencil values 1, 2, ... count; clears the stencil.
   std::vector<SeenMark> take_marks(std::size_t count) const;
 
  private:

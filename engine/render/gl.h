@@ -1,5 +1,5 @@
 #pragma once
-/// OpenGL 3.3 core functions, looked up at run time, so that nothing links a GL library.
+/// OpenGL 3.3 core functions, loaded at run time, so that no GL library is linked.
 
 #include <GL/glcorearb.h>
 
@@ -42,7 +42,7 @@ namespace vinerow::render {
   X(VERTEXATTRIBPOINTER, VertexAttribPointer) X(VIEWPORT, Viewport)
 // clang-format on
 
-/// The functions of one context; `gl.Clear(...)` is glClear.
+/// Functions of one context; `gl.Clear(...)` is glClear.
 struct Gl {
 #define VINEROW_GL_MEMBER(UPPER, name) PFNGL##UPPER##PROC name = nullptr;
   VINEROW_GL_FUNCTIONS(VINEROW_GL_MEMBER)
@@ -51,11 +51,11 @@ struct Gl {
 
 using GlLookup = std::function<void*(const char* name)>;
 
-/// @throws std::runtime_error naming the first function that the library lacks
+/// @throws std::runtime_error naming the first missing function
 Gl load_gl(const GlLookup& lookup);
 
-/// Compiles and links; binds the uniform block "FrameBlock" to 0 and each listed sampler to its
-/// place in the list. @throws std::runtime_error with the compiler's text
+/// Compiles and links a program; binds the uniform block "FrameBlock" to 0 and each sampler of
+/// kSamplerUnits to its unit. @throws std::runtime_error with the compiler's text
 GLuint build_program(const Gl& gl, const std::string& name, const std::string& vertex_source,
                      const std::string& fragment_source);
 

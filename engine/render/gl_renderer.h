@@ -1,6 +1,6 @@
 #pragma once
-/// The renderer on OpenGL: what make_renderer() gives. gl_renderer_world.cpp uploads the world,
-/// gl_renderer_frame.cpp draws frames of it.
+/// OpenGL renderer, the implementation behind make_renderer(). gl_renderer_world.cpp uploads the
+/// world, gl_renderer_frame.cpp draws frames.
 
 #include <array>
 #include <memory>
@@ -22,7 +22,7 @@
 
 namespace vinerow::render {
 
-/// A linked program and the places of its uniforms (-1: it has none of that name).
+/// Linked program and the locations of its uniforms (-1: no such uniform).
 struct Program {
   GLuint id = 0;
   GLint world_from_model = -1;
@@ -57,14 +57,15 @@ class GlRenderer final : public Renderer {
   void upload_frame_block(const Frame& frame, const Eigen::Matrix4d& clip_from_world);
   void draw_objects(const Frame& frame, const Frustum& frustum, const std::vector<Drawable>& links,
                     const std::vector<int>& vehicle_of_link);
-  /// What is drawn from here on is this in the stencil where it is seen: 0 the world, else the
-  /// vehicle's number from 1 on.
+  /// Sets the stencil value of the following draw calls: 0 for the world, else the vehicle's
+  /// number, from 1.
   void mark_as(int number) { gl_.StencilFunc(GL_ALWAYS, number, 0xff); }
   void draw_ground(const Frame& frame, const Frustum& frustum);
   void draw_tufts(const Frame& frame, const Frustum& frustum);
   void draw_hedges(const Camera& camera, const Frustum& frustum);
   void draw_sky();
-  /// Readies texture and programs of the frame's grid; they are made when the first frame has one.
+  /// Prepares the texture and programs of the frame's grid; they are created for the first frame
+  /// with a grid.
   void prepare_grid(const Frame& frame);
   void draw_grid_map();
   void draw_ribbon(const std::vector<RibbonVertex>& vertices);
@@ -83,13 +84,13 @@ class GlRenderer final : public Renderer {
   std::optional<HeightField> terrain_;
   DrawableStore store_;
   FrameTarget target_;
-  std::vector<LodGroup> groups_;         ///< all but ground; the scenery's trees come last
-  std::size_t first_tree_ = 0;           ///< shadows of these and those after it are in LandUse
+  std::vector<LodGroup> groups_;         ///< all except ground; the scenery's trees are last
+  std::size_t first_tree_ = 0;           ///< shadows of groups from this index on are in LandUse
   std::vector<Drawable> ground_meshes_;  ///< meshes of class kTerrain
   std::vector<GpuMesh> chunks_;
   std::array<GpuMesh, kTerrainLevels> chunk_indices_;
   std::vector<GpuMesh> surroundings_;
-  std::vector<GpuMesh> hedges_, stems_;  ///< a field each, of the scenery
+  std::vector<GpuMesh> hedges_, stems_;  ///< one per field of the scenery
   Eigen::Vector4f land_rect_ = {0, 0, 0, 0};
   bool has_land_ = false;
   std::unique_ptr<ShadowMaps> shadows_;
@@ -106,7 +107,7 @@ class GlRenderer final : public Renderer {
   std::vector<std::uint32_t> tuft_indices_;
   GLuint ribbon_array_ = 0;
   GLuint ribbon_buffer_ = 0;
-  double half_pixel_rad_ = 0.0;  ///< of the pixels that are drawn, in this frame
+  double half_pixel_rad_ = 0.0;  ///< of the drawn (supersampled) pixels, in this frame
   FrameStatistics statistics_;
 };
 

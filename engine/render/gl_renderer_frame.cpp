@@ -19,17 +19,17 @@ constexpr double kNear_m = 0.06;
 constexpr double kFar_m = 9000.0;
 constexpr double kHazePerMetre = 1.0 / 5200.0;
 
-/// What is seen of a group in this frame.
+/// Visible level of a group in this frame.
 struct Visible {
   const Drawable* drawable;
   double distance_m;
-  int number = 0;  ///< in the stencil: see mark_as()
+  int number = 0;  ///< stencil value, see mark_as()
 };
 
-/// The stencil holds bytes.
-constexpr std::size_t kMostMarked = 254;
+/// Stencil values are bytes.
+constexpr std::size_t kMaxMarked = 254;
 
-/// Pixels that are drawn for each pixel of the picture, along each side.
+/// Drawn pixels per pixel of the picture, along each side.
 int scale_of(const Frame& frame) {
   return std::clamp(static_cast<int>(std::lround(std::sqrt(frame.samples))), 1, 3);
 }
@@ -127,7 +127,7 @@ void GlRenderer::update_shadows(const Camera& camera, const std::vector<Drawable
     std::vector<const Drawable*> casters;
     for (std::size_t i = 0; i < first_tree_; ++i) {
       const LodGroup& group = groups_[i];
-      // A level for good: shadows of leaves look alike at any level of detail.
+      // Always the same level: shadows of leaves look alike at any level of detail.
       const std::size_t level = std::min<std::size_t>(group.levels.size() - 1, near ? 1 : 2);
       const Drawable& drawable = group.levels[level];
       if (drawable.surface == SurfaceClass::kWire && !near) continue;
@@ -202,7 +202,7 @@ void GlRenderer::draw_objects(const Frame& frame, const Frustum& frustum,
         .push_back({&link, calc_seen_distance(frame.camera, frame.height, link.box_W),
                     vehicle_of_link[i] + 1});
   }
-  // Near things first: what they hide need not be shaded.
+  // Near objects first: objects hidden by them need not be shaded.
   const auto nearer = [](const Visible& a, const Visible& b) {
     return a.distance_m < b.distance_m;
   };
@@ -216,7 +216,7 @@ void GlRenderer::draw_objects(const Frame& frame, const Frustum& frustum,
     }
   };
   draw_all(surface_, solid);
-  // Leaves hide each other many times over: first their depth alone, then light for what is seen.
+  // Leaves overlap many times: draw only their depth first, then shade the visible ones.
   gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   draw_all(foliage_depth_, cards);
   gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
@@ -320,7 +320,7 @@ void GlRenderer::draw_lines(const Frame& frame, const Eigen::Matrix4d& clip_from
   gl_.Enable(GL_BLEND);
   gl_.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   gl_.DepthMask(GL_FALSE);
-  // The stencil keeps a line from covering itself twice at joints and crossings.
+  // The stencil prevents a line from being blended twice at joints and crossings.
   gl_.Enable(GL_STENCIL_TEST);
   gl_.StencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
   gl_.BindVertexArray(ribbon_array_);
@@ -334,7 +334,8 @@ void GlRenderer::draw_lines(const Frame& frame, const Eigen::Matrix4d& clip_from
     gl_.StencilFunc(GL_NOTEQUAL, number, 0xff);
     draw_ribbon(vertices);
     if (line.hidden_alpha <= 0.0f) continue;
-    // What is seen of the line wins where it crosses a hidden part of itself: same number.
+    // The visible part of a line has priority where it crosses a hidden part of the same line: same
+    // number.
     set_alpha(vertices, line.hidden_alpha);
     gl_.DepthFunc(GL_GREATER);
     draw_ribbon(vertices);
@@ -364,7 +365,7 @@ Image GlRenderer::draw(const Frame& frame) {
       if (!link.mesh || link.mesh->triangles.empty()) continue;
       vehicles.push_back(
           store_.make_drawable(link.mesh, drawing.X_WL[i], SurfaceClass::kVehicle, link.material));
-      vehicle_of_link.push_back(static_cast<int>(std::min(v, kMostMarked)));
+      vehicle_of_link.push_back(static_cast<int>(std::min(v, kMaxMarked)));
     }
   }
   const int scale = scale_of(frame);
@@ -394,7 +395,7 @@ Image GlRenderer::draw(const Frame& frame) {
   draw_sky();
   gl_.Disable(GL_STENCIL_TEST);
   const std::vector<SeenMark> seen =
-      target_.take_marks(std::min(frame.vehicles.size(), kMostMarked));
+      target_.take_marks(std::min(frame.vehicles.size(), kMaxMarked));
   for (const SeenMark& mark : seen) statistics_.vehicle_shares.push_back(mark.share);
   if (frame.grid != nullptr && !grid_on_ground_) draw_grid_map();
   draw_lines(frame, clip_from_world);

@@ -70,13 +70,13 @@ void GlRenderer::add_trees(const Scenery& scenery) {
       groups_.push_back(std::move(group));
     };
     add(kinds[tree.kind].crown, SurfaceClass::kCanopy, leaves);
-    // Thicker than a vine's, which is left out where it is farther away (is_drawn_at).
+    // Not kTrunk, which is omitted at a distance (is_drawn_at): these trunks are thicker.
     add(kinds[tree.kind].trunk, SurfaceClass::kObstacle, bark);
   }
 }
 
 void GlRenderer::draw_hedges(const Camera& camera, const Frustum& frustum) {
-  // Farther away a stem is thinner than a pixel.
+  // Beyond this distance a stem is thinner than a pixel.
   constexpr double kStems_m = 120.0;
   gl_.Disable(GL_CULL_FACE);
   const auto draw = [&](const Program& program, const std::vector<GpuMesh>& meshes,

@@ -158,7 +158,7 @@ void GlRenderer::make_terrain(const WorldModel& world) {
 void GlRenderer::make_shadows() {
   Eigen::AlignedBox3d casters;
   for (const LodGroup& group : groups_) casters.extend(group.box_W);
-  // Vehicles also cast shadows on open ground, as far as the map stays fine enough.
+  // Vehicles also cast shadows on open ground, as far as the map is fine enough.
   Eigen::AlignedBox3d ground;
   for (const GpuMesh& chunk : chunks_) ground.extend(chunk.bounds_M);
   for (const Drawable& mesh : ground_meshes_) ground.extend(mesh.box_W);

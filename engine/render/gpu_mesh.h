@@ -1,5 +1,5 @@
 #pragma once
-/// Vertex and index buffers on the GPU. They live as long as the context.
+/// Vertex and index buffers on the GPU, valid as long as the context.
 
 #include <Eigen/Geometry>
 #include <cstdint>
@@ -28,9 +28,9 @@ void fill_indices(const Gl& gl, GpuMesh& mesh, const std::vector<std::uint32_t>&
                   GLenum usage);
 GpuMesh upload_mesh(const Gl& gl, const PreparedMesh& prepared);
 
-/// Bound to the unit that is active. Mipmapped, repeating unless `clamp`.
+/// Uploads a mipmapped texture and binds it to the active unit. It repeats unless `clamp`.
 GLuint upload_texture(const Gl& gl, const std::vector<Pixels>& levels, bool clamp);
-/// Layers of equal size; each a full chain.
+/// Uploads layers of equal size, each with a full mipmap chain.
 GLuint upload_texture_array(const Gl& gl, const std::vector<std::vector<Pixels>>& layers);
 
 }  // namespace vinerow::render

@@ -58,7 +58,7 @@ double distance_m(const SceneryTrack& track, const Eigen::Vector2d& p) {
   return (p - track.from_W - t * along).norm();
 }
 
-/// Those of which a place within a range is part.
+/// Tracks that pass within a range of a place.
 std::vector<SceneryTrack> tracks_near(std::span<const SceneryTrack> tracks,
                                       const Eigen::Vector2d& p, double range_m) {
   std::vector<SceneryTrack> near;
@@ -98,7 +98,8 @@ void make_grass_tufts(const GrassGround& ground, const Camera& camera, const Fru
       const double y = (j + hash01(cx, cy, 2)) * kCell_m;
       if (!field.contains(x, y)) continue;
       const double away = std::hypot(x - eye.x(), y - eye.y());
-      // Farther away every second, then every fourth tuft is left out; those that stay grow a bit.
+      // With distance a growing share of tufts is omitted, 88 % at the end of the range; the others
+      // get wider.
       const double keep = std::clamp(1.35 - away / range, 0.0, 1.0);
       const double fate = hash01(cx, cy, 3);
       if (away > range || fate > keep * keep) continue;

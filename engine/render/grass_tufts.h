@@ -1,5 +1,5 @@
 #pragma once
-/// Cards of grass around the camera: fixed to the ground, made anew for each frame.
+/// Grass cards around the camera, fixed to the ground and recomputed for each frame.
 
 #include <span>
 #include <vector>
@@ -11,16 +11,16 @@
 
 namespace vinerow::render {
 
-/// What grass grows on.
+/// Ground on which grass grows.
 struct GrassGround {
   const HeightField& field;
   const GroundMask& mask;
-  std::span<const SceneryTrack> tracks;  ///< nothing grows there
+  std::span<const SceneryTrack> tracks;  ///< without grass
   double bare = 0.0;                     ///< share of the ground without grass (GroundLook)
 };
 
-/// Two crossed quads a tuft. Each cell of a fixed grid over the ground holds one tuft, whose place,
-/// size and picture come from the cell's number alone; sizes fade to nothing at the range's end.
+/// Two crossed quads per tuft. Each cell of a fixed ground grid has one tuft; its position, size
+/// and picture depend only on the cell's index. Sizes fade to zero at the end of the range.
 /// @param seen_scale  metres of seen distance per metre (see calc_seen_distance)
 /// @param vertices,indices  replaced
 void make_grass_tufts(const GrassGround& ground, const Camera& camera, const Frustum& frustum,

@@ -18,7 +18,7 @@ int padded(int size) {
   return (size + kPadding - 1) / kPadding * kPadding;
 }
 
-/// Bytes of a size that is padded already.
+/// Bytes of a plane with a padded size.
 struct BytePlane {
   int width, height;
   std::vector<std::uint8_t> bytes;
@@ -28,7 +28,7 @@ struct BytePlane {
   const std::uint8_t* row(int y) const { return &bytes[static_cast<std::size_t>(y) * width]; }
 };
 
-/// 1 taken, 0 free.
+/// 1 occupied, 0 free.
 BytePlane taken_of(const OccupancyGrid& grid, int cells_a_texel) {
   const auto texels = [&](int cells) { return (cells - 1) / cells_a_texel + 1; };
   const int width = texels(grid.columns), height = texels(grid.rows);
@@ -49,7 +49,7 @@ BytePlane taken_of(const OccupancyGrid& grid, int cells_a_texel) {
   return taken;
 }
 
-/// Means with the neighbours, weights 1 2 1 along each side; 255: all taken.
+/// Blur with weights 1 2 1 along each side; 255: fully occupied.
 BytePlane soften(const BytePlane& taken) {
   BytePlane along(taken.width, taken.height), soft(taken.width, taken.height);
   const auto blend = [](int before, int here, int after) {
@@ -75,14 +75,14 @@ BytePlane soften(const BytePlane& taken) {
   return soft;
 }
 
-/// Distance of taken texels to the free ones, from centre to edge; 255: kGridDepth_m or more.
+/// Distance of occupied texels to free ones, from centre to edge; 255: kGridDepth_m or more.
 /// Chamfer distances in two sweeps (G. Borgefors, "Distance transformations in digital images",
 /// 1986): 3 for a side, 4 for a diagonal.
 BytePlane depths_of(const BytePlane& taken, double texel_m) {
   constexpr int kFar = 1 << 14;
   const int width = taken.width, height = taken.height;
   const double scale = 255.0 * texel_m / (3.0 * kGridDepth_m);
-  const int stride = width + 2;  // a border of far texels saves asking
+  const int stride = width + 2;  // a border of far texels avoids bounds checks
   std::vector<std::uint16_t> depth(static_cast<std::size_t>(stride) * (height + 2), kFar);
   const auto at = [&](int x, int y) {
     return &depth[static_cast<std::size_t>(y + 1) * stride + x + 1];
@@ -112,7 +112,7 @@ BytePlane depths_of(const BytePlane& taken, double texel_m) {
   return out;
 }
 
-/// Half the size on each side; sizes are even.
+/// Level of half the size; sizes are even.
 GridLevel halve_level(const GridLevel& from) {
   GridLevel to{from.width / 2, from.height / 2, {}};
   to.texels.resize(2 * static_cast<std::size_t>(to.width) * to.height);

@@ -1,9 +1,9 @@
 #pragma once
-/// An occupancy grid over the picture: taken cells in translucent violet with a rim.
+/// Overlay of an occupancy grid: occupied cells in translucent violet with a rim.
 ///
-/// Seen straight from above (orthographic) it lies over everything, so that row quads are seen
-/// through their canopy as on a map; otherwise it is painted on the ground and its grass, where
-/// nothing can flicker.
+/// In orthographic views from above it is drawn over everything, so that the rectangles of rows
+/// show through the canopy as on a map. Otherwise it is painted on the ground and its grass, which
+/// avoids flicker.
 
 #include <cstdint>
 #include <memory>
@@ -14,36 +14,37 @@
 
 namespace vinerow::render {
 
-/// One mipmap level, two bytes a texel: how much of it is taken (255: all), and how deep inside
-/// what is taken it lies (255: kGridDepth_m or more; 0 where it is free).
+/// One mipmap level with two bytes per texel: occupied share (255: all), and depth inside the
+/// occupied area (255: kGridDepth_m or more; 0: free).
 struct GridLevel {
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> texels;  ///< 2 * width * height, row 0 is the lowest y
 };
 
-/// Depths are told up to here, m.
+/// Largest stored depth, m.
 constexpr double kGridDepth_m = 2.0;
 
-/// Levels of a grid, each half the size: as taken as the most taken of the four texels below, so
-/// that a wall of one cell is seen from far, and of their mean depth. The first level's edges are
-/// softened by a cell. Sizes are multiples of 64, its last cells repeated, and at most 8192 a side
-/// (cells of larger grids are joined). Beyond the grid everything counts as taken.
-/// @param cells_a_texel  how many cells of the grid a texel of the first level is wide
+/// Mipmap levels of a grid, each of half the size. A texel has the largest occupied share of the
+/// four texels below, so that a wall of one cell is visible from afar, and their mean depth. Edges
+/// of the first level are blurred by one cell. Sizes are multiples of 64 (the last cells are
+/// repeated) and at most 8192 per side (cells of larger grids are merged). Everything beyond the
+/// grid counts as occupied.
+/// @param cells_a_texel  receives the width of a texel of the first level in cells
 std::vector<GridLevel> make_grid_levels(const OccupancyGrid& grid, int& cells_a_texel);
 
-/// True where the overlay lies over everything.
+/// True if the overlay is drawn over everything.
 bool is_map_view(const Camera& camera);
 
-/// The grid's texture; made when a frame first shows it. Not copied, the texture is one of the
-/// context.
+/// Texture of the grid, created when a frame first shows it. Do not copy it: the texture belongs to
+/// the context.
 class GridOverlay {
  public:
   explicit GridOverlay(const Gl& gl) : gl_(gl) {}
-  /// Uploads unless it is the one already there. Leaves the active texture unit changed.
+  /// Uploads the grid unless it is the current one. Changes the active texture unit.
   void show(const std::shared_ptr<const OccupancyGrid>& grid);
-  /// Sets the uniforms of the program in use that say where the grid lies.
-  /// @param rect,size  places of `grid_rect` and `grid_size`
+  /// Sets the uniforms for the grid's position in the program in use.
+  /// @param rect,size  locations of `grid_rect` and `grid_size`
   void set_place(GLint rect, GLint size) const;
 
  private:

@@ -6,7 +6,7 @@
 namespace vinerow::render {
 
 GroundLook look_of(const Soil& soil) {
-  // Wet soil reflects about half of what it does dry; gravel and asphalt have next to no grass.
+  // Wet soil reflects about half as much as dry soil; gravel and asphalt have almost no grass.
   static const std::map<std::string, GroundLook> kLooks = {
       {"wet_grass", {{0.60f, 0.58f, 0.56f}, 0.0f, 0.80f, -0.45f}},
       {"dry_soil", {{1.05f, 1.02f, 1.00f}, 0.60f, 1.0f, 0.20f}},

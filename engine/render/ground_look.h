@@ -1,5 +1,5 @@
 #pragma once
-/// How the ground looks that wheels feel.
+/// Appearance of the ground by soil.
 
 #include <Eigen/Core>
 
@@ -7,15 +7,15 @@
 
 namespace vinerow::render {
 
-/// Against dry grass, of which the textures are made.
+/// Appearance relative to dry grass, for which the textures are made.
 struct GroundLook {
-  Eigen::Vector3f soil_tint = {1, 1, 1};  ///< bare soil's colour is multiplied by it
+  Eigen::Vector3f soil_tint = {1, 1, 1};  ///< factor on the colour of bare soil
   float bare = 0.0f;                      ///< share of the ground without grass, 0 to 1
   float grass_brightness = 1.0f;
-  float grass_dryness = 0.0f;  ///< added to the grass's own: below 0 greener
+  float grass_dryness = 0.0f;  ///< added to the grass's own; greener if negative
 };
 
-/// By the soil's name; of one that is not built in that of dry grass.
+/// Appearance by the soil's name; that of dry grass for soils that are not built in.
 GroundLook look_of(const Soil& soil);
 
 }  // namespace vinerow::render

@@ -9,7 +9,7 @@ namespace vinerow::render {
 
 namespace {
 
-constexpr double kFade_m = 2.4;  // of tracks beyond the end of an alley
+constexpr double kFade_m = 2.4;  // length over which tracks fade beyond the end of an alley
 
 void stamp_line(GroundMask& mask, const std::vector<Eigen::Vector3d>& line, int channel) {
   const Eigen::Array2d cell(mask.size_m.x() / mask.pixels.width,
@@ -32,7 +32,7 @@ void stamp_line(GroundMask& mask, const std::vector<Eigen::Vector3d>& line, int 
         const Eigen::Vector2d p =
             mask.corner_W + Eigen::Vector2d((x + 0.5) * cell.x(), (y + 0.5) * cell.y());
         const double share = (p - a).dot(along) / length2;
-        // Alleys run on straight for a while and fade; a round end would draw rings of tracks.
+        // Alleys are extended straight and fade out; a round end would give rings of tracks.
         const double over = kFade_m / std::sqrt(length2);
         const bool alley = channel == 1;
         const double low_t = alley && k == 0 ? -over : 0.0;

@@ -1,5 +1,5 @@
 #pragma once
-/// Distances to rows and alleys on a grid: where the ground is bare, tracked or green.
+/// Grid of distances to rows and alleys, which determine bare soil, wheel tracks and grass.
 
 #include <Eigen/Geometry>
 
@@ -16,7 +16,7 @@ struct GroundMask {
   Pixels pixels;  ///< R to the nearest row, G to the middle of the nearest alley,
                   ///< B 255 in an alley, fading beyond its ends; row 0 is south
 
-  /// Distances at a place, m; kReach_m outside.
+  /// Distances at a position, m; kReach_m outside.
   double row_distance_m(double x, double y) const { return lookup(x, y, 0); }
   double alley_distance_m(double x, double y) const { return lookup(x, y, 1); }
 
@@ -24,7 +24,7 @@ struct GroundMask {
   double lookup(double x, double y, int channel) const;
 };
 
-/// Sizes are powers of two up to 2048; without rows a single far pixel.
+/// Sizes are powers of two up to 2048; without rows, a single pixel with maximum distances.
 GroundMask make_ground_mask(const RowMap& rows);
 
 }  // namespace vinerow::render

@@ -11,9 +11,9 @@ namespace vinerow::render {
 
 namespace {
 
-constexpr std::size_t kMostFields = 250;
+constexpr std::size_t kMaxFields = 250;
 
-/// Calls `paint(pixel)` for every pixel whose middle lies in a convex polygon.
+/// Calls `paint(pixel)` for every pixel whose centre is in a convex polygon.
 template <class Paint>
 void fill(LandUse& land, const std::vector<Eigen::Vector2d>& polygon_W, Paint&& paint) {
   if (polygon_W.size() < 3) return;
@@ -28,7 +28,7 @@ void fill(LandUse& land, const std::vector<Eigen::Vector2d>& polygon_W, Paint&& 
   }
 }
 
-/// With corners that are moved away from the middle.
+/// The polygon with its corners moved away from its middle.
 std::vector<Eigen::Vector2d> widened(const std::vector<Eigen::Vector2d>& polygon_W) {
   constexpr double kBy_m = 3.0;
   Eigen::Vector2d middle(0, 0);
@@ -68,7 +68,7 @@ void stamp(LandUse& land, const SceneryTrack& track) {
   }
 }
 
-/// Shade within a box: what `depth(p)` gives, 0 to 1, where it is more than there is.
+/// Raises the shade within a box to `depth(p)`, 0 to 1.
 template <class Depth>
 void raise_shade(LandUse& land, const Eigen::AlignedBox2d& box, Depth&& depth) {
   const Eigen::Vector2d cell(land.size_m.x() / land.pixels.width,
@@ -88,7 +88,7 @@ void raise_shade(LandUse& land, const Eigen::AlignedBox2d& box, Depth&& depth) {
   }
 }
 
-/// The shadow of a tree on level ground: its crown, an ellipsoid, and its trunk.
+/// Draws the shadow of a tree on level ground: of its crown, an ellipsoid, and of its trunk.
 void shade(LandUse& land, const SceneryTree& tree, const Eigen::Vector3d& sun_W) {
   if (tree.kind < 0 || tree.kind >= kSceneryTreeKinds) return;
   const SceneryTreeSize& size = kSceneryTrees[tree.kind];
@@ -107,7 +107,7 @@ void shade(LandUse& land, const SceneryTree& tree, const Eigen::Vector3d& sun_W)
                 const double v = (along.x() * d.y() - along.y() * d.x()) / r;
                 return 2.5 * (1.0 - std::hypot(u, v));
               });
-  constexpr double kHalfTrunk_m = 0.8;  // with its soft edge: cells are no finer
+  constexpr double kHalfTrunk_m = 0.8;  // with its soft edge; cells are not finer
   const Eigen::Vector2d border = Eigen::Vector2d::Constant(kHalfTrunk_m);
   raise_shade(land,
               {Eigen::Vector2d(tree.p_W.cwiseMin(middle) - border),
@@ -130,10 +130,11 @@ LandUse make_land_use(const Scenery& scenery, const HeightField& terrain,
   land.pixels = Pixels(texture_side(land.size_m.x() / kWantedCell_m),
                        texture_side(land.size_m.y() / kWantedCell_m));
   for (std::size_t i = 1; i < land.pixels.rgba.size(); i += 4) land.pixels.rgba[i] = 255;
-  const std::size_t count = std::min(scenery.fields.size(), kMostFields);
+  const std::size_t count = std::min(scenery.fields.size(), kMaxFields);
   for (std::size_t i = 0; i < count; ++i) {
     const SceneryField& field = scenery.fields[i];
-    // The number reaches a little beyond the field, so that its edge lies between equal numbers.
+    // The number extends slightly beyond the field, so that texels on both sides of its edge have
+    // the same number.
     fill(land, widened(field.corners_W),
          [&](std::uint8_t* p) { p[0] = static_cast<std::uint8_t>(i + 1); });
     fill(land, field.corners_W, [](std::uint8_t* p) { p[2] = 128; });

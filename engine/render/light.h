@@ -1,5 +1,5 @@
 #pragma once
-/// The scene's light in the renderer's own scale, from the time of day.
+/// Light of the scene by the sun's position, in the renderer's scale.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -15,8 +15,8 @@ struct Light {
   Atmosphere atmosphere;
   Eigen::Vector3d sun_irradiance;
   Eigen::Vector3d sky_irradiance;
-  Eigen::Vector3d ground_irradiance;  ///< thrown back by sunlit ground onto downward faces
-  double exposure = 1.0;              ///< radiance -> scene value that the tone curve takes
+  Eigen::Vector3d ground_irradiance;  ///< reflected by sunlit ground onto downward faces
+  double exposure = 1.0;              ///< factor from radiance to the input of the tone curve
 };
 
 inline Light make_light(const Daylight& daylight) {
@@ -27,14 +27,14 @@ inline Light make_light(const Daylight& daylight) {
                            std::cos(azimuth) * std::cos(elevation), std::sin(elevation)};
   light.atmosphere = calc_atmosphere(elevation);
   light.sun_irradiance = light.atmosphere.sun_irradiance.cast<double>();
-  // Clouds and the light that leaves and walls throw at each other add a whitish half to what the
-  // clear sky gives.
+  // Clouds and light reflected between leaves and walls add about half of the clear sky's light,
+  // nearly white.
   const Eigen::Vector3d clear = light.atmosphere.sky_irradiance.cast<double>();
   light.sky_irradiance = 1.35 * clear + 0.055 * light.sun_irradiance;
   const Eigen::Vector3d ground_albedo(0.14, 0.13, 0.07);
   light.ground_irradiance = ground_albedo.cwiseProduct(
       light.sun_irradiance * light.sun_direction_W.z() + light.sky_irradiance);
-  // A white card that half faces the sun comes out at 1, whatever the hour.
+  // Exposure at which a white card half facing the sun has the value 1 at any hour.
   const Eigen::Vector3d luminance(0.2126, 0.7152, 0.0722);
   const double key =
       luminance.dot(light.sun_irradiance) * (0.35 + 0.65 * light.sun_direction_W.z()) +

@@ -13,12 +13,12 @@ namespace vinerow::render {
 
 namespace {
 
-/// Linear RGB of a leaf whose mesh has no colours.
+/// Linear RGB of leaves without mesh colours.
 const Eigen::Vector3f kLeafGreen(0.085f, 0.165f, 0.034f);
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-/// For each vertex the first vertex at the same place.
+/// For each vertex, the first vertex at the same position.
 std::vector<std::uint32_t> join_equal_positions(const std::vector<Eigen::Vector3f>& vertices) {
   std::vector<std::uint32_t> order(vertices.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -79,8 +79,8 @@ GpuVertex make_vertex(const TriangleMesh& mesh, std::uint32_t i) {
   return vertex;
 }
 
-/// One vertex per corner whose normal is the area-weighted mean of the faces around it that turn
-/// away by less than 40 deg; equal corners are merged again.
+/// One vertex per corner. Its normal is the area-weighted mean of the adjacent faces within 40 deg
+/// of the corner's face; equal corners are merged again.
 void build_with_creases(const TriangleMesh& mesh, const Triangles& triangles,
                         const std::vector<std::uint32_t>& joined, PreparedMesh& out) {
   std::vector<Eigen::Vector3f> face_normals;  // length = twice the area
@@ -88,7 +88,7 @@ void build_with_creases(const TriangleMesh& mesh, const Triangles& triangles,
     const Eigen::Vector3f a = mesh.vertices[t[0]];
     face_normals.push_back((mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a));
   }
-  // Corners grouped by place.
+  // Corners grouped by position.
   std::vector<std::uint32_t> corners(triangles.size() * 3);
   std::iota(corners.begin(), corners.end(), 0u);
   const auto place = [&](std::uint32_t corner) {
@@ -130,8 +130,8 @@ std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t i) {
   return i;
 }
 
-/// Finds the cards (pieces that share vertices), and gives each a picture that suits its size, a
-/// random mirror image and a slightly different tint.
+/// Finds the cards (pieces with shared vertices) and gives each a picture for its size, a random
+/// reflection and a slightly different tint.
 void choose_cards(const TriangleMesh& mesh, const Triangles& triangles, CardKind kind,
                   PreparedMesh& out) {
   std::vector<std::uint32_t> parent(mesh.vertices.size());

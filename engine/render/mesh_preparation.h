@@ -1,6 +1,6 @@
 #pragma once
-/// From a TriangleMesh to what the GPU draws: compact vertices with normals, and card pictures
-/// chosen.
+/// Conversion of a TriangleMesh for the GPU: compact vertices with normals, and choice of card
+/// pictures.
 
 #include <Eigen/Geometry>
 #include <cstdint>

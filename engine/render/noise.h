@@ -1,5 +1,6 @@
 #pragma once
-/// Deterministic noise for procedural textures. Integer hashes only: the same on every machine.
+/// Deterministic noise for procedural textures. Based on integer hashes only, so the same on every
+/// machine.
 
 #include <cmath>
 #include <cstdint>
@@ -21,7 +22,7 @@ inline float hash01(std::uint32_t x, std::uint32_t y, std::uint32_t seed) {
   return static_cast<float>(hash_cell(x, y, seed) >> 8) * (1.0f / 16777216.0f);
 }
 
-/// A sequence of uniform numbers for scattering strokes; the position in it is the only state.
+/// Sequence of uniform numbers for scattered strokes; its only state is the position.
 class Scatter {
  public:
   explicit Scatter(std::uint32_t seed) : seed_(seed) {}
@@ -68,7 +69,7 @@ inline float tiled_fbm(float x, float y, int cells, int octaves, std::uint32_t s
 }
 
 /// Distance to the nearest of one random point per cell, in cells; repeats after `period`.
-/// `id` receives a uniform number of that point.
+/// `id` receives a uniform random number of that point.
 inline float tiled_worley(float x, float y, int period, std::uint32_t seed, float& id) {
   const int cx = static_cast<int>(std::floor(x));
   const int cy = static_cast<int>(std::floor(y));

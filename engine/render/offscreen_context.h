@@ -1,6 +1,6 @@
 #pragma once
-/// An OpenGL 3.3 core context without a window. One implementation exists (OSMesa); another, such
-/// as EGL surfaceless, would be one more file with the same two functions.
+/// OpenGL 3.3 core context without a window. The only implementation is OSMesa; another one, such
+/// as EGL surfaceless, would be a further file with the same two functions.
 
 #include <memory>
 
@@ -17,9 +17,10 @@ class OffscreenContext {
   virtual void* find_function(const char* name) const = 0;
 };
 
-/// Mesa's software rasterizer, loaded at run time, so that a machine without it still simulates.
-/// The library's name can be given in the environment variable VINEROW_OSMESA.
-/// @returns the context, or why there is none
+/// Creates a context of Mesa's software rasterizer. It is loaded at run time, so that simulations
+/// run on machines without it. The environment variable VINEROW_OSMESA overrides the library's
+/// name.
+/// @returns the context, or the reason for its absence
 Result<std::unique_ptr<OffscreenContext>> make_osmesa_context();
 
 }  // namespace vinerow::render

@@ -12,7 +12,7 @@
 #include "engine/render/offscreen_context.h"
 
 #if defined(__SANITIZE_ADDRESS__)
-// Mesa 22.3 never frees the small record of each context's own buffer.
+// Mesa 22.3 leaks a small record of each context's own buffer.
 extern "C" const char* __lsan_default_suppressions() {
   return "leak:libOSMesa";
 }
@@ -22,7 +22,7 @@ namespace vinerow::render {
 
 namespace {
 
-/// The library stays loaded until the process ends: Mesa and LLVM do not survive being unloaded.
+/// The library stays loaded until the process ends: Mesa and LLVM crash if they are unloaded.
 struct OsMesaLibrary {
   decltype(&OSMesaCreateContextAttribs) create = nullptr;
   decltype(&OSMesaDestroyContext) destroy = nullptr;
@@ -76,7 +76,7 @@ class OsMesaContext final : public OffscreenContext {
   }
 
  private:
-  // Pictures go to a framebuffer object; the context's own buffer only has to exist.
+  // Pictures are drawn to a framebuffer object; the context's own buffer only has to exist.
   static constexpr int kSize = 16;
   OsMesaLibrary library_;
   OSMesaContext context_;

@@ -18,7 +18,7 @@ Pixels halve_pixels(const Pixels& from, bool weight_by_alpha) {
         const int sx = std::min(2 * x + (k & 1), from.width - 1);
         const int sy = std::min(2 * y + (k >> 1), from.height - 1);
         const std::uint8_t* p = from.at(sx, sy);
-        // A trace of weight keeps the colour defined where all four are transparent.
+        // A small weight keeps the colour defined if all four are transparent.
         const double w = weight_by_alpha ? p[3] + 0.01 : 1.0;
         for (int c = 0; c < 3; ++c) sum[c] += w * p[c];
         alpha += 0.25 * p[3];

@@ -9,7 +9,7 @@ namespace vinerow::render {
 struct Pixels {
   int width = 0;
   int height = 0;
-  std::vector<std::uint8_t> rgba;  ///< row 0 first; 4 bytes a pixel
+  std::vector<std::uint8_t> rgba;  ///< row 0 first; 4 bytes per pixel
 
   Pixels() = default;
   Pixels(int w, int h) : width(w), height(h), rgba(static_cast<std::size_t>(w) * h * 4) {}
@@ -19,7 +19,7 @@ struct Pixels {
   }
 };
 
-/// The side of a texture for so many cells: the power of two above, at most 2048.
+/// Side of a texture for a number of cells: the next power of two, at most 2048.
 int texture_side(double cells);
 
 /// Level 0 is `base`, each further level half the size (2x2 mean) down to 1x1.
@@ -27,8 +27,8 @@ int texture_side(double cells);
 std::vector<Pixels> mip_chain(const Pixels& base);
 
 /// The same for alpha-tested cards. The mean of colours is weighted by alpha, so that no background
-/// bleeds in, and alpha is scaled per level so that the share of pixels with alpha >= 0.5 stays
-/// that of level 0: foliage does not thin out with distance. Source: I. Castano, "Computing alpha
+/// bleeds in. Alpha is scaled per level so that the share of pixels with alpha >= 0.5 equals that
+/// of level 0: foliage does not thin out with distance. Source: I. Castano, "Computing alpha
 /// mipmaps", 2010.
 std::vector<Pixels> mip_chain_with_coverage(const Pixels& base);
 

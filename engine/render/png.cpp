@@ -22,7 +22,8 @@ void append_bytes(png_structp png, png_bytep bytes, std::size_t count) {
   static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<char*>(bytes), count);
 }
 
-/// libpng leaves by longjmp, so nothing with a destructor may live in this function's frame.
+/// libpng returns from errors by longjmp, so this function's frame must not hold objects with
+/// destructors.
 bool encode(png_structp png, png_infop info, std::string* out, const Image& image, png_textp words,
             int count) {
   if (setjmp(png_jmpbuf(png))) return false;
@@ -43,7 +44,7 @@ bool encode(png_structp png, png_infop info, std::string* out, const Image& imag
   return true;
 }
 
-/// Likewise. @returns how many texts there are; 0 where the file cannot be read
+/// The same applies here. @returns the number of texts; 0 if the file cannot be read
 int read_words(png_structp png, png_infop info, std::FILE* file, png_textp* words) {
   if (setjmp(png_jmpbuf(png))) return 0;
   png_init_io(png, file);
@@ -53,7 +54,7 @@ int read_words(png_structp png, png_infop info, std::FILE* file, png_textp* word
   return count;
 }
 
-void stay_silent(png_structp png, png_const_charp) {
+void ignore_png_warning(png_structp png, png_const_charp) {
   png_longjmp(png, 1);
 }
 void ignore(png_structp, png_const_charp) {}
@@ -65,7 +66,8 @@ std::map<std::string, std::string> read_png_words(const std::string& file) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> in(std::fopen(file.c_str(), "rb"),
                                                            &std::fclose);
   if (!in) return read;
-  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, &stay_silent, &ignore);
+  png_structp png =
+      png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, &ignore_png_warning, &ignore);
   png_infop info = png_create_info_struct(png);
   png_textp words = nullptr;
   const int count = read_words(png, info, in.get(), &words);
@@ -78,7 +80,7 @@ void write_png(const std::string& file, const Image& image,
                const std::map<std::string, std::string>& words) {
   if (image.width < 1 || image.height < 1 ||
       image.rgb.size() != static_cast<std::size_t>(image.width) * image.height * 3) {
-    throw std::runtime_error(fmt::format("{}: an image of {} x {} pixels with {} bytes is no image",
+    throw std::runtime_error(fmt::format("{}: {} x {} pixels with {} bytes are not a valid image",
                                          file, image.width, image.height, image.rgb.size()));
   }
   std::string bytes;
@@ -86,7 +88,7 @@ void write_png(const std::string& file, const Image& image,
   for (const auto& [key, text] : words) {
     png_text entry{};
     entry.compression = PNG_TEXT_COMPRESSION_NONE;
-    // libpng copies both and writes to neither.
+    // libpng copies both and does not modify them.
     entry.key = const_cast<char*>(key.c_str());
     entry.text = const_cast<char*>(text.c_str());
     entry.text_length = text.size();

@@ -13,20 +13,20 @@ namespace {
 
 constexpr double kLift_m = 0.04;
 constexpr double kBias_m = 0.12;
-constexpr double kNearW = 0.06;  // least clip w, m in front of the eye
+constexpr double kNearW = 0.06;  // minimum clip w, m in front of the eye
 
 std::uint8_t to_byte(float v) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(v, 0.0f, 1.0f) * 255.0f));
 }
 
-/// A point of a line and the share of the line's alpha there.
+/// Point of a line with its share of the line's alpha.
 struct Draped {
   Eigen::Vector3d p_W;
   double fade;
 };
 
-/// Points along a part of the line, close enough for it to follow the ground, none below it.
-/// @param fade  of each point; empty: 1
+/// Points along a segment, dense enough to follow the ground and never below it.
+/// @param fade  of each point; empty: 1 everywhere
 void drape(std::span<const Eigen::Vector3d> line, std::span<const float> fade,
            const HeightField* field, std::vector<Draped>& points) {
   points.clear();
@@ -52,7 +52,7 @@ void drape(std::span<const Eigen::Vector3d> line, std::span<const float> fade,
   }
 }
 
-/// A point in clip space, likewise.
+/// The same in clip space.
 struct Clipped {
   Eigen::Vector4d p;
   double fade;
@@ -113,7 +113,7 @@ class Builder {
     vertex(a, other, start);
     vertex(b, other, travelled_);
   }
-  /// Fills the open side of a bend.
+  /// Fills the outer gap of a bend.
   void joint(const Clipped& at, const Eigen::Vector2d& from, const Eigen::Vector2d& to,
              double along_px) {
     const double turn = std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));
@@ -154,7 +154,7 @@ void draw_piece(const std::vector<Draped>& points, ClipOf&& clip_of, Builder& bu
       builder.interrupt();
       continue;
     }
-    // Cut where the line passes behind the eye.
+    // Clip the part of the line behind the eye.
     if (a.p.w() < kNearW) {
       cut(a, b);
       builder.interrupt();
@@ -173,7 +173,7 @@ std::vector<RibbonVertex> make_ribbon(const Polyline& line, const HeightField* f
   const Eigen::Vector3d forward = camera.X_WC.q * Eigen::Vector3d::UnitZ();
   const auto clip_of = [&](const Eigen::Vector3d& p) {
     Eigen::Vector4d clip = clip_from_world * p.homogeneous();
-    // The depth of a point that is nearer to the eye by the bias, at the same pixel.
+    // Depth of a point nearer to the eye by the bias, at the same pixel.
     const double reach = (p - camera.X_WC.p).dot(forward);
     const double nearer =
         camera.orthographic ? kBias_m : std::min(kBias_m, 0.3 * std::max(reach, 0.0));

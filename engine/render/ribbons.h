@@ -11,11 +11,11 @@ namespace vinerow::render {
 struct RibbonVertex {
   float clip[4];
   std::uint8_t colour[4];  ///< sRGB and alpha
-  float along_px;          ///< from the line's start; -1 where the line is solid
+  float along_px;          ///< from the line's start; -1 for solid lines
 };
 static_assert(sizeof(RibbonVertex) == 24);
 
-/// Triangles (three vertices each) of a polyline, joints rounded off by short fans.
+/// Triangles (three vertices each) of a polyline, with joints rounded by short fans.
 ///
 /// The line is lifted above the terrain, cut at the near plane, and moved towards the eye by
 /// `bias_m`, so that grass and the ground's roughness do not hide it while posts and rows do.
@@ -25,7 +25,7 @@ std::vector<RibbonVertex> make_ribbon(const Polyline& line, const HeightField* f
                                       const Eigen::Matrix4d& clip_from_world, const Camera& camera,
                                       int width_px, int height_px);
 
-/// Makes a ribbon as transparent as that. @param alpha  0 to 1
+/// Sets the opacity of a ribbon. @param alpha  0 to 1
 void set_alpha(std::vector<RibbonVertex>& ribbon, float alpha);
 
 }  // namespace vinerow::render

@@ -1,13 +1,13 @@
 #pragma once
-/// The scale and the north arrow of a map picture.
+/// Scale bar and north arrow of a map picture.
 
 #include "engine/render/canvas.h"
 
 namespace vinerow::render {
 
-/// A bar of 1, 2 or 5 times a power of ten metres that ends at `right_end`, its length above it and
-/// an arrow to the north (up) left of it.
-/// @param wanted_m  the bar is the longest that is no longer
+/// Draws a bar of 1, 2 or 5 times a power of ten metres that ends at `right_end`, with its length
+/// above and an arrow to the north (up) on its left.
+/// @param wanted_m  upper limit of the bar's length
 /// @param size  of text, lines and arrow; 1: text of 17 px
 /// @returns the left end of the arrow, px
 double draw_scale_bar(Canvas& canvas, const Eigen::Vector2d& right_end, double wanted_m,

@@ -14,8 +14,8 @@ namespace vinerow::render {
 
 namespace {
 
-/// Cross-section of a hedge, from foot to foot: sideways as a share of half its width, up as a
-/// share of its height above the lowest leaves.
+/// Cross-section of a hedge from foot to foot: lateral as a share of half the width, up as a share
+/// of the height above the lowest leaves.
 struct SectionPoint {
   double side, up;
   double normal_side, normal_up;
@@ -27,7 +27,7 @@ constexpr SectionPoint kSection[] = {{0.75, 0.0, 0.95, -0.3, -1.0f},
                                      {-1.1, 0.6, -0.85, 0.5, 0.5f},
                                      {-0.75, 0.0, -0.95, -0.3, 1.0f}};
 constexpr int kSectionPoints = 5;
-constexpr double kSectionStep_m = 12.0;  // the ground bends by centimetres in between
+constexpr double kSectionStep_m = 12.0;  // the ground deviates by centimetres in between
 
 struct HedgeRow {
   Eigen::Vector2d from, to;
@@ -41,7 +41,7 @@ void add_row(const SceneryField& field, const HedgeRow& row, const HeightField& 
   const Eigen::Vector3d left(-d.y(), d.x(), 0.0);
   const int steps = std::max(1, static_cast<int>(std::ceil(length_m / kSectionStep_m)));
   for (int k = 0; k <= steps + 2; ++k) {
-    // Both ends taper.
+    // Both ends are tapered.
     const bool is_end = k == 0 || k == steps + 2;
     const double s =
         std::clamp(length_m * (k - 1) / steps, 0.5, length_m - 0.5) + (k == 0           ? -0.5
@@ -87,7 +87,7 @@ void add_row(const SceneryField& field, const HedgeRow& row, const HeightField& 
 
 void add_curtain(const SceneryField& field, const HedgeRow& row, const HeightField& terrain,
                  PreparedMesh& mesh) {
-  constexpr double kIntoLeaves = 0.2;  // of their height
+  constexpr double kIntoLeaves = 0.2;  // share of the leaves' height
   const double top_m = field.row_base_m + kIntoLeaves * (field.row_top_m - field.row_base_m);
   const double length_m = (row.to - row.from).norm();
   const Eigen::Vector2d d = (row.to - row.from) / length_m;
@@ -143,8 +143,8 @@ std::vector<HedgeRow> rows_of(const SceneryField& field) {
   for (int k = first; k <= last; ++k) {
     const Eigen::Vector2d p = (offset_m + k * field.pitch_m) * normal;
     const Eigen::Vector2d t = clip_line(field.planted_W, p, field.along_W);
-    constexpr double kLeast_m = 6.0;
-    if (t[1] - t[0] < kLeast_m) continue;
+    constexpr double kMin_m = 6.0;
+    if (t[1] - t[0] < kMin_m) continue;
     rows.push_back({p + t[0] * field.along_W, p + t[1] * field.along_W,
                     static_cast<std::uint32_t>(k + 100000)});
   }
@@ -178,7 +178,7 @@ std::shared_ptr<TriangleMesh> make_scenery_crown(const SceneryTreeSize& size, in
                              0.5 * (size.height_m - base_m));
   constexpr int kCards = 60;
   for (int i = 0; i < kCards; ++i) {
-    // Evenly over the sphere (Fibonacci's lattice), most of them near the crown's surface.
+    // Evenly over the sphere (Fibonacci lattice), mostly near the crown's surface.
     const double z = 1.0 - (2.0 * i + 1.0) / kCards;
     const double azimuth = 2.39996323 * i + scatter.between(-0.3f, 0.3f);
     const double r = std::sqrt(1.0 - z * z);

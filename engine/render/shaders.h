@@ -11,31 +11,31 @@ struct Pair {
 };
 
 Pair sky();
-/// Terrain; with the occupancy grid painted on it; with the scenery's fields and tracks.
+/// Terrain, optionally with the occupancy grid and with the scenery's fields and tracks.
 Pair ground(bool with_grid = false, bool with_land = false);
-Pair country();                      ///< what lies beyond it
+Pair country();                      ///< the land beyond the terrain
 Pair surface();                      ///< posts, trunks, vehicles, anything opaque
-Pair foliage();                      ///< leaf cards, where their depth is drawn already
+Pair foliage();                      ///< leaf cards, after foliage_depth()
 Pair foliage_depth();                ///< alpha-tested leaf cards, depth only
 Pair grass(bool with_grid = false);  ///< alpha-tested tufts near the camera
 Pair hedge();                        ///< rows of the scenery
-Pair stems();                        ///< below them
+Pair stems();                        ///< stems below the rows
 Pair grid_map();                     ///< the occupancy grid over a view from above
 Pair ribbon();                       ///< lines in clip space
 Pair shadow_solid();
 Pair shadow_cards();
 
-/// Declarations and functions that the others share: frame block, light, haze, tone.
+/// Declarations and functions shared by the shaders: frame block, light, haze, tone.
 const std::string& frame_block();
 const std::string& light_functions();
 const std::string& grass_colour();
-/// Noises and textures over the ground that repeat nowhere: untiled(), value_noise(), grass_tone().
+/// Non-repeating noises and textures of the ground: untiled(), value_noise(), grass_tone().
 const std::string& untiled_noise();
-/// float octave_of(vec2 q): how fine q is seen, for fragment shaders.
+/// float octave_of(vec2 q): resolution at which q is seen, for fragment shaders.
 const std::string& pixel_octave();
 /// vec3 leaf_light(albedo, n, p, lift): radiance of leaves.
 const std::string& leaf_light();
-/// Land land_at(...): fields and tracks at a place; after the ground's own inputs.
+/// Land land_at(...): fields and tracks at a position; include it after the ground's inputs.
 const std::string& land_use();
 /// vec4 grid_tint(vec2 place): colour and opacity of the occupancy grid.
 const std::string& grid_tint();

@@ -26,7 +26,7 @@ layout(std140) uniform FrameBlock {
   vec4 shadow_info;        // texel of the near and far map in m; z: 1 when there are shadows; w: taps
   vec4 land_rect;          // of the scenery's fields, as mask_rect
   vec4 soil_look;          // tint of bare soil; share of the ground that is bare
-  vec4 grass_look;         // brightness, what is added to dryness
+  vec4 grass_look;         // brightness, addition to dryness
 };
 )";
   return text;
@@ -52,8 +52,8 @@ float sun_visibility(vec3 p, vec3 n, float lift) {
     c = (far_from_world * vec4(q, 1.0)).xyz;
     layer = 1.0;
   }
-  // Four taps around the place. A picture that is drawn with several pixels for one lets each of
-  // them take one tap; the mean is the same.
+  // Four taps around the point. With supersampling each drawn pixel takes one tap; the mean is the
+  // same.
   int taps = int(shadow_info.w + 0.5);
   ivec2 parity = ivec2(gl_FragCoord.xy) & 1;
   int first = taps > 1 ? 0 : parity.x + 2 * parity.y;
@@ -89,7 +89,7 @@ vec3 to_screen(vec3 radiance) {
   return pow(clamp(x, 0.0, 1.0), vec3(1.0 / 2.2));
 }
 
-// What reaches the eye from p through the haze between.
+// Light from p at the eye, after the haze in between.
 vec3 finish(vec3 radiance, vec3 p) {
   vec3 ray = p - eye.xyz;
   float share = exp(-haze_to_sun.a * length(ray));
@@ -117,7 +117,7 @@ vec3 grass_albedo(float brightness, float dryness, vec2 macro) {
 
 namespace {
 
-/// "vec4(...)": the mean of a texture.
+/// The mean of a texture as GLSL text "vec4(...)".
 std::string mean_of(const Pixels& texture) {
   std::array<double, 4> sum{};
   for (std::size_t i = 0; i < texture.rgba.size(); ++i) sum[i % 4] += texture.rgba[i];
@@ -153,7 +153,7 @@ vec2 place_in_tile(ivec2 cell) {
 // A texture without end: at the corners of a grid of triangles it is shifted by random amounts, and
 // between them the three are blended so that contrast stays. After E. Heitz, F. Neyret, "High-
 // performance by-example noise using a histogram-preserving blending operator", 2018.
-// lod, mean: of the texture; sharp: with narrow borders, where blended blades would be seen as such.
+// lod, mean: of the texture; sharp: narrow borders, for textures whose blending would be visible.
 vec4 untiled(sampler2D tile, vec2 uv, float lod, bool sharp, vec4 mean) {
   vec2 skewed = mat2(1.0, 0.0, -0.57735027, 1.15470054) * uv * 2.2;
   vec2 cell = floor(skewed);
@@ -188,7 +188,7 @@ float value_noise(vec2 q, uint seed) {
   return mix(mix(h.x, h.y, f.x), mix(h.z, h.w, f.x), f.y);
 }
 
-// octave: binary logarithm of what a pixel covers, in m.
+// octave: binary logarithm of a pixel's size on the ground, in m.
 vec4 macro_noise(vec2 q, float octave) {
   return untiled(noise_tile, q * 0.0163, octave + kTileOctaves - 5.94, false, kNoiseMean);
 }

@@ -4,13 +4,13 @@ namespace vinerow::render::shaders {
 
 const std::string& grid_tint() {
   static const std::string text = R"(
-uniform sampler2D grid_cells;  // R: taken; G: depth inside what is taken / 2 m
+uniform sampler2D grid_cells;  // R: occupied share; G: depth inside the occupied area / 2 m
 uniform vec4 grid_rect;        // xy: corner in m; zw: 1 / size of the texture in m
 uniform vec4 grid_size;        // xy: of the grid in m; z: of a texel in m
 
-// Colour (of the screen) and opacity of the grid at a place: a rim at least 6 cm and about a pixel
-// and a half wide where taken meets free, behind it a fill that fades with depth, so that the
-// country outside a parcel stays to be seen. Beyond the grid its last cells go on.
+// Colour (sRGB) and opacity of the grid at a point: a rim between occupied and free cells, at
+// least 6 cm and about 1.5 pixels wide, and inside it a fill that fades with depth, so that the
+// country outside a parcel stays visible. The last cells continue beyond the grid.
 vec4 grid_tint(vec2 q) {
   vec2 local = q - grid_rect.xy;
   vec2 inside = clamp(local, vec2(0.5 * grid_size.z), grid_size.xy - 0.5 * grid_size.z);

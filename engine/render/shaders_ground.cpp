@@ -74,7 +74,7 @@ out vec4 colour;
 uniform sampler2D ground_tile;  // R grass, G dryness, B soil, A height
 uniform sampler2D row_mask;     // distances / 2.55 m: R to a row, G to the middle of an alley; B in an alley
 
-// What terrain and country have in common: noises, turf and soil at a place.
+// Functions shared by terrain and country: noises, turf and soil at a point.
 struct Turf {
   vec4 macro, meso, detail;
   vec3 grass, soil;
@@ -93,7 +93,7 @@ Turf turf_at(vec2 q) {
   t.grass = grass_albedo(t.detail.r * 1.15, t.detail.g + grass_look.y, grass_tone(q, octave, t.macro, t.meso)) * grass_look.x;
   t.soil = mix(vec3(0.098, 0.066, 0.043), vec3(0.335, 0.255, 0.176), t.detail.b * 0.9 + 0.25 * (t.meso.r - 0.5)) * soil_look.rgb;
   t.scar = 0.6 * smoothstep(0.70, 0.98, t.meso.r * 0.5 + t.macro.g * 0.40 + (0.5 - t.detail.a) * 0.7);
-  // Of soil that grass covers in part it is left where the noise is low.
+  // Partly covered soil is bare where the noise is low.
   t.scar = max(t.scar, smoothstep(1.05 - 1.2 * soil_look.a, 1.45 - 1.35 * soil_look.a, 0.5 * t.meso.r + 0.3 * t.detail.b + 0.2 * t.macro.g));
   return t;
 }
@@ -118,7 +118,7 @@ vec3 patchwork(vec2 q, float octave, vec4 regions, vec4 trees) {
   vec3 straw = mix(vec3(0.150, 0.134, 0.072), vec3(0.225, 0.190, 0.108), shade);
   float dry = smoothstep(0.62, 0.66, kind + 0.5 * (regions.r - 0.5));
   vec3 field = mix(green, straw, dry) * (0.85 + 0.3 * trees.g);
-  // Hedges and grass between them, lost where a pixel covers them.
+  // Hedges and grass between them, hidden if smaller than a pixel.
   vec2 edge = min(fract(p), 1.0 - fract(p)) * vec2(190.0, 130.0);
   float hedge = 1.0 - smoothstep(2.0, 4.5 + exp2(octave), min(edge.x, edge.y) + 3.0 * (trees.a - 0.5));
   vec3 seam = mix(vec3(0.150, 0.140, 0.095), vec3(0.045, 0.062, 0.028), smoothstep(0.45, 0.55, trees.r));
@@ -126,13 +126,13 @@ vec3 patchwork(vec2 q, float octave, vec4 regions, vec4 trees) {
 }
 )";
 
-/// What a shader's `seen` becomes where the grid covers its place.
+/// Blends the grid over a shader's `seen`.
 const char* const kApplyGrid = R"(
   vec4 tint = grid_tint(p_W.xy);
   seen = mix(seen, tint.rgb, tint.a);
 )";
 
-/// What the scenery makes of grass and soil.
+/// Effect of the scenery's fields and tracks on grass and soil.
 const char* const kApplyLand = R"(
   Land land = land_at(q, t, octave_of(q), ragged * 0.6);
   grass = mix(grass, land.grass * 0.92, max(smoothstep(1.2, 1.6, d.y), 1.0 - mask.b) * (1.0 - strip));
@@ -154,10 +154,10 @@ void main() {
   vec2 q = p_W.xy;
   Turf t = turf_at(q);
   vec2 uv = (q - mask_rect.xy) * mask_rect.zw;
-  vec3 mask = texture(row_mask, uv).rgb;  // its border is far from everything
+  vec3 mask = texture(row_mask, uv).rgb;  // far from everything at its border
   vec2 d = mask.rg * 2.55;
 
-  // Bare strip under the vines, ragged at its edges and with weeds in it; wheel tracks beside it.
+  // Bare strip under the vines with ragged edges and weeds; wheel tracks next to it.
   float ragged = (t.meso.a - 0.5) * 0.26 + (t.detail.a - 0.5) * 0.30;
   float strip = 1.0 - smoothstep(0.24, 0.44, d.x + ragged);
   strip *= 1.0 - 0.6 * smoothstep(0.50, 0.75, t.meso.g + 0.5 * (t.detail.a - 0.5));
@@ -232,7 +232,7 @@ void main() {
   n_W = normal;
   card = vec3(uv, floor(tint.a * 255.0 + 0.5));
   vec2 q = position.xy;
-  const float octave = -20.0;  // the finest there is
+  const float octave = -20.0;  // the finest
   tone = grass_tone(q, octave, macro_noise(q, octave), meso_noise(q, octave));
   shade = tint.rg;
   gl_Position = clip_from_world * vec4(p_W, 1.0);

@@ -91,7 +91,7 @@ vec3 leaf_light(vec3 albedo, vec3 n, vec3 p, float lift) {
   vec3 v = -view_direction(p);
   float n_l = dot(n, sun_direction.xyz);
   float sun = sun_visibility(p, n, lift);
-  // Leaves let about a third of the light through, yellower than what they reflect.
+  // Leaves transmit about a third of the light, yellower than the reflected light.
   float front = max((n_l + 0.25) / 1.25, 0.0);
   float toward = max(dot(-v, sun_direction.xyz), 0.0);
   float through = max((0.35 - n_l) / 1.35, 0.0) * (0.35 + 1.1 * toward * toward * toward);
@@ -119,7 +119,7 @@ out vec4 colour;
 uniform sampler2DArray leaf_cards;
 uniform vec4 material;
 
-// Runs where foliage_depth has left its depth, so there is nothing to discard.
+// Runs only where foliage_depth has written this depth, so nothing has to be discarded.
 void main() {
   vec4 leaf = texture(leaf_cards, vec3(uv, layer));
   // Normal of the canopy's volume, tilted leaf by leaf.

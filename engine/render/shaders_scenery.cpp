@@ -11,7 +11,7 @@ struct Land {
   vec3 grass;   // or stubble
   float bare;   // share of bare soil
   float track;  // share of gravel
-  float sun;    // what rows and trees leave of it
+  float sun;    // share of sunlight between rows and trees
 };
 
 // ragged: a noise about 0, m
@@ -37,7 +37,7 @@ Land land_at(vec2 q, Turf t, float octave, float ragged) {
   grass = mix(grass * (0.96 + 0.08 * furrow), stubble, look.z * (0.85 + 0.15 * t.detail.a));
   land.grass = mix(t.grass, grass, inside);
 
-  // Bare strips under the vines; from afar only their share is left.
+  // Bare strips under the vines; from afar only their average remains.
   float pitch = max(rows.w, 0.1);
   float x = (dot(q, rows.xy) - rows.z) / pitch;
   float away = abs(x - floor(x + 0.5)) * pitch;
@@ -48,7 +48,7 @@ Land land_at(vec2 q, Turf t, float octave, float ragged) {
   tilled *= 0.55 + 0.45 * smoothstep(0.25, 0.6, t.meso.g);
   land.bare = planted * max(strip, tilled);
 
-  // Shadows of the rows: where the way to the sun meets one between its foot and its top.
+  // Shadows of the rows: the ray to the sun hits a row between its foot and its top.
   float lean = dot(sun_direction.xy, rows.xy) / max(sun_direction.z, 0.1);
   float at = x * pitch + ragged;
   float foot = at + section.y * lean, top = at + section.z * lean;

@@ -94,7 +94,7 @@ void ShadowMaps::copy(int kept_layer, int shown_layer, const Rectangle& part) co
                       GL_DEPTH_BUFFER_BIT, GL_NEAREST);
 }
 
-/// Brings the standing world back into a shown layer.
+/// Restores the static world in a shown layer.
 void ShadowMaps::show(int kept_layer, int shown_layer) {
   if (shown_from_[shown_layer] == kept_layer) {
     for (const Rectangle& part : touched_[shown_layer]) copy(kept_layer, shown_layer, part);

@@ -1,9 +1,9 @@
 #pragma once
-/// Shadows of the sun in two maps: one over the whole world, one finer around what is looked at.
+/// Two shadow maps of the sun: one of the whole world, and a finer one around the view's focus.
 ///
-/// World and sun do not move, so the maps of the standing world are drawn once and kept; each frame
-/// only vehicles are drawn into copies, and their places are copied back afterwards. The near map
-/// lies on a fixed grid, so that a picture does not depend on the pictures before.
+/// World and sun do not move, so the maps of the static world are drawn once and kept. For each
+/// frame, only vehicles are drawn into copies, and the touched areas are restored afterwards. The
+/// near map is aligned to a fixed grid, so that a picture does not depend on earlier pictures.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -19,18 +19,20 @@ class ShadowMaps {
  public:
   static constexpr int kSize = 2048;
 
-  /// Draws what casts shadows. @param clip_from_world of the light
+  /// Draws objects that cast shadows. @param clip_from_world  of the light
   /// @param rectangle  of the map in light coordinates (see light_from_world), m
   using DrawCasters = std::function<void(const Eigen::Matrix4d& clip_from_world,
                                          const Eigen::AlignedBox2d& rectangle, bool near)>;
 
   /// @param sun_direction  unit, towards the sun
-  /// @param casters_W      box around everything that can cast or catch a shadow
+  /// @param casters_W  box around everything that can cast or receive a shadow
   ShadowMaps(const Gl& gl, const Eigen::Vector3d& sun_direction,
              const Eigen::AlignedBox3d& casters_W);
 
-  /// Fills both maps for a view. @param focus_W ground point in its middle @param radius_m wanted
-  /// @param vehicles_W  boxes around the things that draw_vehicles draws
+  /// Fills both maps for a view.
+  /// @param focus_W   ground point in the middle of the view
+  /// @param radius_m  requested radius of the near map
+  /// @param vehicles_W  boxes around the objects that draw_vehicles draws
   void update(const Eigen::Vector3d& focus_W, double radius_m, const DrawCasters& draw_world,
               const DrawCasters& draw_vehicles, const std::vector<Eigen::AlignedBox3d>& vehicles_W);
 

@@ -136,7 +136,7 @@ std::vector<PreparedMesh> make_surroundings(const Eigen::AlignedBox2d& rectangle
     return edge + blend * (mean - edge) + hills * blend;
   };
   const auto on_ring = [&](int step, double away) {
-    // Walks around the rectangle; the same share of each side on every ring.
+    // Around the rectangle, with the same share of each side on every ring.
     const int side = (step / kPerSide) % 4;
     const double s = 2.0 * (step % kPerSide) / kPerSide - 1.0;
     const double hx = half.x() + away;

@@ -1,5 +1,5 @@
 #pragma once
-/// Which texture unit each sampler of the shaders reads.
+/// Texture units of the shaders' samplers.
 
 namespace vinerow::render {
 

@@ -18,7 +18,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder)
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   ::close(descriptor_);
   throw ConfigError(
-      fmt::format("folder '{}' is in use by another run: wait for its end, or give this one a "
+      fmt::format("folder '{}' is in use by another run: wait until it ends, or give this one a "
                   "folder of its own (--out)",
                   folder.string()));
 }

@@ -1,17 +1,16 @@
 #pragma once
-/// Keeps two runs out of one folder, and room on the disk for what a run must still say when the
-/// disk is full.
+/// Lock on a run's folder, and a reserve of disk space for the verdict if the disk is full.
 
 #include <cstddef>
 #include <filesystem>
 
 namespace vinerow::run {
 
-/// The folder belongs to this object until it goes, or its process does. Nothing is left behind.
-/// Where the file system knows no locks (some network mounts) there is none.
+/// Lock on a folder for the lifetime of this object or its process. It leaves no file behind. On
+/// file systems without locks (some network mounts) it has no effect.
 class FolderLock {
  public:
-  /// @pre the folder exists. @throws ConfigError where another process or run has it
+  /// @pre the folder exists. @throws ConfigError if another process or run holds the lock
   explicit FolderLock(const std::filesystem::path& folder);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
@@ -21,10 +20,10 @@ class FolderLock {
   int descriptor_ = -1;
 };
 
-/// Disk space of a file without a name, given back when this goes.
+/// Disk space held by an unlinked file, until give_back() or destruction.
 class DiskReserve {
  public:
-  /// Where the space is not to be had nothing is reserved; who writes then says so.
+  /// If the space is not available, nothing is reserved; later writes then report the error.
   DiskReserve(const std::filesystem::path& folder, std::size_t bytes);
   ~DiskReserve() { give_back(); }
   DiskReserve(const DiskReserve&) = delete;

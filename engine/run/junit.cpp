@@ -9,7 +9,7 @@
 namespace vinerow::run {
 namespace {
 
-/// Text in XML 1.0: markup escaped, control characters that XML does not allow left out.
+/// Text in XML 1.0, with escaped markup and without control characters that XML does not allow.
 std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {

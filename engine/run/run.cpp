@@ -41,8 +41,9 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Feeds the log: truth and diagnostics at their rate, sensors up to theirs, everything else as it
-/// is written.
+/// Observer that writes the log: truth and diagnostics at record.truth_rate_Hz, most other signals
+/// at record.sensor_rate_limit_Hz at most, and events, plans and contacts whenever they are
+/// written.
 class LogObserver final : public RunObserver {
  public:
   LogObserver(const Simulation& simulation, const std::filesystem::path& file)
@@ -71,7 +72,7 @@ class LogObserver final : public RunObserver {
   /// Several events can fall into one instant; each is stored before the next overwrites it.
   void on_event(Time now, const Event&) override { recorder_.record(now); }
 
-  /// @throws SimulationError where the log cannot be written to its end
+  /// @throws SimulationError if the log cannot be completed
   void finish() { recorder_.finish(); }
 
  private:
@@ -86,8 +87,8 @@ class LogObserver final : public RunObserver {
             {"vinerow", program_version()},
             {"latitude_longitude_note", "frame map is East-North-Up at the scenario's origin"}};
   }
-  /// What a laser scanner would have read without error, the largest of all messages, is for
-  /// checks, which want the whole value.
+  /// True for the error-free readings of a laser scanner. They are the largest messages, and checks
+  /// need them with full precision.
   static bool is_true_scan(const SignalBase& signal) {
     return std::string_view(signal.type()) == LaserScan::kType && signal.name().ends_with("_truth");
   }
@@ -97,11 +98,11 @@ class LogObserver final : public RunObserver {
                              signal.writer().find(".observers.") != std::string::npos;
     const bool is_truth = name.ends_with("/truth") || name.ends_with("/estimate");
     if (is_truth || is_observed) return period_of_rate(config.truth_rate_Hz);
-    // The widest message of all; half as often is enough to see slip come and go.
+    // A large message; half the rate is enough to see changes of slip.
     if (name.ends_with("/wheels")) return period_of_rate(config.truth_rate_Hz) * 2;
-    // A charge changes slowly, and its message is a large one.
+    // A large message whose values change slowly.
     if (name.ends_with("/battery")) return period_of_rate(std::min(1.0, config.truth_rate_Hz));
-    // The previews of one reference repeat each other.
+    // Consecutive references overlap in their previews.
     if (std::string_view(signal.type()) == ReferenceTrajectory::kType) {
       return period_of_rate(config.truth_rate_Hz) * 4;
     }
@@ -131,7 +132,7 @@ class EventFile final : public RunObserver {
                                  .dump() +
                              "\n";
     if (error_number_) return;
-    // Flushed line by line: a killed run's events stay readable.
+    // Flushed line by line, so that the events of a killed run are readable.
     errno = 0;
     const bool stored = std::fwrite(line.data(), 1, line.size(), file_.get()) == line.size() &&
                         std::fflush(file_.get()) == 0;
@@ -140,10 +141,10 @@ class EventFile final : public RunObserver {
       return;
     }
     error_number_ = errno;
-    static_cast<void>(::ftruncate(::fileno(file_.get()), whole_bytes_));  // no half line
+    static_cast<void>(::ftruncate(::fileno(file_.get()), whole_bytes_));  // no partial line
   }
 
-  /// @throws ConfigError, WriteError where a line is missing
+  /// @throws ConfigError, WriteError if a line is missing
   void check() const {
     if (error_number_) throw_cannot_write(name_, *error_number_);
   }
@@ -155,26 +156,26 @@ class EventFile final : public RunObserver {
   std::optional<int> error_number_;  ///< of the first line that could not be stored
 };
 
-/// Steps to the end in slices of simulated time, so that progress can be told. Slices change no
-/// result.
+/// Steps to the end in slices of simulated time, to report progress. Slices change no result.
 void step_to_end(Session& session, const RunOptions& options, Clock::time_point start) {
   const double duration_s = session.scenario().duration_s;
   constexpr Duration kSlice{250'000'000};
-  double told_s = -1.0;
+  double stated_s = -1.0;
   while (!session.over()) {
     session.advance(session.now() + kSlice);
     if (options.interrupted && options.interrupted()) {
       throw SimulationError("run", session.now(), "interrupted by the user");
     }
     const double wall_s = seconds_since(start);
-    if (options.progress && (wall_s - told_s > 0.2 || session.over())) {
-      told_s = wall_s;
+    if (options.progress && (wall_s - stated_s > 0.2 || session.over())) {
+      stated_s = wall_s;
       options.progress({session.now().s(), duration_s, wall_s});
     }
   }
 }
 
-/// The criteria that can be judged before the run: a job's numbers are known after it.
+/// Criteria that can be checked before the run. Those of jobs are excluded, because their numbers
+/// may be known only after the run.
 std::vector<scenario::Criterion> of_vehicles(const scenario::Scenario& scenario) {
   std::vector<scenario::Criterion> criteria;
   for (const scenario::Criterion& criterion : scenario.criteria) {
@@ -187,7 +188,7 @@ std::vector<scenario::Criterion> of_vehicles(const scenario::Scenario& scenario)
   return criteria;
 }
 
-/// Numbers that a job did not come to give are not measured, so that its criteria are not met.
+/// Adds NaN for the numbers of jobs that did not succeed, so that their criteria are not met.
 std::map<std::string, std::map<std::string, double>> with_missing_numbers(
     const scenario::Scenario& scenario,
     std::map<std::string, std::map<std::string, double>> metrics,
@@ -206,8 +207,8 @@ std::map<std::string, std::map<std::string, double>> with_missing_numbers(
   return metrics;
 }
 
-/// What an earlier run left in the same folder would be taken for this one's. Products stay until a
-/// job makes its own anew: another run may still want them.
+/// Removes the files of an earlier run in the same folder, which could be mistaken for those of
+/// this run. Products stay until a job replaces them, because other runs may still use them.
 void clear_earlier_run(const std::filesystem::path& folder) {
   std::error_code ignored;
   std::vector<std::filesystem::path> earlier;
@@ -243,22 +244,23 @@ std::vector<std::filesystem::path> write_canopy(const Simulation& simulation,
   return files;
 }
 
-/// A run that is built, with what can be refused before its first step refused.
-/// @throws ConfigError
+/// Builds a run and makes all checks that are possible before its first step. @throws ConfigError
 Session open_run(const scenario::Scenario& scenario, const Registry& registry,
                  const std::filesystem::path& products, std::shared_ptr<RunShelf> shelf) {
   SessionOptions options;
   options.products = products;
   options.shelf = std::move(shelf);
-  // The caller keeps the registry.
+  // A non-owning pointer: the caller keeps the registry alive.
   Session session(scenario, std::shared_ptr<const Registry>(std::shared_ptr<void>(), &registry),
                   std::move(options));
-  // Bad input must not wait for the end of a long run.
-  check_criteria(of_vehicles(scenario), session.metrics(), scenario.metrics);
+  // Checked now, so that bad input is not found only after a long run.
+  check_criteria(of_vehicles(scenario), session.metrics(), [&](const std::string& metric) {
+    return find_declared_result(scenario, registry, metric);
+  });
   return session;
 }
 
-/// Names of the vehicles whose planner waits for the estimate.
+/// Names of the vehicles whose planner has not planned yet.
 std::vector<std::string> without_plan(const Simulation& simulation) {
   std::vector<std::string> names;
   for (const auto& vehicle : simulation.vehicles()) {
@@ -267,7 +269,7 @@ std::vector<std::string> without_plan(const Simulation& simulation) {
   return names;
 }
 
-/// What the run came to: numbers, verdicts, status.
+/// Fills in the results of a run: numbers, verdicts, status.
 void judge_run(const scenario::Scenario& scenario, const Session& session, RunResult& result) {
   const Simulation& simulation = session.simulation();
   result.simulated_s = session.now().s();
@@ -308,7 +310,7 @@ void draw_pictures(const std::filesystem::path& log, const Registry& registry,
     result.picture_note = pictures.note;
     result.write_failure = pictures.write_failure;
   } catch (const ConfigError& error) {
-    // The verdict is there; it must not end as bad input.
+    // The verdict is final; a failed drawing must not turn it into bad input.
     result.picture_note = error.what();
   }
 }
@@ -318,7 +320,7 @@ std::string end_by(EndKind kind) {
                                    : fmt::format("ended: a vehicle {}", to_string(kind));
 }
 
-/// Steps to the end and judges. @param log  null: none
+/// Steps to the end and judges. @param log  may be null
 void step_and_judge(Session& session, const RunOptions& options, LogObserver* log,
                     RunResult& result) {
   Simulation& simulation = session.simulation();
@@ -364,8 +366,7 @@ std::vector<std::string> rehearse_run(const scenario::Scenario& scenario,
   }
   for (const std::string& vehicle : without_plan(session.simulation())) {
     notes.push_back(
-        fmt::format("{}.planner: not asked, as the estimate does not begin in the "
-                    "first {:g} s",
+        fmt::format("{}.planner: not checked, because there is no estimate in the first {:g} s",
                     vehicle, session.now().s()));
   }
   return notes;
@@ -387,7 +388,7 @@ RunResult run_scenario(const scenario::Scenario& scenario, const Registry& regis
   io::make_folder(options.out);
   result.lock = std::make_shared<FolderLock>(options.out);
   clear_earlier_run(options.out);
-  // Whatever fills the disk, the verdict has its place.
+  // Space for the verdict, in case the disk fills up during the run.
   constexpr std::size_t kVerdictBytes = 1 << 20;
   DiskReserve reserve(options.out, kVerdictBytes);
   write_whole_file(options.out / "scenario.resolved.yaml", scenario.resolved_yaml);
@@ -421,13 +422,13 @@ RunResult run_scenario(const scenario::Scenario& scenario, const Registry& regis
   store(write_verdict);
   store([&] {
     result.canopy = write_canopy(simulation, options.out / "canopy");
-    if (!result.canopy.empty()) write_verdict();  // which names these files
+    if (!result.canopy.empty()) write_verdict();  // because it lists these files
   });
   store([&] { events.check(); });
   if (options.judged) options.judged(result);
   if (wants_pictures && with_log && result.write_failure.empty()) {
     draw_pictures(log_file, registry, options, result);
-    store(write_verdict);  // which names the pictures
+    store(write_verdict);  // because it lists the pictures
   }
   return result;
 }

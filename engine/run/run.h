@@ -1,6 +1,6 @@
 #pragma once
-/// A whole run with its files: log.mcap, events.jsonl, scenario.resolved.yaml, frames/*.png,
-/// summary.json.
+/// A complete run with its files: log.mcap, events.jsonl, scenario.resolved.yaml, frames/*.png,
+/// canopy/*.json, summary.json, junit.xml.
 
 #include <filesystem>
 #include <functional>
@@ -32,14 +32,14 @@ struct Progress {
 struct RunResult;
 
 struct RunOptions {
-  std::filesystem::path out;  ///< folder of the files; created; empty: nothing is written
+  std::filesystem::path out;  ///< folder of the files; created; if empty, nothing is written
   bool log = true;
   bool pictures = true;
   bool measure_cost = true;         ///< computing time of each stage in summary.json
-  std::shared_ptr<RunShelf> shelf;  ///< worlds and contents of files, shared with other runs
+  std::shared_ptr<RunShelf> shelf;  ///< cache of worlds and file contents, shared with other runs
   std::function<void(const Progress&)> progress;  ///< called about five times a second of wall time
-  /// Asked every simulated quarter second, where true ends the run, and before each picture, where
-  /// it ends the drawing.
+  /// Called every simulated quarter second and before each picture; true ends the run or the
+  /// drawing.
   std::function<bool()> interrupted;
   /// Called when the verdict and all files but the pictures are written.
   std::function<void(const RunResult&)> judged;
@@ -51,18 +51,18 @@ struct RunResult {
   std::string error;  ///< one sentence for kBrokenOff and for crashes
   std::string digest;
   double simulated_s = 0.0;
-  double wall_s = 0.0;  ///< of stepping, without building the world and without pictures
+  double wall_s = 0.0;  ///< of stepping, without building the world and drawing pictures
   bool finished = false;
   std::vector<CriterionResult> criteria;
   std::vector<Crash> crashes;  ///< any of them makes the status kCriterionFailed
   std::map<std::string, std::map<std::string, double>> metrics;
-  std::map<std::string, std::map<std::string, double>> planning;  ///< what planners counted
+  std::map<std::string, std::map<std::string, double>> planning;  ///< numbers from planners
   std::vector<PhaseReport> phases;  ///< of a mission; any that did not succeed: kCriterionFailed
-  std::vector<std::filesystem::path> canopy;  ///< what payloads did, a file each
+  std::vector<std::filesystem::path> canopy;  ///< files with the results of payloads
   std::vector<std::filesystem::path> pictures;
-  std::string picture_note;  ///< why there are no pictures or not all, if they were asked for
-  /// What could not be stored after the verdict, and why: "the disk is full". Takes nothing from
-  /// the verdict.
+  std::string picture_note;  ///< reason for missing pictures, if some were requested
+  /// File that could not be stored after the verdict, with the reason, e.g. a full disk. Does not
+  /// change the verdict.
   std::string write_failure;
   /// Keeps other runs out of the folder while this result or a copy lives.
   std::shared_ptr<FolderLock> lock;
@@ -70,18 +70,18 @@ struct RunResult {
   double real_time_factor() const { return wall_s > 0.0 ? simulated_s / wall_s : 0.0; }
 };
 
-/// Refuses what run_scenario() would refuse before its first step, by the same code, and writes
-/// nothing. Outside missions, where a plan that cannot be made fails its phase, it runs until every
-/// planner has made its plan, at most 10 simulated seconds.
-/// @returns notes for people: those of the world, and which planner has no plan yet
+/// Makes the checks that run_scenario() makes before its first step, by the same code, and writes
+/// nothing. Without a mission it also runs until every planner has made its plan, at most 10
+/// simulated seconds. In a mission, a failed plan only fails its phase.
+/// @returns notes for people: those of the world, and which planners have no plan yet
 /// @throws ConfigError, SimulationError as run_scenario()
 std::vector<std::string> rehearse_run(const scenario::Scenario& scenario, const Registry& registry);
 
-/// Runs a scenario and, where options.out names a folder, writes its files; each of them, but log
-/// and events, is there whole or not at all. Verdict and summary are written before pictures are
-/// drawn, and once more behind them.
-/// @throws ConfigError on bad input found while building or planning, or if another run has the
-///   folder; WriteError where the run cannot even begin to write
+/// Runs a scenario and, if options.out names a folder, writes its files. Each file except log and
+/// events exists completely or not at all. Verdict and summary are written before pictures are
+/// drawn, and again afterwards.
+/// @throws ConfigError on bad input found while building or planning, or if another run uses the
+///   folder; WriteError if the run cannot start to write
 RunResult run_scenario(const scenario::Scenario& scenario, const Registry& registry,
                        const RunOptions& options);
 

@@ -23,7 +23,7 @@ ordered_json criteria_json(const std::vector<CriterionResult>& criteria) {
                     {"value", c.value},
                     {"limit", c.limit},
                     {"met", c.met}});
-    // JSON has no word for either.
+    // JSON has neither NaN nor infinity, so a reason explains the null.
     if (!std::isfinite(c.value)) {
       list.back()["reason"] = std::isnan(c.value) ? "not measured" : "infinite";
     }
@@ -31,7 +31,7 @@ ordered_json criteria_json(const std::vector<CriterionResult>& criteria) {
   return list;
 }
 
-/// "products/build_map" or a file in there, from the run's folder.
+/// Path of a product relative to the run's folder: "products/build_map" or a file in it.
 std::string file_in_run(const PhaseReport& phase) {
   const std::filesystem::path folder = std::filesystem::path("products") / phase.name;
   const std::filesystem::path name = phase.product->file.filename();
@@ -79,7 +79,7 @@ ordered_json crashes_json(const RunResult& result) {
   return list;
 }
 
-/// What every vehicle acts on: its estimator, and what it takes from the truth ("state": all).
+/// Estimator of every vehicle, and the quantities that it takes from the truth ("state": all).
 ordered_json estimation_json(const scenario::Scenario& scenario) {
   ordered_json list = ordered_json::object();
   for (const scenario::VehicleConfig& vehicle : scenario.vehicles) {

@@ -1,5 +1,5 @@
 #pragma once
-/// summary.json: everything a script wants to know of a run.
+/// Writer of summary.json: all results of a run, for scripts.
 
 #include <filesystem>
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace vinerow::run {
 
-/// @returns the JSON text. @param simulation  for costs and notes; its metrics are taken from
-/// `result`
+/// @param simulation  for costs and notes; metrics are taken from `result`
+/// @returns the JSON text
 std::string summary_json(const RunResult& result, Simulation& simulation);
 
 /// Version of this program, "0.1.0".

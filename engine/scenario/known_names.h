@@ -1,5 +1,5 @@
 #pragma once
-/// Lists of what would have been known, for the end of a refusal.
+/// Lists of known names for error messages.
 
 #include <cstddef>
 #include <span>
@@ -7,7 +7,7 @@
 
 namespace vinerow::scenario {
 
-/// "a, b, c", "a, b and 9 more" where there are more than `most` names, "none" without any.
+/// "a, b, c", "a, b and 9 more" if there are more than `most` names, "none" if there are no names.
 std::string list_known(std::span<const std::string> names, std::size_t most);
 
 }  // namespace vinerow::scenario

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Reads the merged tree key by key into a Scenario and its resolved text.
+/// Reader of the merged tree into a Scenario and its resolved text, key by key.
 class ScenarioReader {
  public:
   ScenarioReader(const io::YamlNode& root, const io::SourceMark& file, const Registry& registry)
@@ -96,7 +96,7 @@ class ScenarioReader {
       scenario_.name = default_name;
       resolved_.put("name", io::yaml_text(default_name));
     } else if (!is_valid_name(scenario_.name)) {
-      // Folders and files are named after it.
+      // Folders and files are named after the scenario.
       io::fail_at(root_.find("name")->mark,
                   fmt::format("name = '{}', must be made of letters, digits, '_' and '-' and start "
                               "with a letter or '_' (results go to runs/<name>)",
@@ -109,7 +109,7 @@ class ScenarioReader {
     scenario_.gravity_mps2 = values.gravity_mps2;
   }
 
-  /// A structural group such as `record`; all defaults where it is absent.
+  /// Reads a structural group such as `record`; all defaults if it is absent.
   ParameterSet read_group(const char* name) {
     const auto key = std::find_if(scenario_keys().begin(), scenario_keys().end(),
                                   [&](const auto& k) { return k.spec.name == name; });
@@ -127,13 +127,13 @@ class ScenarioReader {
 
   void check_picture_count() const {
     const double every_s = scenario_.pictures.every_s;
-    if (!(every_s > 0.0) || scenario_.duration_s / every_s <= kMostPictureInstants) return;
+    if (!(every_s > 0.0) || scenario_.duration_s / every_s <= kMaxPictureInstants) return;
     io::fail_at(
         mark_of("pictures", "every_s"),
         fmt::format("pictures.every_s = {} s makes {:.0f} frames of each camera in {} s, must "
                     "make at most {:.0f}",
                     every_s, scenario_.duration_s / every_s, scenario_.duration_s,
-                    kMostPictureInstants));
+                    kMaxPictureInstants));
   }
 
   io::SourceMark mark_of(const char* group, const char* key) const {
@@ -145,7 +145,7 @@ class ScenarioReader {
   void read_physics() {
     const double step_s = physics_table().read(read_group("physics"), "").step_s;
     const Duration step = duration_from_s(step_s);
-    // The step counts nanoseconds; what rounding to double may cost is far below one of them.
+    // The step is a whole number of nanoseconds; the rounding error of a double is far below 1 ns.
     if (step.ns <= 0 || std::abs(step.s() - step_s) > 1e-6 * 1e-9) {
       io::fail_at(
           mark_of("physics", "step_s"),
@@ -220,7 +220,7 @@ class ScenarioReader {
     io::YamlNode written;
     scenario_.phases =
         read_phases(root_.find_entry("phases"), scenario_.vehicles, context_, written);
-    // A scenario without a mission says nothing of one.
+    // Without a mission, the resolved text has no `phases`.
     if (!scenario_.phases.empty()) resolved_.put("phases", std::move(written));
     const io::YamlEntry* traffic = root_.find_entry("traffic");
     scenario_.traffic =
@@ -240,7 +240,7 @@ class ScenarioReader {
 
   void read_record() {
     scenario_.record = record_table().read(read_group("record"), "");
-    // Without a log nothing is written at this rate.
+    // The rate is irrelevant without a log.
     if (!scenario_.record.enabled) return;
     check_rate(scenario_.record.truth_rate_Hz, scenario_.physics_step,
                mark_of("record", "truth_rate_Hz"), "record.truth_rate_Hz");
@@ -261,7 +261,7 @@ std::vector<fs::path> read_plugin_list(const io::YamlNode& root) {
   return std::move(reader.scenario_.plugins);
 }
 
-/// Overrides that matter before the plug-ins are known.
+/// Overrides of the key `plugins`, needed before the plug-ins are loaded.
 Overrides of_plugins(const Overrides& overrides) {
   const auto is_of_plugins = [](const std::string& text) {
     return text == "plugins" || text.starts_with("plugins=") || text.starts_with("plugins.");
@@ -306,7 +306,7 @@ Scenario load_scenario(const fs::path& file, const Registry& registry, const Ove
 
 Scenario parse_scenario(const std::string& yaml, const fs::path& folder, const Registry& registry,
                         const Overrides& overrides) {
-  // The folder of a file that is named without one is empty: the current folder.
+  // A file name without folder has an empty parent path: use the current folder.
   const fs::path absolute_folder = fs::absolute(fs::path(".") / folder).lexically_normal();
   io::YamlNode root = io::parse_yaml(yaml, "scenario", absolute_folder);
   const io::SourceMark whole{"scenario", 0};

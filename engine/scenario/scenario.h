@@ -1,6 +1,5 @@
 #pragma once
-/// A scenario as loaded: every value checked against the specs of the parts it names, every path
-/// absolute.
+/// Loaded scenario: all values are checked against the specs of the parts, all paths are absolute.
 
 #include <cstdint>
 #include <filesystem>
@@ -20,15 +19,15 @@ namespace vinerow::scenario {
 /// A part as named in a scenario: `type`, `rate_Hz`, and its parameters at the same level.
 struct PartConfig {
   std::string type;
-  /// The given one or the spec's default. Where that default is 0: the physics step's rate for
+  /// The given rate or the spec's default. If that default is 0: the physics step's rate for
   /// sensors and controllers, and 0 ("as often as the controller") for estimators, guidance and
-  /// metrics. 0 also where the kind has no rate.
+  /// metrics. 0 also if the kind has no rate.
   double rate_Hz = 0.0;
   ParameterSet parameters;
   io::SourceMark where;
 };
 
-/// How a vehicle starts. Either a pose, a spawn point of the world, or an alley's entrance.
+/// Start pose of a vehicle: a pose, a spawn point of the world, or an alley's entrance.
 struct SpawnConfig {
   std::optional<Eigen::Vector2d> p_W;  ///< x_m, y_m
   double yaw_rad = 0.0;                ///< yaw_deg
@@ -45,10 +44,10 @@ struct NamedPart {
   PartConfig part;
 };
 
-/// What becomes of a run in which a vehicle crashes. Its verdict is failed either way.
+/// Consequence of a crash for the run. The run fails either way.
 enum class OnCrash {
-  kEnd,  ///< the run ends at that instant
-  kFail  ///< it goes on for the others
+  kEnd,  ///< the run ends immediately
+  kFail  ///< the run continues for the other vehicles
 };
 
 struct VehicleConfig {
@@ -59,7 +58,7 @@ struct VehicleConfig {
   std::optional<PartConfig> map;        ///< absent: the vehicle knows the true rows
   std::vector<NamedPart> sensors;       ///< in file order
   std::optional<PartConfig> estimator;  ///< absent: estimate = truth
-  std::vector<NamedPart> observers;     ///< estimators beside it, in file order
+  std::vector<NamedPart> observers;     ///< further estimators, in file order
   std::optional<PartConfig> planner;
   std::optional<PartConfig> guidance;
   std::optional<PartConfig> controller;
@@ -77,7 +76,7 @@ struct CameraConfig {
   Eigen::Vector3d target_W = {0, 0, 0};     ///< fixed: look_at_m
   std::optional<Eigen::Vector2d> centre_W;  ///< top: centre_m, the middle of the picture
   double distance_m = 6.0;                  ///< chase: behind the vehicle
-  double height_m = 2.5;  ///< chase: above the vehicle; top: what the picture shows from south to
+  double height_m = 2.5;  ///< chase: above the vehicle; top: extent of the picture from south to
                           ///< north (0 = fits the world)
   Eigen::Vector3d offset_B = {0.3, 0, 0.6};  ///< on board
   double yaw_rad = 0.0;    ///< yaw_deg: chase, orbit angle from behind; on board, view direction
@@ -87,23 +86,23 @@ struct CameraConfig {
   bool show_trail = true;
   bool show_plan = true;
   bool show_grid = false;         ///< the occupancy grid, of the log or the world
-  bool show_tree = false;         ///< what planners searched
-  bool show_estimate = false;     ///< the estimates of vehicles and observers
-  bool show_map = false;          ///< the row meshes of vehicles' own maps
-  std::string sensor = "camera";  ///< shots: whose pictures are drawn
-  int every = 10;                 ///< shots: those whose index is a multiple of it
+  bool show_tree = false;         ///< search trees of the planners
+  bool show_estimate = false;     ///< estimates of vehicles and observers
+  bool show_map = false;          ///< row meshes of the vehicles' maps
+  std::string sensor = "camera";  ///< shots: the sensor whose pictures are drawn
+  int every = 10;                 ///< shots: only every n-th picture is drawn
   io::SourceMark where;
 };
 
-/// A moment of a mission: so long after a phase began.
+/// Instant of a mission: a time after the start of a phase.
 struct PhaseMoment {
   std::string phase;
   double after_s = 0.0;
   io::SourceMark where;
 };
 
-/// Frames of one camera at regular intervals that are drawn without asking whether that was meant.
-inline constexpr double kMostPictureInstants = 10'000.0;
+/// Limit on the frames of one camera at regular intervals; more are rejected as a likely mistake.
+inline constexpr double kMaxPictureInstants = 10'000.0;
 
 struct PicturesConfig {
   int width = 1280;
@@ -111,8 +110,8 @@ struct PicturesConfig {
   int samples = 4;                        ///< antialiasing, 1..8
   std::vector<double> times_s;            ///< frames at these times
   std::vector<std::string> moment_texts;  ///< as written: "spray + 30"
-  std::vector<PhaseMoment> moments;       ///< and at these moments of a mission
-  double every_s = 0.0;                   ///< and every so often; 0 = not
+  std::vector<PhaseMoment> moments;       ///< and at these instants of a mission
+  double every_s = 0.0;                   ///< and at this interval; 0 = none
   std::vector<double>
       shares;  ///< and at these shares of the run's end (0..1), e.g. 1.0 = last instant
   std::vector<CameraConfig> cameras;
@@ -120,7 +119,7 @@ struct PicturesConfig {
 
 struct RecordConfig {
   bool enabled = true;
-  double truth_rate_Hz = 20.0;  ///< how often truth, links and wheel states go into the log
+  double truth_rate_Hz = 20.0;  ///< log rate of truth, links and wheel states
   double sensor_rate_limit_Hz =
       100.0;  ///< faster sensors are thinned in the log (never in the simulation)
   std::string compression = "zstd";  ///< zstd | lz4 | none
@@ -135,28 +134,28 @@ struct Criterion {
   io::SourceMark where;
 };
 
-/// A product that a phase takes: `map: from build_map`, or `pictures: from survey/plane/camera`
-/// where a phase gives several.
+/// Product that a phase takes: `map: from build_map`, or `pictures: from survey/plane/camera` if
+/// the other phase gives several.
 struct ProductSource {
   std::string key;    ///< "map"
-  std::string phase;  ///< that gives it
-  std::string item;   ///< "plane/camera"; "" where the phase gives one alone
+  std::string phase;  ///< the producer
+  std::string item;   ///< "plane/camera"; "" if the phase gives only one
   ProductKind kind = ProductKind::kMap;
   io::SourceMark where;
 };
 
-/// What becomes of a mission in which a phase fails. What waits for that phase is blocked.
+/// Consequence of a failed phase for the mission. Phases that wait for it are blocked.
 enum class OnFailure {
-  kAbort,    ///< it ends at that instant
-  kContinue  ///< phases that do not wait for the failed one go on
+  kAbort,    ///< the mission ends immediately
+  kContinue  ///< phases that do not wait for the failed one continue
 };
 
-/// A phase begins when the wind has been weak enough for a while.
+/// Weather condition for the start of a phase: weak wind for a certain time.
 struct WeatherWindow {
   double max_wind_mps = 0.0;  ///< mean over `over_s`
   double height_m = 10.0;     ///< above the ground in the middle of the parcel
   double over_s = 30.0;
-  double wait_s = 600.0;  ///< after so long without such a window the phase fails
+  double wait_s = 600.0;  ///< without such a window for this time, the phase fails
 };
 
 /// A node of the mission's graph: vehicles at work, or a job.
@@ -166,19 +165,19 @@ struct PhaseConfig {
   std::optional<PartConfig> job;
   std::vector<std::string> after;    ///< phases that must have succeeded, those of `takes` included
   std::vector<ProductSource> takes;  ///< in the order of the file
-  double timeout_s = 0.0;            ///< of vehicles, from the phase's begin; 0: as long as the run
+  double timeout_s = 0.0;            ///< of vehicles, from the phase's start; 0: no limit
   double duration_s = 0.0;           ///< of a job, in simulated time
   OnFailure on_failure = OnFailure::kAbort;
   std::optional<WeatherWindow> weather;
-  /// Metrics are "<vehicle>.<metric>", those of a job its numbers.
+  /// Metrics are "<vehicle>.<metric>", or a number of the job.
   std::vector<Criterion> criteria;
   io::SourceMark where;
 };
 
-/// Who shares the alleys, so that nobody meets another between the rows.
+/// Vehicles that share the alleys by reservation, so that they do not meet between the rows.
 struct TrafficConfig {
-  std::vector<std::string> vehicles;  ///< first served first; empty: alleys are not reserved
-  double stop_before_m = 1.0;         ///< before an alley that another one has
+  std::vector<std::string> vehicles;  ///< in order of priority; empty: alleys are not reserved
+  double stop_before_m = 1.0;         ///< distance before an occupied alley
   io::SourceMark where;
 };
 
@@ -203,32 +202,33 @@ struct Scenario {
   std::string resolved_yaml;  ///< includes and overrides applied, defaults written out
 };
 
-/// A value for a key path. Errors name the value's own mark, and a relative path in it starts at
-/// its own folder.
+/// Value for a key path. Errors name the value's own mark; relative paths in it start at its own
+/// folder.
 struct OverrideValue {
-  std::string path;  ///< "rover.controller.lookahead_m"; `vehicles.` may be left out
+  std::string path;  ///< "rover.controller.lookahead_m"; `vehicles.` may be omitted
   io::YamlNode value;
 };
 
-/// Values applied over the file: first `values`, then `sets`, each in order.
+/// Values that override those of the file: first `values`, then `sets`, each in order.
 struct Overrides {
   std::vector<std::string> sets;  ///< of the command line: "rover.controller.lookahead_m=0.5"
   std::optional<std::uint64_t> seed;
   std::vector<OverrideValue> values = {};  ///< of a study
 };
 
-/// Only the plug-in list, read first because plug-ins extend the registry that the rest is checked
-/// against.
-/// @returns absolute paths of files that exist. Of the overrides only those of `plugins` count.
+/// Reads only the plug-in list. It comes first because plug-ins extend the registry that the rest
+/// is checked against. Only overrides of `plugins` are applied.
+/// @returns absolute paths of existing files
 std::vector<std::filesystem::path> load_plugin_list(const std::filesystem::path& file,
                                                     const Overrides& overrides = {});
 
-/// A scenario file that is read once, for scenarios that differ by their overrides.
+/// Scenario file that is read once and loaded with different overrides.
 class ScenarioSource {
  public:
-  /// Reads the file and what it includes. @throws ConfigError
+  /// Reads the file and its includes. @throws ConfigError
   explicit ScenarioSource(const std::filesystem::path& file);
-  /// Overrides and checks. @throws ConfigError with "file:line: key = value, ..." in one sentence
+  /// Applies overrides and checks all values. @throws ConfigError with "file:line: key = value,
+  /// ..." in one sentence
   Scenario load(const Registry& registry, const Overrides& overrides = {}) const;
   /// The file with its includes merged in.
   const io::YamlNode& tree() const { return tree_; }
@@ -238,10 +238,10 @@ class ScenarioSource {
   io::YamlNode tree_;
 };
 
-/// The same for one scenario of a file.
+/// Loads one scenario from a file; exceptions as in ScenarioSource.
 Scenario load_scenario(const std::filesystem::path& file, const Registry& registry,
                        const Overrides& overrides = {});
-/// The same from text; relative paths start at `folder`, and an empty one is the current folder.
+/// The same from text; relative paths start at `folder`, or at the current folder if it is empty.
 Scenario parse_scenario(const std::string& yaml, const std::filesystem::path& folder,
                         const Registry& registry, const Overrides& overrides = {});
 

@@ -9,7 +9,7 @@
 namespace vinerow::scenario {
 namespace {
 
-/// "rover.cross_track_rms_m", or "rows" where a job's own number is meant.
+/// Checks a metric's name: "rover.cross_track_rms_m", or "rows" for a job's own number.
 void check_metric(const std::string& metric, const io::SourceMark& mark, const std::string& path,
                   const CriterionScope& scope) {
   if (scope.plain && !metric.empty()) return;

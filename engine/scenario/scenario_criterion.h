@@ -1,5 +1,5 @@
 #pragma once
-/// Reads the limits that a run, or a phase of it, must meet.
+/// Reader of the criteria of a run or a phase.
 
 #include <string>
 #include <vector>
@@ -9,13 +9,14 @@
 
 namespace vinerow::scenario {
 
-/// Whose metrics criteria may name.
+/// Metrics that criteria may name.
 struct CriterionScope {
   std::vector<std::string> owners;  ///< vehicles, and jobs of a mission: "<owner>.<metric>"
   bool plain = false;               ///< a job's own numbers: "<number>"
 };
 
-/// A list of criteria. @param entry  nullptr: none. @param written  the resolved list
+/// Reads a list of criteria. @param entry  nullptr: no criteria. @param written  receives the
+/// resolved list
 std::vector<Criterion> read_criteria(const io::YamlEntry* entry, const std::string& path,
                                      const CriterionScope& scope, io::YamlNode& written);
 

@@ -1,4 +1,5 @@
-// Words of the faults: what is allowed, which key was meant, where a misplaced key belongs.
+// Texts of error messages: allowed values, the key that was probably meant, the place where a
+// misplaced key belongs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +14,7 @@
 namespace vinerow::scenario {
 namespace {
 
-/// Longer lists of known keys hide the answer rather than give it.
+/// Chosen: longer lists of known keys are hard to read.
 constexpr std::size_t kMaxListedKeys = 40;
 
 std::string lower_case(std::string text) {
@@ -21,7 +22,7 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-/// "lookahead" of "lookahead_m": the key without what follows the last underscore.
+/// "lookahead" of "lookahead_m": the key up to its last underscore.
 std::string stem(const std::string& key) {
   const std::size_t underscore = key.rfind('_');
   return underscore == std::string::npos || underscore == 0 ? key : key.substr(0, underscore);
@@ -36,7 +37,7 @@ std::string range_text(const ParameterSpec& spec) {
   return "";
 }
 
-/// Where a part stands in the scenario, and the keys that it has there.
+/// Position of a mapping in the scenario, and its allowed keys.
 struct Home {
   std::string path;
   std::vector<std::string> keys;
@@ -51,7 +52,7 @@ void add_part_home(const io::YamlNode* node, PartKind kind, const std::string& p
   homes.push_back({path, names_of(registry.spec(kind, type->text).parameters)});
 }
 
-/// Every mapping of the scenario that has keys of its own, in file order.
+/// All mappings of the scenario with fixed keys, in file order.
 std::vector<Home> all_homes(const ReadContext& context) {
   std::vector<Home> homes;
   const io::YamlNode& root = context.root;
@@ -127,7 +128,8 @@ std::string likely_key(const std::string& wrong, const std::vector<std::string>&
   for (const std::string& key : known) {
     if (lower_case(key) == lower) return key;
   }
-  // The unit is missing, or another: of several keys that begin alike the one that ends in a unit.
+  // The unit is missing or different: among keys with the same stem, prefer the one that ends in a
+  // unit.
   for (const std::string& begin : {lower, lower_case(stem(wrong))}) {
     std::vector<std::string> alike;
     for (const std::string& key : known) {
@@ -140,7 +142,7 @@ std::string likely_key(const std::string& wrong, const std::vector<std::string>&
   const std::string nearest = nearest_name(wrong, known);
   if (!nearest.empty() && edit_distance(wrong, nearest) <= 2) return nearest;
   for (const std::string& key : known) {
-    // A word of the right key: "rows" of "plant_rows".
+    // A word of the correct key: "rows" of "plant_rows".
     if (("_" + lower_case(key) + "_").find("_" + lower + "_") != std::string::npos) return key;
   }
   return nearest;

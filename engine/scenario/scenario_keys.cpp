@@ -63,14 +63,14 @@ const ParameterTable<ScenarioValues>& scenario_table() {
           .integer("vinerow", &P::format, between(kFormatVersion, kFormatVersion),
                    "version of the file format")
           .required()
-          .text("name", of(&Scenario::name), "of the scenario; default: the file's name")
-          .text("description", of(&Scenario::description), "what the scenario shows")
+          .text("name", of(&Scenario::name), "name of the scenario; default: the file's name")
+          .text("description", of(&Scenario::description), "purpose of the scenario")
           .integer("seed", of(&Scenario::seed), between(0, 9223372036854775807.0),
-                   "of every random stream of the run")
+                   "seed of all random streams of the run")
           .number("duration_s", "s", of(&Scenario::duration_s), above(0.0, 1e7),
-                  "the run ends here at the latest")
+                  "latest end of the run")
           .boolean("stop_when_finished", of(&Scenario::stop_when_finished),
-                   "end when every controller has finished")
+                   "end the run when every controller has finished")
           .number("gravity_mps2", "m/s2", of(&Scenario::gravity_mps2), between(0.0, 30.0),
                   "gravitational acceleration");
   return table;
@@ -80,7 +80,7 @@ const ParameterTable<PhysicsParams>& physics_table() {
   using P = PhysicsParams;
   static const ParameterTable<P> table =
       ParameterTable<P>().number("step_s", "s", &P::step_s, between(1e-5, 0.1),
-                                 "physics step; every part's period is a multiple");
+                                 "physics step; the period of every part is a multiple of it");
   return table;
 }
 
@@ -89,10 +89,10 @@ const ParameterTable<TrafficConfig>& traffic_table() {
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .texts("reserve_alleys", &P::vehicles,
-                 "vehicles that enter an alley only when no other of them has it; of "
-                 "two that ask at once the first named is served")
+                 "vehicles that reserve alleys: each enters an alley only if no other has reserved "
+                 "it; the order of the list is the priority for simultaneous requests")
           .number("stop_before_m", "m", &P::stop_before_m, between(0.0, 100.0),
-                  "so far before an alley that another has they wait");
+                  "distance before an occupied alley at which a vehicle waits");
   return table;
 }
 
@@ -100,12 +100,12 @@ const ParameterTable<RecordConfig>& record_table() {
   using P = RecordConfig;
   static const ParameterTable<P> table =
       ParameterTable<P>()
-          .boolean("enabled", &P::enabled, "whether a log is written")
+          .boolean("enabled", &P::enabled, "write a log")
           .number("truth_rate_Hz", "Hz", &P::truth_rate_Hz, above(0.0, 1e6),
-                  "how often true poses, links and wheel states are logged")
+                  "log rate of true poses, links and wheel states")
           .number("sensor_rate_limit_Hz", "Hz", &P::sensor_rate_limit_Hz, above(0.0, 1e6),
-                  "faster sensors are thinned in the log, never in the simulation")
-          .text("compression", &P::compression, "of the log's chunks")
+                  "maximum log rate of a sensor; the simulation is not affected")
+          .text("compression", &P::compression, "compression of the log's chunks")
           .one_of({"zstd", "lz4", "none"});
   return table;
 }
@@ -114,8 +114,8 @@ const ParameterTable<VehicleConfig>& vehicle_table() {
   using P = VehicleConfig;
   static const ParameterTable<P> table = ParameterTable<P>().choice(
       "on_crash", &P::on_crash, {{"end", OnCrash::kEnd}, {"fail", OnCrash::kFail}},
-      "what a crash of the vehicle does beside failing the run: it ends "
-      "there, or goes on for the others");
+      "after a crash of this vehicle, which fails the run: end the run, or "
+      "continue it for the other vehicles");
   return table;
 }
 
@@ -123,13 +123,13 @@ const ParameterTable<PicturesConfig>& pictures_table() {
   using P = PicturesConfig;
   static const ParameterTable<P> table =
       ParameterTable<P>()
-          .integer("width", &P::width, between(16, 8192), "pixels")
-          .integer("height", &P::height, between(16, 8192), "pixels")
+          .integer("width", &P::width, between(16, 8192), "width in pixels")
+          .integer("height", &P::height, between(16, 8192), "height in pixels")
           .integer("samples", &P::samples, between(1, 8), "antialiasing samples per pixel")
-          .number("every_s", "s", &P::every_s, between(0.0, 1e7), "a frame every so often; 0 = not")
+          .number("every_s", "s", &P::every_s, between(0.0, 1e7), "interval of frames; 0 = none")
           .numbers("times_s", "s", &P::times_s, between(0.0, 1e7), "frames at these times")
           .texts("moments", &P::moment_texts,
-                 "frames at moments of a mission: '<phase> + <seconds>'")
+                 "frames at instants of a mission: '<phase> + <seconds>'")
           .numbers("shares", "", &P::shares, between(0.0, 1.0),
                    "frames at these shares of the run; default [1] where no other moment is "
                    "given");
@@ -140,20 +140,20 @@ const std::vector<StructuralKey>& scenario_keys() {
   static const std::vector<StructuralKey> keys = [] {
     std::vector<StructuralKey> all = parameters_of(scenario_table().specs());
     const std::vector<StructuralKey> more = {
-        group("physics", physics_table().specs(), "settings of the physics"),
-        shaped("plugins", KeyShape::kPathList, "shared libraries that bring parts of their own"),
+        group("physics", physics_table().specs(), "physics settings"),
+        shaped("plugins", KeyShape::kPathList, "shared libraries with further parts"),
         required_key(part("world", KeyShape::kPart, PartKind::kWorld, false,
-                          "terrain, rows and everything else that stands in it")),
-        required_key(shaped("vehicles", KeyShape::kVehicles, "the vehicles by name")),
+                          "terrain, rows and other fixed objects")),
+        required_key(shaped("vehicles", KeyShape::kVehicles, "vehicles by name")),
         shaped("phases", KeyShape::kPhases,
-               "the mission's graph: vehicles at work, and jobs; absent: every vehicle starts at "
+               "mission graph: phases of vehicles, and jobs; absent: every vehicle starts at "
                "once"),
-        group("traffic", traffic_table().specs(), "how vehicles share the alleys"),
+        group("traffic", traffic_table().specs(), "reservation of alleys by several vehicles"),
         part("metrics", KeyShape::kNamedParts, PartKind::kMetric, false,
-             "what is measured for every vehicle; default: every known metric"),
+             "metrics computed for every vehicle; default: all known metrics"),
         group_list("criteria", criterion_table().specs(), "limits that the run must meet"),
-        group("record", record_table().specs(), "what goes into the log"),
-        shaped("pictures", KeyShape::kPictures, "frames that the run renders")};
+        group("record", record_table().specs(), "contents of the log"),
+        shaped("pictures", KeyShape::kPictures, "pictures that the run renders")};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }();
@@ -162,21 +162,21 @@ const std::vector<StructuralKey>& scenario_keys() {
 
 const std::vector<StructuralKey>& vehicle_keys() {
   static const std::vector<StructuralKey> keys = {
-      required_key(shaped("spawn", KeyShape::kSpawn, "where the vehicle starts")),
+      required_key(shaped("spawn", KeyShape::kSpawn, "start pose of the vehicle")),
       parameter(vehicle_table().specs().front()),
       part("map", KeyShape::kPart, PartKind::kMap, true,
-           "what the vehicle is told of the world; absent: the true rows"),
-      part("sensors", KeyShape::kNamedParts, PartKind::kSensor, true, "the sensors by name"),
+           "the vehicle's map of the world; absent: the true rows"),
+      part("sensors", KeyShape::kNamedParts, PartKind::kSensor, true, "sensors by name"),
       part("estimator", KeyShape::kPart, PartKind::kEstimator, true,
-           "makes the estimate from sensors; absent: the estimate is the truth"),
+           "computes the estimate from sensors; absent: the estimate is the truth"),
       part("observers", KeyShape::kNamedParts, PartKind::kEstimator, true,
-           "estimators by name that run beside it, on the same sensors, and are judged by "
-           "the metric estimation; nothing acts on them"),
-      part("planner", KeyShape::kPart, PartKind::kPlanner, true, "makes the path from the map"),
+           "further estimators by name, with the same sensors; the metric estimation "
+           "evaluates them, no part uses them"),
+      part("planner", KeyShape::kPart, PartKind::kPlanner, true, "computes the path from the map"),
       part("guidance", KeyShape::kPart, PartKind::kGuidance, true, "local planning"),
-      part("controller", KeyShape::kPart, PartKind::kController, true, "drives the actuators"),
+      part("controller", KeyShape::kPart, PartKind::kController, true, "commands the actuators"),
       part("payloads", KeyShape::kNamedParts, PartKind::kPayload, true,
-           "what the vehicle works with, by name: sprayers, scouting cameras")};
+           "payloads by name: sprayers, scouting cameras")};
   return keys;
 }
 
@@ -184,7 +184,7 @@ const std::vector<StructuralKey>& pictures_keys() {
   static const std::vector<StructuralKey> keys = [] {
     std::vector<StructuralKey> all = parameters_of(pictures_table().specs());
     all.push_back(shaped("cameras", KeyShape::kCameras,
-                         "the cameras by name; default: one that chases the first vehicle"));
+                         "cameras by name; default: one that follows the first vehicle"));
     return all;
   }();
   return keys;
@@ -196,9 +196,9 @@ const ParameterTable<CriterionParams>& criterion_table() {
       ParameterTable<P>()
           .text("metric", &P::metric, "<vehicle>.<metric>, e.g. rover.cross_track_rms_m")
           .required()
-          .number("min", "", &P::min, kAnyNumber, "the metric must reach this")
-          .number("max", "", &P::max, kAnyNumber, "the metric must not exceed this")
-          .text("name", &P::name, "in reports; default: the metric and its limits");
+          .number("min", "", &P::min, kAnyNumber, "lower limit of the metric")
+          .number("max", "", &P::max, kAnyNumber, "upper limit of the metric")
+          .text("name", &P::name, "name in reports; default: the metric and its limits");
   return table;
 }
 
@@ -208,35 +208,36 @@ const ParameterTable<PhaseConfig>& phase_table() {
   static const ParameterTable<W> weather_table =
       ParameterTable<W>()
           .number("max_wind_mps", "m/s", &W::max_wind_mps, kPositive,
-                  "mean wind to begin in, at most")
+                  "maximum mean wind at the start")
           .required()
           .number("height_m", "m", &W::height_m, between(0.5, 500.0),
-                  "above the ground in the middle of the rows, where it is measured")
-          .number("over_s", "s", &W::over_s, kPositive, "time over which the mean is taken")
+                  "height of the wind measurement above the ground, in the middle of the rows")
+          .number("over_s", "s", &W::over_s, kPositive, "averaging time of the wind")
           .number("wait_s", "s", &W::wait_s, between(0.0, 1e7),
-                  "the phase fails where no such window came in this time");
+                  "without such a window for this time, the phase fails");
   static const ParameterTable<P> table =
       ParameterTable<P>()
-          .texts("vehicles", &P::vehicles, "that work in this phase, each by its own controller")
+          .texts("vehicles", &P::vehicles, "vehicles of this phase, each with its own controller")
           .texts("after", &P::after,
-                 "phases that must have succeeded before, beside those whose products "
+                 "phases that must have succeeded before, besides those whose products "
                  "it takes")
           .number("timeout_s", "s", &P::timeout_s, between(0.0, 1e7),
-                  "vehicles that have not finished by then have failed; 0: as long as the run")
+                  "time limit of the vehicles, after which the phase fails; 0: no limit")
           .number("duration_s", "s", &P::duration_s, between(0.0, 1e7),
-                  "simulated time that a job takes")
-          .choice("on_failure", &P::on_failure,
-                  {{"abort", OnFailure::kAbort}, {"continue", OnFailure::kContinue}},
-                  "a failure ends the mission, or phases that do not wait for this one go on")
+                  "simulated duration of a job")
+          .choice(
+              "on_failure", &P::on_failure,
+              {{"abort", OnFailure::kAbort}, {"continue", OnFailure::kContinue}},
+              "after a failure: end the mission, or continue phases that do not wait for this one")
           .group("weather", &P::weather, weather_table,
-                 "the phase begins in a window of weak wind");
+                 "the phase starts only in a window of weak wind");
   return table;
 }
 
 std::vector<ProductPort> product_ports(const Registry& registry) {
   std::vector<ProductPort> ports = {
-      {"map", ProductKind::kMap, false, "what the phase's vehicles are told of the world"},
-      {"plan", ProductKind::kPlan, false, "what the phase's vehicle follows"}};
+      {"map", ProductKind::kMap, false, "map of the phase's vehicles"},
+      {"plan", ProductKind::kPlan, false, "plan that the phase's vehicle follows"}};
   for (const std::string& job : registry.names(PartKind::kJob)) {
     for (const ProductPort& port : registry.spec(PartKind::kJob, job).takes) {
       const bool is_known =
@@ -256,7 +257,7 @@ const ParameterTable<SpawnConfig>& alley_spawn_table() {
           .integer("alley", &P::alley, between(0, 1e6), "start at this alley's entrance (id)")
           .required()
           .number("offset_m", "m", &P::offset_m, between(-1e6, 1e6),
-                  "so far before the alley's first point")
+                  "distance before the alley's first point")
           .boolean("reverse", &P::reverse, "start at the last point, driving to the first");
   return table;
 }
@@ -331,12 +332,12 @@ std::string spawn_forms_text() {
 
 namespace {
 
-/// The defaults of a kind.
+/// Camera of a kind with default values.
 CameraConfig make_camera(CameraKind kind) {
   CameraConfig camera;
   camera.kind = kind;
   if (kind == CameraKind::kTop) camera.height_m = 0.0;
-  // What a survey camera sees is known, and lines over the ground are none of it.
+  // A survey camera's picture has no lines over the ground.
   if (kind == CameraKind::kShots) camera.show_trail = camera.show_plan = false;
   return camera;
 }
@@ -364,41 +365,45 @@ ParameterTable<CameraFields<kKind>> make_camera_table() {
   } else {
     table.text("vehicle", &P::vehicle,
                kKind == CameraKind::kTop
-                   ? "the vehicle it stays above; absent: the middle of the world"
-                   : "the vehicle it belongs to; default: the first");
+                   ? "the vehicle below the camera; absent: the middle of the world"
+                   : "the vehicle of the camera; default: the first");
   }
   if constexpr (kKind == CameraKind::kChase) {
-    table.number("distance_m", "m", of(&C::distance_m), between(0.1, 1e4), "behind the vehicle")
-        .number("height_m", "m", of(&C::height_m), between(-1e4, 1e4), "above the vehicle")
+    table
+        .number("distance_m", "m", of(&C::distance_m), between(0.1, 1e4),
+                "distance behind the vehicle")
+        .number("height_m", "m", of(&C::height_m), between(-1e4, 1e4), "height above the vehicle")
         .degrees("yaw_deg", of(&C::yaw_rad), between(-360.0, 360.0),
                  "orbit angle from behind, positive to the left");
   } else if constexpr (kKind == CameraKind::kTop) {
     table
         .numbers("centre_m", "m", of(&C::centre_W), between(-1e5, 1e5),
-                 "x and y in the middle of the picture, instead of a vehicle")
+                 "x and y of the middle of the picture, instead of a vehicle")
         .number("height_m", "m", of(&C::height_m), between(0.0, 1e5),
-                "what the picture shows from south to north; 0 = the whole world");
+                "extent of the picture from south to north; 0 = the whole world");
   } else if constexpr (kKind == CameraKind::kShots) {
     table.text("sensor", of(&C::sensor), "the camera_trigger whose pictures are drawn")
         .integer("every", of(&C::every), between(1, 1e6),
-                 "pictures whose index is a multiple of it");
+                 "draw only pictures whose index is a multiple of this");
   } else if constexpr (kKind == CameraKind::kOnBoard) {
     table
         .numbers("offset_m", "m", of(&C::offset_B), between(-1e3, 1e3),
-                 "in the body frame: forward, left, up")
-        .degrees("yaw_deg", of(&C::yaw_rad), between(-360.0, 360.0), "view direction, to the left")
-        .degrees("pitch_deg", of(&C::pitch_rad), between(-90.0, 90.0), "positive looks down");
+                 "position in the body frame: forward, left, up")
+        .degrees("yaw_deg", of(&C::yaw_rad), between(-360.0, 360.0),
+                 "view direction, positive to the left")
+        .degrees("pitch_deg", of(&C::pitch_rad), between(-90.0, 90.0),
+                 "view direction, positive looks down");
   }
   if constexpr (kKind != CameraKind::kShots) {
     table.degrees("fov_deg", of(&C::fov_rad), between(1.0, 170.0), "vertical field of view");
   }
   table.boolean("show_sensor_rays", of(&C::show_sensor_rays), "draw the rays of range sensors")
-      .boolean("show_trail", of(&C::show_trail), "draw where the vehicles have been")
+      .boolean("show_trail", of(&C::show_trail), "draw the tracks of the vehicles")
       .boolean("show_plan", of(&C::show_plan), "draw the planned paths")
       .boolean("show_grid", of(&C::show_grid), "draw the occupancy grid")
-      .boolean("show_tree", of(&C::show_tree), "draw what the planners searched")
+      .boolean("show_tree", of(&C::show_tree), "draw the search trees of the planners")
       .boolean("show_estimate", of(&C::show_estimate),
-               "draw where estimator and observers think the vehicles are")
+               "draw the estimates of estimators and observers")
       .boolean("show_map", of(&C::show_map), "draw the vehicles' own maps");
   return table;
 }
@@ -409,7 +414,7 @@ const ParameterTable<CameraFields<kKind>>& camera_table() {
   return table;
 }
 
-/// Calls `use` with the table of a kind; of an unknown one, with that of a camera on board.
+/// Calls `use` with the table of a kind; for an unknown kind, with that of an on-board camera.
 template <class Use>
 auto with_camera_table(const std::string& kind, Use&& use) {
   if (kind == "fixed") return use(camera_table<CameraKind::kFixed>());
@@ -452,7 +457,7 @@ const ParameterTable<RateParams>& rate_table() {
   using P = RateParams;
   static const ParameterTable<P> table =
       ParameterTable<P>().number("rate_Hz", "Hz", &P::rate_Hz, between(1e-6, 1e6),
-                                 "how often it runs; its period is a multiple of the physics step");
+                                 "rate; its period is a multiple of the physics step");
   return table;
 }
 
@@ -461,8 +466,8 @@ ParameterSpec rate_field(PartKind kind, const PartSpec& part) {
   if (part.default_rate_Hz > 0.0) {
     spec.default_value = part.default_rate_Hz;
   } else {
-    spec.description = follows_controller(kind) ? "how often it runs; default: like the controller"
-                                                : "how often it runs; default: every physics step";
+    spec.description = follows_controller(kind) ? "rate; default: like the controller"
+                                                : "rate; default: every physics step";
   }
   return spec;
 }

@@ -28,7 +28,7 @@ std::vector<std::string> split_path(const std::string& path, const io::SourceMar
   }
 }
 
-/// Puts `vehicles` in front where the path starts with a vehicle's name.
+/// Prepends `vehicles` if the path starts with a vehicle's name.
 void complete_path(std::vector<std::string>& keys, const io::YamlNode& root,
                    const io::SourceMark& mark) {
   std::vector<std::string> known;
@@ -80,7 +80,7 @@ void set_value(io::YamlNode& root, const std::vector<std::string>& keys, io::Yam
     if (!node->is_mapping()) {
       io::fail_at(mark, fmt::format("{} = {} has no key '{}'", path, io::shown(*node), keys[i]));
     }
-    // A source that belonged to the value before would be wrong for the new one.
+    // The source of the old value does not apply to the new one.
     if (last && keys[i] == "value" && is_sourced_value(*node)) node->erase("source");
     path = join_path(path, keys[i]);
     if (last && value.is_null()) {

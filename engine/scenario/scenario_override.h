@@ -1,5 +1,5 @@
 #pragma once
-/// `--set a.b.c=value` and `--seed`: values from the command line, written over the merged file.
+/// Overrides of scenario values: `--set a.b.c=value`, `--seed` and values of a study.
 
 #include <string>
 
@@ -8,11 +8,10 @@
 
 namespace vinerow::scenario {
 
-/// Writes all overrides into the merged scenario, in order. What they say is checked afterwards
-/// with everything else; the marks of the written values name the `--set` text. A relative path in
-/// a value starts at `folder`.
-/// @throws ConfigError naming the `--set` text: no '=', bad YAML, unknown start of the path, index
-/// out of range
+/// Writes all overrides into the merged scenario, in order. The values are checked later with all
+/// others; their marks name the `--set` text. Relative paths in values start at `folder`.
+/// @throws ConfigError naming the `--set` text: no '=', bad YAML, unknown first key of the path,
+/// index out of range
 void apply_overrides(io::YamlNode& root, const Overrides& overrides,
                      const std::filesystem::path& folder);
 

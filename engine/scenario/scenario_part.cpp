@@ -23,7 +23,7 @@ std::string with_article(PartKind kind) {
   return fmt::format("{} {}", kind == PartKind::kEstimator ? "an" : "a", to_string(kind));
 }
 
-/// The spec of the type that a part names.
+/// Spec of the type that a part names.
 const PartSpec& read_type(const io::YamlEntry& entry, const std::string& path, PartKind kind,
                           const ReadContext& context) {
   const std::vector<std::string> known = context.registry.names(kind);
@@ -103,7 +103,7 @@ std::optional<PartConfig>& slot_of(VehicleConfig& vehicle, PartKind kind) {
   }
 }
 
-/// A sensor or an observer gives its signal its name.
+/// The signal of a sensor or observer has its name.
 void check_signal_name(const io::YamlEntry& entry, const std::string& path, const char* what) {
   if (is_known(entry.key, reserved_signal_names())) {
     io::fail_at(entry.mark,
@@ -112,19 +112,20 @@ void check_signal_name(const io::YamlEntry& entry, const std::string& path, cons
   }
 }
 
-/// Whether a signal, named in full or as its vehicle names it, tells what is true.
+/// True for truth signals, by full name or by the name within the vehicle.
 bool is_truth_signal(const std::string& name) {
   const std::string local = name.substr(name.rfind('/') + 1);
   return local == "truth" || local.ends_with("_truth");
 }
 
-/// A vehicle knows the world by its sensors: sensors, payloads and metrics alone may ask the truth.
+/// Only sensors, payloads and metrics may use the truth; all other parts of a vehicle work on
+/// readings.
 bool works_on_readings(PartKind kind) {
   return kind == PartKind::kEstimator || kind == PartKind::kPlanner ||
          kind == PartKind::kGuidance || kind == PartKind::kController;
 }
 
-/// Parts take the names of the signals they read as free texts.
+/// Checks parameters that name signals to read: they are free texts.
 void check_wires(const io::YamlEntry& entry, const std::string& path, PartKind kind,
                  const std::vector<ParameterSpec>& fields, const ParameterSet& values) {
   if (!works_on_readings(kind)) return;
@@ -140,19 +141,19 @@ void check_wires(const io::YamlEntry& entry, const std::string& path, PartKind k
       const io::YamlEntry* given = entry.value.find_entry(field.name);
       io::fail_at(
           given ? given->mark : entry.mark,
-          fmt::format("{} = '{}' is the truth, which no part of a vehicle reads by name; must "
+          fmt::format("{} = '{}' is a truth signal, which parts of a vehicle cannot read; must "
                       "be the name of a sensor's signal",
                       join_path(path, field.name), name));
     }
   }
 }
 
-/// Whatever an observer or a payload writes must be its own.
+/// Signals of observers and payloads must have unique names.
 void check_observer_names(const VehicleConfig& vehicle, const std::string& path) {
   std::map<std::string, std::string> taken;
   for (const NamedPart& sensor : vehicle.sensors) {
     taken.emplace(sensor.name, "the sensor '" + sensor.name + "'");
-    taken.emplace(sensor.name + "_truth", "the truth beside the sensor '" + sensor.name + "'");
+    taken.emplace(sensor.name + "_truth", "the truth signal of the sensor '" + sensor.name + "'");
   }
   for (const NamedPart& payload : vehicle.payloads) {
     const auto [other, is_free] = taken.emplace(payload.name, "a payload");
@@ -171,7 +172,7 @@ void check_observer_names(const VehicleConfig& vehicle, const std::string& path)
   }
 }
 
-/// A vehicle's other parts write signals as well, which their specs name: "wheels", "battery".
+/// Checks names against the signals in the specs of a vehicle's other parts: "wheels", "battery".
 void check_part_signals(const VehicleConfig& vehicle, const std::string& path,
                         const Registry& registry) {
   struct Writer {
@@ -258,7 +259,7 @@ ReadPart read_part(const io::YamlEntry& entry, const std::string& path, PartKind
       check_rate(part.config.rate_Hz, context.physics_step, given ? given->mark : entry.mark,
                  join_path(path, "rate_Hz"));
     } else if (!follows_controller(kind)) {
-      // The part asks for every physics step; llround in period_of_rate brings the same step back.
+      // The part runs every physics step; llround in period_of_rate restores the exact step.
       part.config.rate_Hz = 1e9 / static_cast<double>(context.physics_step.ns);
     }
   }
@@ -284,10 +285,9 @@ std::vector<NamedPart> read_named_parts(const io::YamlNode& mapping, const std::
     if (kind == PartKind::kEstimator) check_signal_name(entry, path, "an observer");
     if (kind == PartKind::kPayload) check_signal_name(entry, path, "a payload");
     if (kind != PartKind::kMetric && entry.key.ends_with("_truth")) {
-      io::fail_at(entry.mark,
-                  fmt::format("{}: a name cannot end in '_truth', which marks what a sensor "
-                              "would have read without error",
-                              join_path(path, entry.key)));
+      io::fail_at(entry.mark, fmt::format("{}: a name cannot end in '_truth', which marks the "
+                                          "error-free reading of a sensor",
+                                          join_path(path, entry.key)));
     }
     if (entry.value.is_null()) continue;
     ReadPart part = read_part(entry, join_path(path, entry.key), kind, context);

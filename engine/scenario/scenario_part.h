@@ -1,5 +1,5 @@
 #pragma once
-/// Reads the parts of a scenario: world, vehicles with everything on them, metrics, cameras.
+/// Readers of the parts of a scenario: world, vehicles with their parts, metrics, cameras.
 
 #include <string>
 #include <vector>
@@ -14,24 +14,24 @@ struct ReadPart {
   io::YamlNode resolved = io::yaml_mapping();
 };
 
-/// One part: `type`, `rate_Hz` where its kind has one, and the parameters of its type.
-/// @param extra_keys  known beside these, read by the caller (a vehicle's sensors, controller, ...)
+/// Reads one part: `type`, `rate_Hz` if its kind has it, and the parameters of its type.
+/// @param extra_keys  further allowed keys, read by the caller (a vehicle's sensors, controller,
+/// ...)
 ReadPart read_part(const io::YamlEntry& entry, const std::string& path, PartKind kind,
                    const ReadContext& context, const std::vector<std::string>& extra_keys = {});
 
-/// All entries of a mapping from names to parts; entries of `null` are left out.
+/// Reads a mapping from names to parts; entries of `null` are skipped.
 std::vector<NamedPart> read_named_parts(const io::YamlNode& mapping, const std::string& path,
                                         PartKind kind, const ReadContext& context,
                                         io::YamlNode& resolved);
 
-/// Signals that a part of this type writes whatever it is called: "wheels", not "<name>_event".
+/// Signals of a part of this type that do not depend on its name: "wheels", not "<name>_event".
 std::vector<std::string> fixed_signals(const PartSpec& spec);
 
 VehicleConfig read_vehicle(const io::YamlEntry& entry, const std::string& path,
                            const ReadContext& context, io::YamlNode& resolved);
 
-/// `pictures`, read like {} where it is absent: a chase camera. @param vehicles  names in file
-/// order
+/// Reads `pictures`; if absent, like {}: a chase camera. @param vehicles  names in file order
 PicturesConfig read_pictures(const io::YamlEntry* entry, const std::vector<std::string>& vehicles,
                              io::YamlNode& resolved);
 

@@ -22,7 +22,7 @@ bool holds(const List& list, const std::string& name) {
   return std::find(list.begin(), list.end(), name) != list.end();
 }
 
-/// The vehicle that a job works for, which names it so; empty where it works for none.
+/// Vehicle of a job, from its parameter `vehicle`; empty if the job has no such parameter.
 std::string vehicle_of(const PhaseConfig& phase, const Registry& registry) {
   if (!phase.job) return {};
   const bool works_for_one =
@@ -158,18 +158,18 @@ class PhaseReader {
   void check_who_works(const io::YamlEntry& entry, const std::string& path,
                        const PhaseConfig& phase) {
     if (phase.job.has_value() == !phase.vehicles.empty()) {
-      io::fail_at(entry.mark, fmt::format("{}: {}, must be one of vehicles and job", path,
-                                          phase.job ? "gives both vehicles and a job"
-                                                    : "gives neither vehicles nor a job"));
+      io::fail_at(entry.mark, fmt::format("{}: {}, must have one of them", path,
+                                          phase.job ? "has both vehicles and a job"
+                                                    : "has neither vehicles nor a job"));
     }
     const auto refuse = [&](const char* key, const char* reason) {
       io::fail_at(entry.value.find_entry(key)->mark, fmt::format("{}.{}: {}", path, key, reason));
     };
     if (phase.job && phase.timeout_s > 0.0) {
-      refuse("timeout_s", "a job needs none: it takes duration_s of simulated time");
+      refuse("timeout_s", "not allowed for a job, which takes duration_s of simulated time");
     }
     if (!phase.job && phase.duration_s > 0.0) {
-      refuse("duration_s", "only jobs have one: vehicles work until they have finished");
+      refuse("duration_s", "allowed for jobs only; vehicles work until they have finished");
     }
     const io::SourceMark mark = phase.job ? entry.mark : entry.value.find_entry("vehicles")->mark;
     std::vector<std::string> seen;
@@ -204,8 +204,9 @@ class PhaseReader {
       phase.takes.push_back(read_source(*given, join_path(path, port.key), port.kind));
       written.put(port.key, io::yaml_text(given->value.text));
       if (port.kind == ProductKind::kPlan && !phase.job && phase.vehicles.size() != 1) {
-        io::fail_at(given->mark, fmt::format("{}.{}: a plan is one vehicle's, and the phase has {}",
-                                             path, port.key, phase.vehicles.size()));
+        io::fail_at(given->mark,
+                    fmt::format("{}.{}: a plan is for one vehicle, but the phase has {}", path,
+                                port.key, phase.vehicles.size()));
       }
     }
   }
@@ -215,7 +216,7 @@ class PhaseReader {
   std::vector<std::string> vehicle_names_;
 };
 
-/// What a product's source gives, and whether that is what is asked for.
+/// Checks that the source of a product gives the requested kind of product.
 void check_product(const PhaseConfig& phase, const ProductSource& source,
                    const std::vector<PhaseConfig>& phases,
                    const std::vector<VehicleConfig>& vehicles, const Registry& registry) {
@@ -241,24 +242,25 @@ void check_product(const PhaseConfig& phase, const ProductSource& source,
   const std::string planned_for = vehicle_of(*giver, registry);
   if (source.kind == ProductKind::kPlan && !planned_for.empty() && phase.vehicles.size() == 1 &&
       phase.vehicles.front() != planned_for) {
-    io::fail_at(source.where, fmt::format("{}: phase '{}' plans for '{}', and here '{}' works",
+    io::fail_at(source.where, fmt::format("{}: phase '{}' plans for '{}', but this phase uses '{}'",
                                           path, giver->name, planned_for, phase.vehicles.front()));
   }
   if (source.item.empty() ? items.size() > 1 : !holds(items, source.item)) {
     io::fail_at(source.where,
                 fmt::format("{}: phase '{}' gives pictures of {}; write 'from {}/{}'", path,
-                            giver->name, items.empty() ? "nobody" : join(items), giver->name,
+                            giver->name, items.empty() ? "no camera" : join(items), giver->name,
                             items.empty() ? "<vehicle>/<camera>" : items.front()));
   }
 }
 
-/// The phases from `phase` back to itself, or empty. Phases that were looked at need not be again.
+/// Cycle of phases from `phase` back to itself, or empty, by depth-first search. `done` holds
+/// phases without a cycle.
 std::vector<std::string> find_circle(const std::vector<PhaseConfig>& phases,
                                      const std::string& phase, std::vector<std::string>& way,
                                      std::vector<std::string>& done) {
-  const auto on_way = std::find(way.begin(), way.end(), phase);
-  if (on_way != way.end()) {
-    std::vector<std::string> circle(on_way, way.end());
+  const auto on_path = std::find(way.begin(), way.end(), phase);
+  if (on_path != way.end()) {
+    std::vector<std::string> circle(on_path, way.end());
     circle.push_back(phase);
     return circle;
   }
@@ -279,7 +281,7 @@ void check_no_circle(const std::vector<PhaseConfig>& phases) {
     const std::vector<std::string> circle = find_circle(phases, phase.name, way, done);
     if (circle.empty()) continue;
     io::fail_at(find_phase(phases, circle.front())->where,
-                fmt::format("phases.{}: would wait for ever: {}", circle.front(),
+                fmt::format("phases.{}: waits for itself: {}", circle.front(),
                             join(circle, " waits for ")));
   }
 }
@@ -291,7 +293,7 @@ bool waits_for(const std::vector<PhaseConfig>& phases, const PhaseConfig& phase,
   });
 }
 
-/// No vehicle can be asked to do two things at once.
+/// Checks that no vehicle is in two phases at the same time.
 void check_vehicles_in_turn(const std::vector<PhaseConfig>& phases,
                             const std::vector<VehicleConfig>& vehicles) {
   for (const VehicleConfig& vehicle : vehicles) {
@@ -302,19 +304,18 @@ void check_vehicles_in_turn(const std::vector<PhaseConfig>& phases,
     if (of_vehicle.empty() && vehicle.controller) {
       io::fail_at(
           vehicle.where,
-          fmt::format("vehicles.{}: works in no phase; name it in one, or take its controller "
-                      "away to let it stand",
+          fmt::format("vehicles.{}: is in no phase; add it to one, or remove its controller "
+                      "to keep it parked",
                       vehicle.name));
     }
     for (std::size_t i = 0; i < of_vehicle.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
         const PhaseConfig &a = *of_vehicle[i], &b = *of_vehicle[j];
         if (waits_for(phases, a, b.name) || waits_for(phases, b, a.name)) continue;
-        io::fail_at(
-            a.where,
-            fmt::format("phases.{}: works with '{}' as phase '{}' does, and neither is after "
-                        "the other",
-                        a.name, vehicle.name, b.name));
+        io::fail_at(a.where,
+                    fmt::format("phases.{}: uses '{}' like phase '{}', but neither phase waits for "
+                                "the other",
+                                a.name, vehicle.name, b.name));
       }
     }
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// Reads the mission's graph: phases, what they wait for, and the products they hand on.
+/// Reader of the mission graph: phases, their predecessors, and the products passed between them.
 
 #include <string>
 #include <vector>
@@ -12,13 +12,13 @@ namespace vinerow::scenario {
 /// @param entry  nullptr: the scenario has no phases
 /// @param vehicles  of the scenario, in file order
 /// @throws ConfigError naming file, line and reason: unknown phases, vehicles and products, a
-///   product of the wrong kind, phases that wait for each other in a circle, a vehicle in two
-///   phases of which neither waits for the other
+///   product of the wrong kind, phases that wait for each other in a cycle, a vehicle in two phases
+///   of which neither waits for the other
 std::vector<PhaseConfig> read_phases(const io::YamlEntry* entry,
                                      const std::vector<VehicleConfig>& vehicles,
                                      const ReadContext& context, io::YamlNode& written);
 
-/// "plane/camera": every camera of the phase's vehicles that takes pictures for a product.
+/// Cameras of the phase's vehicles that take pictures for a product, as "plane/camera".
 std::vector<std::string> picture_sources(const PhaseConfig& phase,
                                          const std::vector<VehicleConfig>& vehicles,
                                          const Registry& registry);
@@ -27,7 +27,7 @@ std::vector<std::string> picture_sources(const PhaseConfig& phase,
 TrafficConfig read_traffic(const ParameterSet& values, const io::SourceMark& where,
                            const std::vector<std::string>& vehicles);
 
-/// "spray + 30" of `pictures.moments`. @throws ConfigError naming the known phases
+/// Reads `pictures.moments`, such as "spray + 30". @throws ConfigError naming the known phases
 std::vector<PhaseMoment> read_moments(const std::vector<std::string>& texts,
                                       const io::SourceMark& where,
                                       const std::vector<PhaseConfig>& phases);

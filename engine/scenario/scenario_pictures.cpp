@@ -11,7 +11,7 @@
 namespace vinerow::scenario {
 namespace {
 
-/// The kind of a camera; chase where it is not said.
+/// Kind of a camera; chase if not given.
 std::string read_kind(const io::YamlNode& camera, const std::string& path) {
   const io::YamlNode* kind = camera.find("kind");
   if (!kind) return "chase";
@@ -24,7 +24,7 @@ std::string read_kind(const io::YamlNode& camera, const std::string& path) {
   return kind->text;
 }
 
-/// A view of one place needs its extent, and cannot follow a vehicle as well.
+/// Checks a view of a fixed place: it needs an extent and cannot follow a vehicle.
 void check_centre(const io::YamlNode& camera, const io::YamlEntry& centre, const std::string& path,
                   double height_m) {
   if (camera.has("vehicle")) {
@@ -33,7 +33,7 @@ void check_centre(const io::YamlNode& camera, const io::YamlEntry& centre, const
   }
   if (height_m <= 0.0) {
     io::fail_at(centre.mark,
-                fmt::format("{}.centre_m needs height_m > 0, what the picture shows from "
+                fmt::format("{}.centre_m needs height_m > 0, the extent of the picture from "
                             "south to north",
                             path));
   }
@@ -61,10 +61,9 @@ CameraConfig read_camera(const io::YamlEntry& entry, const std::string& path,
     check_vehicle(camera.vehicle, vehicles, named->value.mark, path + ".vehicle");
   } else if (follows) {
     if (vehicles.empty()) {
-      io::fail_at(entry.mark,
-                  fmt::format("{}: a camera of kind '{}' needs a vehicle, and the scenario "
-                              "has none",
-                              path, kind));
+      io::fail_at(entry.mark, fmt::format("{}: a camera of kind '{}' needs a vehicle, but the "
+                                          "scenario has no vehicles",
+                                          path, kind));
     }
     camera.vehicle = vehicles.front();
   }
@@ -76,7 +75,7 @@ CameraConfig read_camera(const io::YamlEntry& entry, const std::string& path,
   return camera;
 }
 
-/// The cameras of a scenario that names none.
+/// Default cameras of a scenario.
 io::YamlNode default_cameras(const std::vector<std::string>& vehicles) {
   io::YamlNode cameras = io::yaml_mapping();
   if (!vehicles.empty()) cameras.put("chase", io::yaml_mapping());

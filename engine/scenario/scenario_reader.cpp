@@ -20,7 +20,7 @@ bool is_text(const io::YamlNode& node) {
   return node.is_scalar() && std::holds_alternative<std::string>(io::scalar_value(node));
 }
 
-/// What the user may have meant, appended to "must be ...".
+/// Hint for the user, appended to "must be ...".
 std::string type_hint(const io::YamlNode& node, const ParameterSpec& spec) {
   const bool wants_number =
       spec.kind == ParameterKind::kNumber || spec.kind == ParameterKind::kInteger;
@@ -72,8 +72,8 @@ std::int64_t read_integer(const io::YamlNode& node, const ParameterSpec& spec,
   if (node.is_scalar()) {
     const io::YamlScalar value = io::scalar_value(node);
     if (const auto* whole = std::get_if<std::int64_t>(&value)) return *whole;
-    // 3.0 is a whole number too, as it is for JSON Schema; 9e15 is where doubles stop telling whole
-    // numbers apart.
+    // 3.0 is a whole number too, as in JSON Schema. Above 9e15 (2^53) doubles cannot represent all
+    // whole numbers.
     const auto* real = std::get_if<double>(&value);
     if (real && std::abs(*real) < 9e15 && *real == std::floor(*real)) {
       return static_cast<std::int64_t>(*real);
@@ -107,7 +107,7 @@ Value read_list(const io::YamlNode& node, const ParameterSpec& spec, const std::
   return texts;
 }
 
-/// Reads one group's mapping completely, unknown keys included.
+/// Reads the mapping of a group and checks it for unknown keys.
 ReadParameters read_group(const io::YamlNode& node, const std::string& path,
                           const ParameterSpec& spec) {
   const std::vector<std::string> names = names_of(spec.fields);
@@ -145,13 +145,14 @@ io::YamlNode resolved_value(const ParameterSet& values, const ParameterSpec& spe
   return list;
 }
 
-/// A default is written out, except a path: where a default path starts is the part's affair.
+/// True if a default is written out. Paths are not: the part defines the base folder of a default
+/// path.
 bool has_printable_default(const ParameterSet& values, const ParameterSpec& spec) {
   return values.has(spec.name) && spec.kind != ParameterKind::kPath &&
          spec.kind != ParameterKind::kGroup && spec.kind != ParameterKind::kGroupList;
 }
 
-/// Reads, checks and stores one given value. @returns how it is written in the resolved scenario
+/// Reads, checks and stores one given value. @returns its form in the resolved scenario
 io::YamlNode read_value(const io::YamlNode& node, const std::string& path,
                         const ParameterSpec& spec, const std::string& source,
                         ParameterSet& values) {
@@ -204,7 +205,7 @@ io::YamlNode read_value(const io::YamlNode& node, const std::string& path,
   try {
     values.set(spec.name, std::move(value), source);
   } catch (const ConfigError& fault) {
-    // The text starts with the parameter's name; the path takes its place.
+    // The message starts with the parameter's name; replace the name by the path.
     std::string text = fault.what();
     if (text.starts_with(spec.name)) text = path + text.substr(spec.name.size());
     io::fail_at(node.mark, text);
@@ -222,7 +223,7 @@ io::YamlNode with_source(io::YamlNode value, const std::string& source) {
   return mapping;
 }
 
-/// A parameter as given: plain, or as {value, source}.
+/// Reads a given parameter: plain, or as {value, source}.
 io::YamlNode read_given(const io::YamlEntry& entry, const std::string& path,
                         const ParameterSpec& spec, ParameterSet& values) {
   const bool is_group =
@@ -236,8 +237,8 @@ io::YamlNode read_given(const io::YamlEntry& entry, const std::string& path,
   check_keys(node, path, {"value", "source"}, "", nullptr);
   const io::YamlNode* value = node.find("value");
   if (!value) {
-    io::fail_at(node.mark, fmt::format("{}: value must be given beside source ({})", path,
-                                       allowed_text(spec)));
+    io::fail_at(node.mark,
+                fmt::format("{}: value must be given with source ({})", path, allowed_text(spec)));
   }
   const io::YamlNode* source = node.find("source");
   if (source && (!is_text(*source) || source->text.empty())) {
@@ -286,7 +287,7 @@ Duration check_rate(double rate_Hz, Duration physics_step, const io::SourceMark&
   if (period.ns % physics_step.ns == 0) return period;
   const std::int64_t steps = period.ns / physics_step.ns;
   const auto rate_of = [&](std::int64_t n) {
-    // As many digits as it takes to be read back as a rate that fits.
+    // The fewest digits that are read back as a rate that fits.
     const double fitting_Hz = 1e9 / static_cast<double>(n * physics_step.ns);
     for (int digits = 6; digits < 17; ++digits) {
       const std::string text = fmt::format("{:.{}g}", fitting_Hz, digits);

@@ -1,9 +1,9 @@
 #pragma once
-/// Reads mappings of a scenario against parameter specs. Every fault is a ConfigError "file:line:
+/// Reader of scenario mappings by parameter specs. Every fault is a ConfigError "file:line:
 /// key.path ...".
 ///
-/// Each reading gives the checked values and, beside them, the resolved mapping: the same values
-/// with defaults written out, paths absolute and given sources kept.
+/// Each function returns the checked values and the resolved mapping: the same values with defaults
+/// written out, absolute paths, and sources kept.
 
 #include <optional>
 #include <string>
@@ -15,11 +15,11 @@
 
 namespace vinerow::scenario {
 
-/// What every reader needs to know.
+/// Context of all readers.
 struct ReadContext {
   const Registry& registry;
   const io::YamlNode&
-      root;               ///< the whole merged scenario, searched for where a misplaced key belongs
+      root;  ///< the whole merged scenario, searched to find where a misplaced key belongs
   Duration physics_step;  ///< periods must be multiples of it
 };
 
@@ -29,7 +29,7 @@ struct ReadParameters {
 };
 
 /// Reads the keys that `specs` name; other keys are left to the caller (see check_keys).
-/// @param where  marks a missing required key. @param owner  who the parameters belong to, for
+/// @param where  mark for errors about missing keys. @param owner  owner of the parameters, for
 /// later errors
 ReadParameters read_parameters(const io::YamlNode& mapping, const io::SourceMark& where,
                                const std::string& path, const std::vector<ParameterSpec>& specs,
@@ -39,8 +39,8 @@ ReadParameters read_parameters(const io::YamlNode& mapping, const io::SourceMark
 /// pure_pursuit}".
 void require_mapping(const io::YamlNode& node, const std::string& path, const std::string& example);
 
-/// @throws ConfigError for the first key that is not known, with the nearest known one, or where
-/// the key belongs.
+/// @throws ConfigError for the first unknown key, with the nearest known key or the place where the
+/// key belongs.
 /// @param owner  "controller 'pure_pursuit'", or "" @param specs  of parameters among the known
 /// keys, for their units
 void check_keys(const io::YamlNode& mapping, const std::string& path,
@@ -55,14 +55,14 @@ void check_name(const io::YamlEntry& entry, const std::string& path, const char*
 Duration check_rate(double rate_Hz, Duration physics_step, const io::SourceMark& mark,
                     const std::string& path);
 
-/// "a number in m, > 0", "one of: zstd, lz4, none", ...: what a parameter may be.
+/// "a number in m, > 0", "one of: zstd, lz4, none", ...: allowed values of a parameter.
 std::string allowed_text(const ParameterSpec& spec);
 
-/// The known key that a wrong one most likely means: unit suffix missing or other, another case, a
-/// typing error; or "".
+/// The known key that is probably meant: unit suffix missing or different, other case, typing
+/// error; or "".
 std::string likely_key(const std::string& wrong, const std::vector<std::string>& known);
 
-/// The absolute path that a text names. @throws ConfigError if empty or, with `must_exist`, missing
+/// The absolute path of a text. @throws ConfigError if empty or, with `must_exist`, missing
 std::string read_path(const io::YamlNode& text, const std::string& path, bool must_exist);
 
 std::vector<std::string> names_of(const std::vector<ParameterSpec>& specs);

@@ -1,4 +1,4 @@
-// JSON Schema (draft 2020-12) of scenario files, from the tables that the loader reads too.
+// JSON Schema (draft 2020-12) of scenario files, from the tables that the loader uses.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -43,7 +43,7 @@ class SchemaBuilder {
     defs_[name + "_partial"] = make(true);
   }
 
-  /// A mapping from free names to schemas of one definition.
+  /// Mapping from free names to schemas of one definition.
   Json named(const std::string& definition, Json name_schema, bool partial) const {
     const auto make = [&](bool part) {
       return Json{{"type", "object"},
@@ -60,7 +60,7 @@ class SchemaBuilder {
     switch (key.shape) {
       case KeyShape::kParameter:
         if (key.spec.name == "vinerow") return {{"const", kFormatVersion}};
-        if (key.spec.name == "name") {  // empty: the file's
+        if (key.spec.name == "name") {  // empty: the file's name
           schema = parameter_schema(key.spec, partial);
           schema["pattern"] = std::string("^$|") + kNamePattern;
           return schema;
@@ -109,7 +109,7 @@ class SchemaBuilder {
     return schema;
   }
 
-  /// Structural keys and, beside them, a part's own.
+  /// Structural keys and a part's own keys.
   Json keys_schema(const std::vector<StructuralKey>& keys, Json own_properties,
                    bool partial) const {
     Json properties = own_properties.is_null() ? Json::object() : std::move(own_properties);
@@ -121,7 +121,8 @@ class SchemaBuilder {
     return object_of(std::move(properties), required_keys, partial);
   }
 
-  /// @param of_vehicle  "<vehicle>.<metric>", as the loader splits it; else a job's number, too
+  /// @param of_vehicle  true: "<vehicle>.<metric>" as the loader splits it; false: also a job's
+  /// number
   Json criteria_schema(bool of_vehicle) const {
     const auto make = [of_vehicle](bool partial) {
       Json schema = group_schema(criterion_table().specs(), partial);
@@ -133,7 +134,7 @@ class SchemaBuilder {
     return {{"type", "array"}, {"items", by_include(make)}};
   }
 
-  /// Which of the keys fit a job or vehicles is the loader's to say.
+  /// The loader checks which keys are allowed for a job and for vehicles.
   Json phase_schema(bool partial) const {
     Json properties = properties_of(phase_table().specs(), partial, "");
     properties["job"] = reference(name_of("job", partial));
@@ -177,7 +178,7 @@ class SchemaBuilder {
     return schema;
   }
 
-  /// Chooses by the value of `tag`; without the tag by `untagged`.
+  /// Selects a schema by the value of `tag`; `untagged` if there is no tag.
   static Json choose(const std::string& tag, const std::vector<std::string>& values,
                      const std::string& prefix, bool partial, Json untagged) {
     Json cases = Json::array();
@@ -204,13 +205,13 @@ class SchemaBuilder {
       }
     }
     define(kind_name, [&](bool partial) -> Json {
-      // Without types nothing is allowed, and an empty enum is no schema.
+      // Without types nothing is allowed; an empty enum is not a valid schema.
       if (types.empty()) return {{"not", Json::object()}};
       Json untagged = {{"required", {"type"}}};
       if (partial) {
         untagged = {{"propertyNames", {{"enum", all_keys}}}};
         if (kind == PartKind::kVehicle) {
-          // What a vehicle carries is known even where its type comes from an included file.
+          // The parts of a vehicle are known even if its type comes from an included file.
           untagged["properties"] = keys_schema(vehicle_keys(), {}, true)["properties"];
         }
       }

@@ -6,7 +6,7 @@ namespace vinerow::scenario {
 
 Scenario with_seed(Scenario scenario, std::uint64_t seed) {
   scenario.seed = seed;
-  // The resolved text has every key once, each top-level one at the start of its line.
+  // In the resolved text each key occurs once, and top-level keys are at the start of their lines.
   std::string& text = scenario.resolved_yaml;
   const std::string key = "\nseed: ";
   const std::size_t at = text.find(key);
@@ -21,7 +21,7 @@ std::string resolved_block(const Scenario& scenario, const std::string& key) {
   const std::string& text = scenario.resolved_yaml;
   const std::size_t begin = text.find("\n" + key + ":");
   if (begin == std::string::npos) return "";
-  // What belongs to the key is indented.
+  // The value of the key is indented.
   std::size_t end = text.find('\n', begin + 1);
   while (end != std::string::npos && end + 1 < text.size() && text[end + 1] == ' ') {
     end = text.find('\n', end + 1);

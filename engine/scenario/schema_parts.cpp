@@ -10,12 +10,12 @@ namespace {
 
 Json range(Json schema, const ParameterSpec& given) {
   ParameterSpec spec = with_limits_of_unit(given);
-  if (given.min_exclusive) {  // "> 0" says more than the least number that is still taken
+  if (given.min_exclusive) {  // "> 0" is clearer than the smallest allowed double
     spec.min = given.min;
     spec.min_exclusive = true;
   }
   const auto bound = [](double value) -> Json {
-    // Whole numbers without point and exponent, as a person would write them.
+    // Whole numbers are printed without point and exponent.
     if (value == std::floor(value) && std::abs(value) < 9e15) {
       return static_cast<std::int64_t>(value);
     }
@@ -60,8 +60,8 @@ bool is_group(const ParameterSpec& spec) {
   return spec.kind == ParameterKind::kGroup || spec.kind == ParameterKind::kGroupList;
 }
 
-/// What may stand in a partial mapping for a parameter that the complete one, in `definition`,
-/// describes.
+/// Schema of a parameter in a partial mapping; `definition` is the complete mapping that describes
+/// it.
 Json partial_parameter_schema(const ParameterSpec& spec, const std::string& definition) {
   if (is_group(spec)) return parameter_schema(spec, true);
   Json schema = any_of({reference(definition + "/properties/" + spec.name),
@@ -158,7 +158,8 @@ Json value_schema(const ParameterSpec& spec, bool partial) {
       if (partial) return group_schema(spec.fields, true);
       return by_include([&](bool part) { return group_schema(spec.fields, part); });
     case ParameterKind::kGroupList:
-      // Lists are replaced, not merged, so that their entries are complete unless they include.
+      // Lists are replaced, not merged, so their entries must be complete unless they use
+      // `include`.
       return {{"type", "array"},
               {"items", by_include([&](bool part) { return group_schema(spec.fields, part); })}};
   }
@@ -169,11 +170,11 @@ Json base_definitions() {
   Json definitions;
   definitions["include"] = include_schema();
   definitions["include"]["description"] =
-      "file or files whose contents this mapping takes over; keys given here win";
+      "file or files whose contents this mapping takes over; keys given here override them";
   const Json text = {{"type", "string"}, {"minLength", 1}};
   definitions["sourced"] = object_of({{"value", true}, {"source", text}}, {}, true);
   definitions["sourced"]["anyOf"] = {{{"required", {"value"}}}, {{"required", {"include"}}}};
-  definitions["sourced"]["description"] = "a value and where it comes from";
+  definitions["sourced"]["description"] = "a value and its source";
   definitions["source_only"] = object_of({{"source", text}}, {"source"}, false);
   return definitions;
 }

@@ -1,9 +1,10 @@
 #pragma once
-/// Pieces of the JSON Schemas of files that the scenario reader reads, from parameter specs.
+/// Building blocks of the JSON Schemas of scenario and study files, made from parameter specs.
 ///
-/// A mapping that includes a file may leave out whatever the file may give, on every level below.
-/// So each mapping comes in two forms: complete, and partial ("..._partial"), which asks for
-/// nothing and allows `null`, which takes an included key away. `include` chooses.
+/// A mapping with `include` may omit all keys that the included file may have, on every level
+/// below. Each mapping therefore has two schemas: the complete one, and the partial one
+/// ("..._partial") for mappings with `include`. The partial schema requires no key and allows
+/// `null`, which removes an included key.
 
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -21,31 +22,31 @@ Json base_definitions();
 
 Json any_of(std::vector<Json> choices);
 Json or_null(Json schema);
-/// To a definition.
+/// Reference to a definition.
 Json reference(const std::string& name);
 
-/// The mapping that starts most schemas: these keys, `include`, and nothing else.
+/// Mapping with these keys and `include`, and no others.
 Json object_of(Json properties, const std::vector<std::string>& required_keys, bool partial);
 
-/// One schema that is complete without `include` and partial with it. @param make  makes it, given
-/// `partial`
+/// Schema that is complete without `include` and partial with it. @param make  returns the schema
+/// for `partial`
 Json by_include(const std::function<Json(bool)>& make);
 
-/// A value of the spec's kind and range.
+/// Schema of a value of the spec's kind and range.
 Json value_schema(const ParameterSpec& spec, bool partial);
 
-/// A value, or {value, source}.
+/// Schema of a value, or of {value, source}.
 Json parameter_schema(const ParameterSpec& spec, bool partial);
 
-/// Of those that have no default.
+/// Names of the fields without default.
 std::vector<std::string> required_names(const std::vector<ParameterSpec>& fields);
 
-/// The properties of a mapping of parameters.
-/// @param definition  where the complete form is defined, so that the partial one can refer to it
+/// Properties of a mapping of parameters.
+/// @param definition  name of the complete form, to which the partial one refers
 Json properties_of(const std::vector<ParameterSpec>& fields, bool partial,
                    const std::string& definition);
 
-/// A mapping of parameters.
+/// Schema of a mapping of parameters.
 Json group_schema(const std::vector<ParameterSpec>& fields, bool partial);
 
 }  // namespace vinerow::scenario

@@ -14,7 +14,7 @@ std::vector<std::vector<double>> latin_hypercube(std::size_t count, std::size_t 
   RandomStream stream(seed, "study", "latin_hypercube");
   std::vector<std::size_t> slices(count);
   for (std::size_t k = 0; k < dimensions; ++k) {
-    // A random order of the slices (Fisher and Yates), then a random place in each.
+    // A random order of the slices (Fisher-Yates shuffle), then a random position in each.
     for (std::size_t i = 0; i < count; ++i) slices[i] = i;
     for (std::size_t i = count; i > 1; --i) {
       const double drawn = stream.uniform();
@@ -29,12 +29,12 @@ std::vector<std::vector<double>> latin_hypercube(std::size_t count, std::size_t 
 }
 
 std::vector<std::vector<double>> sobol_points(std::size_t count, std::size_t dimensions) {
-  VINEROW_DEMAND(dimensions >= 1 && dimensions <= kMostSobolDimensions);
+  VINEROW_DEMAND(dimensions >= 1 && dimensions <= kMaxSobolDimensions);
   boost::random::sobol sequence(dimensions);
   std::vector<std::vector<double>> points(count, std::vector<double>(dimensions));
   constexpr double kWords = 0x1p64;
   for (auto& point : points) {
-    // The 53 leading bits, so that the quotient stays below 1.
+    // Use the 53 leading bits, so that the quotient stays below 1.
     for (double& x : point) x = static_cast<double>(sequence() >> 11 << 11) / kWords;
   }
   return points;

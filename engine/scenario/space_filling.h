@@ -1,5 +1,5 @@
 #pragma once
-/// Points that fill a unit cube evenly with few of them.
+/// Space-filling samples of the unit cube.
 
 #include <cstddef>
 #include <cstdint>
@@ -7,17 +7,18 @@
 
 namespace vinerow::scenario {
 
-/// Of each coordinate one point lies in each of `count` equal slices, anywhere in it (McKay,
-/// Beckman, Conover, Technometrics 21(2), 1979). The same on every machine.
+/// Latin hypercube sample: for each coordinate, each of `count` equal slices contains one point at
+/// a random position (McKay, Beckman, Conover, Technometrics 21(2), 1979). The same on every
+/// machine.
 /// @returns [point][dimension], each in [0, 1)
 std::vector<std::vector<double>> latin_hypercube(std::size_t count, std::size_t dimensions,
                                                  std::uint64_t seed);
 
-inline constexpr std::size_t kMostSobolDimensions = 100;
+inline constexpr std::size_t kMaxSobolDimensions = 100;
 
-/// The points 1 to `count` of the sequence of Sobol (USSR Comput. Math. 7(4), 1967) with the
-/// direction numbers of Joe and Kuo (SIAM J. Sci. Comput. 30(5), 2008); point 0 is the corner at 0.
-/// More points continue the same sequence. @pre dimensions in 1..kMostSobolDimensions
+/// Points 1 to `count` of the Sobol sequence (USSR Comput. Math. 7(4), 1967) with the direction
+/// numbers of Joe and Kuo (SIAM J. Sci. Comput. 30(5), 2008); point 0, the origin, is omitted. A
+/// larger `count` continues the same sequence. @pre dimensions in 1..kMaxSobolDimensions
 /// @returns [point][dimension], each in [0, 1)
 std::vector<std::vector<double>> sobol_points(std::size_t count, std::size_t dimensions);
 

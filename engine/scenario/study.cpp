@@ -48,7 +48,7 @@ std::uint64_t read_seed(const io::YamlNode& node, const std::string& path) {
   return static_cast<std::uint64_t>(*seed);
 }
 
-/// "10" is the seeds 1 to 10, a list the seeds that it names.
+/// Reads the seeds: 10 means 1 to 10, a list gives the seeds themselves.
 std::vector<std::uint64_t> read_seeds(const io::YamlNode& node) {
   std::vector<std::uint64_t> seeds;
   if (node.is_list()) {
@@ -59,8 +59,8 @@ std::vector<std::uint64_t> read_seeds(const io::YamlNode& node) {
     if (once.size() < seeds.size()) io::fail_at(node.mark, "seeds names a seed twice");
   } else {
     const std::uint64_t count = read_seed(node, "seeds");
-    if (static_cast<double>(count) > kMostCells) {
-      io::fail_at(node.mark, fmt::format("seeds = {}, must be at most {:.0f}", count, kMostCells));
+    if (static_cast<double>(count) > kMaxCells) {
+      io::fail_at(node.mark, fmt::format("seeds = {}, must be at most {:.0f}", count, kMaxCells));
     }
     for (std::uint64_t seed = 1; seed <= count; ++seed) seeds.push_back(seed);
   }
@@ -73,7 +73,8 @@ std::vector<std::uint64_t> read_seeds(const io::YamlNode& node) {
   return seeds;
 }
 
-/// One key path may be varied by one factor. A factor may vary a part of what one above it sets.
+/// Checks that at most one factor varies each key path. A factor may vary a part of a value set by
+/// an earlier factor.
 void check_key_paths(const Study& study) {
   struct Use {
     std::string path, by;
@@ -83,12 +84,12 @@ void check_key_paths(const Study& study) {
                          const io::SourceMark& mark) {
     for (const Use& use : uses) {
       if (use.path == path) {
-        io::fail_at(
-            mark, fmt::format("{} is set by {} and by {}; one of them must go", path, use.by, by));
+        io::fail_at(mark,
+                    fmt::format("{} is set by {} and by {}; remove one of them", path, use.by, by));
       }
       if (use.path.starts_with(path + ".")) {
-        io::fail_at(mark, fmt::format("{} of {} would take the place of {} of {}; put {} first",
-                                      path, by, use.path, use.by, by));
+        io::fail_at(mark, fmt::format("{} of {} would overwrite {} of {}; put {} first", path, by,
+                                      use.path, use.by, by));
       }
     }
   };
@@ -104,7 +105,7 @@ void check_key_paths(const Study& study) {
     }
     const std::string by = "factors." + factor.name;
     for (const auto& [path, mark] : mine) {
-      if (path == "seed") io::fail_at(mark, by + " varies seed; seeds are listed under 'seeds'");
+      if (path == "seed") io::fail_at(mark, by + " cannot vary seed; list the seeds under 'seeds'");
       check(path, by, mark);
     }
     for (const auto& [path, mark] : mine) uses.push_back({path, by});
@@ -117,10 +118,9 @@ void check_columns(const Study& study) {
     for (const std::string& column : factor.columns) {
       const auto [place, is_new] = seen.emplace(column, factor.name);
       if (is_new) continue;
-      io::fail_at(factor.where,
-                  fmt::format("factors {} and {} both give a column '{}'; name one of "
-                              "them otherwise",
-                              place->second, factor.name, column));
+      io::fail_at(factor.where, fmt::format("factors {} and {} both give a column '{}'; rename one "
+                                            "of them",
+                                            place->second, factor.name, column));
     }
   }
 }
@@ -128,15 +128,15 @@ void check_columns(const Study& study) {
 void check_cell_count(const Study& study, const io::SourceMark& mark) {
   double cells = static_cast<double>(study.seeds.size());
   for (const Factor& factor : study.factors) cells *= static_cast<double>(factor.levels.size());
-  if (cells <= kMostCells) return;
+  if (cells <= kMaxCells) return;
   std::string product = fmt::format("{} seeds", study.seeds.size());
   for (const Factor& factor : study.factors) {
     product += fmt::format(" x {} of {}", factor.levels.size(), factor.name);
   }
   io::fail_at(mark,
               fmt::format("{} make {:.3g} cells, must be at most {:.0f}; sample the factors, or "
-                          "cut the study",
-                          product, cells, kMostCells));
+                          "reduce the study",
+                          product, cells, kMaxCells));
 }
 
 }  // namespace

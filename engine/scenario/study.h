@@ -1,5 +1,5 @@
 #pragma once
-/// A study file: one scenario, what varies in it, and what is kept of each run.
+/// Study file: one scenario, its varied parameters, and the results kept of each run.
 ///
 ///   vinerow_study: 1
 ///   scenario: paper_b_field.yaml
@@ -20,24 +20,25 @@
 
 namespace vinerow::scenario {
 
-/// One value of a factor: what it sets, and how tables show it.
+/// One level of a factor: the values that it sets, and their texts in tables.
 struct FactorLevel {
   std::vector<OverrideValue> values;
   std::vector<std::string> texts;  ///< one for each of the factor's columns
 };
 
-/// What varies: a parameter, several at a time, whole parts, or a sample of a region.
+/// Varied quantity: a parameter, several parameters together, whole parts, or a sample of a region.
 struct Factor {
   std::string name;
-  std::vector<std::string> columns;  ///< in tables: the factor's name, or its key paths
+  std::vector<std::string> columns;  ///< of tables: the factor's name, or its key paths
   std::vector<FactorLevel> levels;   ///< not empty
   io::SourceMark where;
 };
 
-/// More seeds are run for a setting until the confidence interval of a metric's mean is narrow.
+/// Stopping rule: seeds are added to a setting until the confidence interval of a metric's mean is
+/// narrow enough.
 struct StopRule {
   std::string metric;
-  double half_width = 0.0;  ///< in the metric's unit, or a share of the mean where `relative`
+  double half_width = 0.0;  ///< in the metric's unit, or a share of the mean if `relative`
   bool relative = false;
   double confidence = 0.95;
   int at_least = 5;  ///< seeds
@@ -48,15 +49,15 @@ struct CellBudget {
   double memory_MB = 0.0;  ///< resident; 0: unlimited
 };
 
-/// Which runs leave their files.
+/// Files to keep of each run.
 enum class KeepRuns {
   kNothing,
-  kSummary,  ///< summary.json, events.jsonl and what goes with them
-  kLog,      ///< the log too
-  kFailed    ///< as kLog, of runs that did not meet their criteria or broke off
+  kSummary,  ///< summary.json, events.jsonl and similar small files
+  kLog,      ///< also the log
+  kFailed    ///< as kLog, for runs that missed their criteria or aborted
 };
 
-/// A column computed from others.
+/// Column computed from other columns.
 struct DerivedColumn {
   std::string name;
   std::string expression;
@@ -68,10 +69,10 @@ struct Study {
   std::string description;
   std::filesystem::path file;      ///< absolute
   std::filesystem::path scenario;  ///< absolute
-  std::vector<OverrideValue> set;  ///< of every cell
+  std::vector<OverrideValue> set;  ///< applied to every cell
   std::vector<Factor> factors;     ///< in file order
   std::vector<std::uint64_t> seeds;
-  std::vector<std::string> metrics;  ///< to keep; empty: all
+  std::vector<std::string> metrics;  ///< metrics to keep; empty: all
   std::vector<DerivedColumn> derived;
   std::optional<StopRule> stop;
   CellBudget budget;
@@ -79,8 +80,8 @@ struct Study {
   io::SourceMark stop_mark, metrics_mark;
 };
 
-/// Reads and checks a study as far as that needs no parts: its own keys, factors, counts. Whether
-/// key paths and values fit the scenario is known once a scenario is loaded with them.
+/// Reads a study and checks its own keys, factors and counts. Key paths and values are checked
+/// against the scenario only when the scenario is loaded with them.
 /// @throws ConfigError "study.yaml:7: ..." in one sentence
 Study load_study(const std::filesystem::path& file);
 

@@ -13,7 +13,7 @@
 namespace vinerow::scenario {
 namespace {
 
-/// The form of a factor by a key that only it has.
+/// Forms of a factor; each has a key that no other form has.
 enum class FactorForm { kValues, kRange, kAlternatives, kZip, kSample };
 
 struct FormKeys {
@@ -60,11 +60,11 @@ const FormKeys& form_of(const io::YamlNode& node, const std::string& path) {
   }
   std::string tags;
   for (const FormKeys& form : forms()) tags += (tags.empty() ? "" : ", ") + std::string(form.tag);
-  io::fail_at(node.mark, fmt::format("{} has none of the keys that say what varies: {}; e.g. {}",
-                                     path, tags, forms().front().example));
+  io::fail_at(node.mark, fmt::format("{} must have one of the keys {}; e.g. {}", path, tags,
+                                     forms().front().example));
 }
 
-/// How a value stands in a table: a text without quotes, a mapping in one line.
+/// Text of a value in tables: a text without quotes, a mapping in one line.
 std::string table_text(const io::YamlNode& value) {
   if (value.is_scalar()) return value.text;
   if (value.is_null()) return "";
@@ -140,7 +140,7 @@ FactorRange read_range(const io::YamlNode& node, const std::string& path) {
   return range;
 }
 
-/// Shares of the range at which its values lie.
+/// Values of a range as shares of it (0 to 1).
 std::vector<double> shares_of(const FactorRange& range, const io::YamlNode& node,
                               const std::string& path) {
   const auto& specs = range_steps_table().specs();
@@ -151,17 +151,18 @@ std::vector<double> shares_of(const FactorRange& range, const io::YamlNode& node
   }
   if (steps.step && range.logarithmic) {
     io::fail_at(node.find("step")->mark,
-                fmt::format("{}.step = {}, a logarithmic scale takes count", path, *steps.step));
+                fmt::format("{}.step = {}, must not be given for a logarithmic scale; give count",
+                            path, *steps.step));
   }
   const double span = range.to - range.from;
   constexpr double kRounding = 1e-9;
   const double count = steps.count ? static_cast<double>(*steps.count)
                                    : std::floor(span / *steps.step + kRounding) + 1.0;
-  if (count > kMostCells) {
+  if (count > kMaxCells) {
     io::fail_at(node.mark, fmt::format("{} has {:.6g} values, must have at most {:.0f}", path,
-                                       count, kMostCells));
+                                       count, kMaxCells));
   }
-  // By a step the last value need not be `to`.
+  // With a step, the last value may be below `to`.
   const double last = steps.count || span == 0.0 ? 1.0 : (count - 1.0) * *steps.step / span;
   std::vector<double> shares(static_cast<std::size_t>(count), 0.0);
   for (std::size_t i = 1; i < shares.size(); ++i) {
@@ -176,7 +177,7 @@ void read_range_factor(const io::YamlNode& node, const std::string& path, Factor
   factor.columns = {factor.name};
   for (const double share : shares_of(range, node, path)) {
     const io::YamlNode value = number_node(number_at(range, share), node);
-    // Of whole numbers several may round to one.
+    // Several values may round to the same whole number.
     if (!factor.levels.empty() && factor.levels.back().texts.front() == value.text) continue;
     factor.levels.push_back({{{key, value}}, {value.text}});
   }
@@ -189,7 +190,7 @@ void read_alternatives(const io::YamlNode& node, const std::string& path, Factor
   factor.columns = {factor.name};
   for (const io::YamlEntry& alternative : alternatives.entries) {
     const std::string place = fmt::format("{}.alternatives.{}", path, alternative.key);
-    // An empty one is the scenario as it is.
+    // An empty alternative is the unmodified scenario.
     require_mapping(alternative.value, place, "{plane.controller: {type: fixed_wing_lqr}}");
     FactorLevel level{{}, {alternative.key}};
     for (const io::YamlEntry& value : alternative.value.entries) {
@@ -239,9 +240,9 @@ void read_sample(const io::YamlNode& node, const std::string& path, Factor& fact
     read.push_back(read_range(entry.value, place));
     factor.columns.push_back(entry.key);
   }
-  if (params.kind == SampleKind::kSobol && read.size() > kMostSobolDimensions) {
+  if (params.kind == SampleKind::kSobol && read.size() > kMaxSobolDimensions) {
     io::fail_at(ranges->mark, fmt::format("{}.ranges has {} keys, a Sobol sample at most {}", path,
-                                          read.size(), kMostSobolDimensions));
+                                          read.size(), kMaxSobolDimensions));
   }
   const auto count = static_cast<std::size_t>(params.count);
   const std::vector<std::vector<double>> points =
@@ -296,10 +297,10 @@ const ParameterTable<FactorRange>& factor_range_table() {
           .number("from", "", &P::from, kAnyNumber, "the first value, in the parameter's unit")
           .required()
           .number("to", "", &P::to, kAnyNumber,
-                  "the last value, or the largest that a step reaches")
+                  "the last value, or the upper limit of values with a step")
           .required()
           .choice("scale", &P::logarithmic, {{"linear", false}, {"log", true}},
-                  "values at equal steps, or at equal ratios")
+                  "values with equal steps or with equal ratios")
           .boolean("whole", &P::whole, "round to whole numbers");
   return table;
 }
@@ -308,8 +309,8 @@ const ParameterTable<RangeSteps>& range_steps_table() {
   using P = RangeSteps;
   static const ParameterTable<P> table =
       ParameterTable<P>()
-          .number("step", "", &P::step, kPositive, "from one value to the next")
-          .integer("count", &P::count, between(1, kMostCells), "how many values");
+          .number("step", "", &P::step, kPositive, "difference between successive values")
+          .integer("count", &P::count, between(1, kMaxCells), "number of values");
   return table;
 }
 
@@ -317,15 +318,14 @@ const ParameterTable<SampleParams>& sample_table() {
   using P = SampleParams;
   static const ParameterTable<P> table =
       ParameterTable<P>()
-          .choice(
-              "sample", &P::kind,
-              {{"latin_hypercube", SampleKind::kLatinHypercube}, {"sobol", SampleKind::kSobol}},
-              "how points are spread over the ranges: one in each of `count` slices of every "
-              "key (McKay et al. 1979), or the sequence of Sobol (1967), without its first point")
+          .choice("sample", &P::kind,
+                  {{"latin_hypercube", SampleKind::kLatinHypercube}, {"sobol", SampleKind::kSobol}},
+                  "distribution of points over the ranges: one in each of `count` slices of every "
+                  "key (McKay et al. 1979), or the Sobol sequence (1967) without its first point")
           .required()
-          .integer("count", &P::count, between(1, kMostCells), "points")
+          .integer("count", &P::count, between(1, kMaxCells), "number of points")
           .required()
-          .integer("seed", &P::seed, kNotNegative, "of a Latin hypercube");
+          .integer("seed", &P::seed, kNotNegative, "seed of a Latin hypercube");
   return table;
 }
 

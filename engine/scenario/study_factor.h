@@ -1,5 +1,5 @@
 #pragma once
-/// The factors of a study file.
+/// Reader of the factors of a study file.
 
 #include <vector>
 
@@ -8,17 +8,17 @@
 
 namespace vinerow::scenario {
 
-/// A range of a number, in equal steps or, on a logarithmic scale, in equal ratios.
+/// Range of a number, with equal steps or, on a logarithmic scale, equal ratios.
 struct FactorRange {
   double from = 0.0, to = 0.0;
   bool logarithmic = false;
   bool whole = false;  ///< rounded to whole numbers
 };
 
-/// Keys of a range: of a factor beside its key, and of each key of a sample.
+/// Keys of a range, used by a factor and by each key of a sample.
 const ParameterTable<FactorRange>& factor_range_table();
 
-/// How a sample of a region is drawn.
+/// Sampling method for a region.
 enum class SampleKind { kLatinHypercube, kSobol };
 
 struct SampleParams {
@@ -28,20 +28,21 @@ struct SampleParams {
 };
 const ParameterTable<SampleParams>& sample_table();
 
-/// Of a range: so far apart, or so many.
+/// Levels of a range: by their spacing or by their number.
 struct RangeSteps {
   std::optional<double> step;
   std::optional<std::int64_t> count;
 };
 const ParameterTable<RangeSteps>& range_steps_table();
 
-/// The number at a share (0 to 1) of a range, to twelve digits: 0.3 and not 0.30000000000000004.
+/// The number at a share (0 to 1) of a range, rounded to twelve digits: 0.3, not
+/// 0.30000000000000004.
 double number_at(const FactorRange& range, double share);
 
-/// All factors. @param node  the mapping `factors` @throws ConfigError
+/// Reads all factors. @param node  the mapping `factors` @throws ConfigError
 std::vector<Factor> read_factors(const io::YamlNode& node);
 
-/// Most levels of a factor and most cells of a study.
-inline constexpr double kMostCells = 1e6;
+/// Maximum number of levels of a factor and of cells of a study.
+inline constexpr double kMaxCells = 1e6;
 
 }  // namespace vinerow::scenario

@@ -1,5 +1,5 @@
 #pragma once
-/// The keys of a study file: one table, read by the loader and by the JSON Schema.
+/// Table of the keys of a study file, used by the loader and the JSON Schema.
 
 #include <string>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace vinerow::scenario {
 
-/// The version of the file format that this program reads (`vinerow_study: 1`).
+/// Version of the file format (`vinerow_study: 1`).
 constexpr std::int64_t kStudyVersion = 1;
 
 struct StudyValues {
@@ -19,12 +19,12 @@ struct StudyValues {
 /// Keys whose values are parameters.
 const ParameterTable<StudyValues>& study_table();
 
-/// A key with a form of its own.
+/// Key whose value is not a parameter.
 struct FreeStudyKey {
   std::string name;
   std::string description;
 };
-/// `set`, `factors`, `seeds`, `derived`.
+/// The keys `set`, `factors`, `seeds` and `derived`.
 const std::vector<FreeStudyKey>& free_study_keys();
 
 }  // namespace vinerow::scenario

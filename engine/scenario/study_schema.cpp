@@ -1,4 +1,4 @@
-// JSON Schema (draft 2020-12) of study files, from the tables that the loader reads too.
+// JSON Schema (draft 2020-12) of study files, from the tables that the loader uses.
 #include <nlohmann/json.hpp>
 
 #include "engine/api/parameter_table.h"
@@ -32,7 +32,7 @@ std::vector<std::string> with(std::vector<std::string> names, const char* more) 
   return names;
 }
 
-/// The forms of a factor, of which each has a key that no other has.
+/// Forms of a factor; each has a key that no other form has.
 Json factor_schema() {
   const Json key = {{"type", "string"},
                     {"minLength", 1},
@@ -51,7 +51,8 @@ Json factor_schema() {
       object_of({{"alternatives", mapping_of(any_values, "name to values: key path to value")}},
                 {"alternatives"}, false);
   const Json by_zip = object_of(
-      {{"zip", mapping_of(list_of(Json::object()), "key path to values, all equally many")}},
+      {{"zip",
+        mapping_of(list_of(Json::object()), "key path to values, all lists of the same length")}},
       {"zip"}, false);
   const Json by_sample = object_of(
       with({{"ranges", mapping_of(object_of(range, ends, false), "key path to range")}}, sample),
@@ -71,7 +72,7 @@ Json free_key_schema(const FreeStudyKey& key) {
   if (key.name == "seeds") {
     const Json seed = {{"type", "integer"}, {"minimum", 0}};
     Json schema =
-        any_of({Json{{"type", "integer"}, {"minimum", 1}, {"maximum", kMostCells}}, list_of(seed)});
+        any_of({Json{{"type", "integer"}, {"minimum", 1}, {"maximum", kMaxCells}}, list_of(seed)});
     schema["description"] = words;
     return schema;
   }
@@ -82,7 +83,7 @@ Json free_key_schema(const FreeStudyKey& key) {
     schema["description"] = words;
     return schema;
   }
-  return {{"type", "object"}, {"description", words}};  // set: what it may hold is the scenario's
+  return {{"type", "object"}, {"description", words}};  // set: its keys are those of the scenario
 }
 
 }  // namespace

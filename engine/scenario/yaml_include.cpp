@@ -13,11 +13,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Files that include each other without a circle can still multiply; this many are enough for any
-/// scenario.
+/// Chosen: far above the needs of any scenario. It bounds files that include each other many times
+/// without a cycle.
 constexpr int kMaxIncludes = 1000;
 
-/// A file that is being read, from the scenario down to the present one.
+/// File on the current include chain, from the scenario down.
 struct OpenFile {
   fs::path canonical;
   std::string shown_name;
@@ -95,8 +95,8 @@ class Includer {
                                          wanted.string(), io::nearest_file_hint(wanted)));
     }
     const fs::path identity = canonical(wanted);
-    // Named beside the including file, so that an error's place can be opened from where the user
-    // stands.
+    // Shown relative to the including file's folder, so that the path in an error is valid from the
+    // user's current folder.
     const fs::path beside = fs::path(name.mark.file).parent_path();
     const std::string shown_name = fs::path(name.text).is_absolute() || open_.empty()
                                        ? wanted.string()
@@ -124,7 +124,7 @@ class Includer {
     if (start == open_.end()) return;
     std::string chain;
     for (auto it = start; it != open_.end(); ++it) chain += it->shown_name + " -> ";
-    io::fail_at(name.mark, fmt::format("{} = '{}': the files include each other in a circle ({})",
+    io::fail_at(name.mark, fmt::format("{} = '{}': the files include each other in a cycle ({})",
                                        place, name.text, chain + shown_name));
   }
 

@@ -8,8 +8,8 @@
 namespace vinerow::sensors {
 namespace {
 
-/// Defaults are assumptions, of no data sheet: noise of one degree of the vanes at 12 m/s, a lag
-/// of one tick, no scale error, and a speed below which vanes do not turn.
+/// The defaults are chosen, not from a data sheet: noise of one degree of the vanes at 12 m/s, a
+/// lag of one tick, no scale error, and a speed below which vanes do not turn.
 struct AirDataParams {
   double noise_std_mps = 0.2;
   double lag_s = 0.05;
@@ -26,9 +26,9 @@ const ParameterTable<AirDataParams>& air_data_table() {
           .number("lag_s", "s", &P::lag_s, between(0.0, 60.0),
                   "time constant of the tube and the vanes")
           .number("scale_error", "", &P::scale_error, between(-0.5, 0.5),
-                  "share by which it reads too much")
+                  "relative scale error; > 0 reads too high")
           .number("min_airspeed_mps", "m/s", &P::min_airspeed_mps, between(0.0, 100.0),
-                  "below this airspeed it reads zero");
+                  "below this airspeed the reading is zero");
   return table;
 }
 
@@ -41,7 +41,7 @@ class AirDataProbe final : public ReadingSensor<AirData> {
     const AirDataParams params = air_data_table().read(parameters, context.part);
     noise_std_mps_ = params.noise_std_mps;
     scale_ = 1.0 + params.scale_error;
-    least_airspeed_mps_ = params.min_airspeed_mps;
+    min_airspeed_mps_ = params.min_airspeed_mps;
     kept_share_ = params.lag_s > 0.0 ? std::exp(-context.period.s() / params.lag_s) : 0.0;
   }
 
@@ -54,7 +54,7 @@ class AirDataProbe final : public ReadingSensor<AirData> {
     for (int axis = 0; axis < 3; ++axis) {
       reading.v_air_B[axis] = scale_ * lagged_B_[axis] + noise_std_mps_ * random_.normal();
     }
-    if (readings_.is_in_outage(now) || reading.v_air_B.norm() < least_airspeed_mps_) {
+    if (readings_.is_in_outage(now) || reading.v_air_B.norm() < min_airspeed_mps_) {
       reading.v_air_B.setZero();
     }
     readings_.push(now, reading, AirData{truth_B});
@@ -65,8 +65,8 @@ class AirDataProbe final : public ReadingSensor<AirData> {
   RandomStream random_;
   double noise_std_mps_ = 0.0;
   double scale_ = 1.0;
-  double least_airspeed_mps_ = 0.0;
-  double kept_share_ = 0.0;  ///< of the last reading's difference from the truth
+  double min_airspeed_mps_ = 0.0;
+  double kept_share_ = 0.0;  ///< share of the last reading's deviation from the truth that remains
   Eigen::Vector3d lagged_B_ = Eigen::Vector3d::Zero();
   bool has_last_ = false;
 };

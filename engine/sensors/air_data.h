@@ -1,9 +1,9 @@
 #pragma once
-/// Pitot tube and vanes: the vehicle's velocity through the air, in B.
+/// Air data sensor (pitot tube and vanes): the vehicle's velocity through the air, in B.
 ///
-/// reading = (1 + scale error) * lagged truth + white noise per axis, where the lag is of first
-/// order and exact for an air velocity that is constant over a period. Below the least airspeed
-/// that its pressure sensor resolves the reading is zero, as it is in an outage.
+/// reading = (1 + scale error) * lagged truth + white noise per axis. The lag is of first order and
+/// exact for an air velocity that is constant over a period. Below the minimum airspeed that its
+/// pressure sensor resolves the reading is zero, as in an outage.
 
 #include <memory>
 

@@ -39,7 +39,7 @@ const ParameterTable<BarometerParams>& barometer_table() {
           .number("resolution_Pa", "Pa", &P::resolution_Pa, between(0.0, 1e4),
                   "step of the reading; 0: none")
           .number("dynamic_pressure_share", "", &P::dynamic_pressure_share, between(-2.0, 2.0),
-                  "share of the dynamic pressure that the housing lets in");
+                  "share of the dynamic pressure that enters the housing");
   return table;
 }
 
@@ -82,7 +82,7 @@ class Barometer final : public MountedSensor<PressureSample> {
  private:
   const Vehicle* vehicle_;
   double origin_altitude_m_;
-  double weather_;  ///< the day's pressure over the standard's
+  double weather_;  ///< ratio of the day's pressure to the standard's
   double noise_std_Pa_;
   double dynamic_share_;
   double resolution_Pa_;

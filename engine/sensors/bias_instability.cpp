@@ -9,9 +9,10 @@ namespace {
 constexpr std::array<double, BiasInstability::kCount> kTimes_s = {2.0,   12.0,   72.0,
                                                                   432.0, 2592.0, 15552.0};
 
-/// Allan variance of a Gauss-Markov process of variance one at x correlation times.
+/// Allan variance of a Gauss-Markov process of variance one at an averaging time of x correlation
+/// times.
 double calc_unit_allan_variance(double x) {
-  if (x < 1e-3) return 2.0 * x / 3.0;  // the first term: the rest is lost in rounding
+  if (x < 1e-3) return 2.0 * x / 3.0;  // first term of the series: the closed form loses digits
   return 2.0 / x * (1.0 - (3.0 - 4.0 * std::exp(-x) + std::exp(-2.0 * x)) / (2.0 * x));
 }
 
@@ -54,7 +55,8 @@ double calc_instability_std(const AllanFigures& figures) {
   if (figures.instability_u == 0.0) return 0.0;
   const double wanted = kInstabilityFactor * figures.instability_u;
   if (calc_least_allan_deviation(figures, 0.0) > wanted) return -1.0;
-  // The least value grows with the standard deviation; alone the processes give 0.84 times theirs.
+  // The minimum grows with the processes' standard deviation; without white noise and random walk
+  // it is 0.84 times it.
   double low = 0.0, high = 2.0 * wanted;
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (low + high);

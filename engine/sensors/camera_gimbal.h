@@ -1,13 +1,13 @@
 #pragma once
-/// A stabilised mount of two axes: takes a vehicle's roll and pitch out of what hangs on it, as far
-/// as it can turn and as fast as it can follow. Yaw is the vehicle's.
+/// Two-axis stabilised mount: compensates a vehicle's roll and pitch within its angle limit and
+/// lag. Yaw follows the vehicle.
 ///
 /// Outer axis: roll, along x of B; inner axis: pitch. With the vehicle's attitude Rz Ry Rx the
-/// mount has Rz(yaw) Ry(pitch) Rx(roll - g_r) Ry(-g_p), which is level where the gimbal's angles g
-/// are the vehicle's. They follow these through a first-order lag T: what remains of an angle a is
-/// r with r' = a' - r / T, so T a' of a steady rate and w T / sqrt(1 + (w T)^2) of a swing at w.
-/// Between two ticks angles count as changing evenly, for which the lag is exact. Beyond the limit
-/// the rest remains.
+/// mount has Rz(yaw) Ry(pitch) Rx(roll - g_r) Ry(-g_p), which is level if the gimbal's angles g
+/// equal the vehicle's. They follow these through a first-order lag T. The residual r of an angle a
+/// obeys r' = a' - r / T: it is T a' at a steady rate, and w T / sqrt(1 + (w T)^2) of an
+/// oscillation at w. Between two ticks angles are taken to change linearly, for which the lag is
+/// exact. Beyond the limit the residual is the rest of the angle.
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -21,10 +21,11 @@ namespace vinerow::sensors {
 class CameraGimbal {
  public:
   CameraGimbal() = default;
-  /// @param limit_rad  each angle's, to both sides  @param lag_s  >= 0; 0 follows at once
+  /// @param limit_rad  of each angle, to both sides
+  /// @param lag_s  >= 0; 0: no lag
   CameraGimbal(double limit_rad, double lag_s) : limit_rad_(limit_rad), lag_s_(lag_s) {}
 
-  /// To the vehicle's attitude now; the first call begins without any lag.
+  /// Advances to the vehicle's current attitude; the first call starts without lag.
   /// @param dt_s  since the last call
   /// @returns the mount's attitude in W
   Eigen::Quaterniond advance(double dt_s, const Eigen::Quaterniond& q_WB) {
@@ -39,7 +40,7 @@ class CameraGimbal {
  private:
   struct Axis {
     double angle_rad = 0.0;  ///< the vehicle's
-    double rest_rad = 0.0;   ///< what the gimbal has not taken out of it
+    double rest_rad = 0.0;   ///< residual that the gimbal has not compensated
   };
 
   void follow(double angle_rad, double dt_s, Axis& axis) const {

@@ -17,18 +17,18 @@
 namespace vinerow::sensors {
 namespace {
 
-/// Rays end here; pictures of what is farther are no survey's.
+/// Length of the rays. Chosen: longer distances do not occur in a survey.
 constexpr double kFarthest_m = 10'000.0;
 constexpr SurfaceMask kGround = mask_of(SurfaceClass::kTerrain);
 
 struct CameraTriggerParams {
   SurveyCameraParams camera;
-  std::optional<double> interval_s;  ///< default: as fast as the camera can
+  std::optional<double> interval_s;  ///< default: the camera's minimum
   std::optional<double> distance_m;  ///< instead of interval_s
   bool is_on_lanes = true;
   bool has_gimbal = false;
-  // Chosen: travel of small servo gimbals; a lag a little above that of small digital servos
-  // (0.04 s), since the gimbal measures the attitude first. Direct drives are much faster.
+  // Chosen: travel of small servo gimbals. The lag is a little above that of small digital servos
+  // (0.04 s), because the gimbal must first measure the attitude. Direct drives are much faster.
   double gimbal_limit_rad = rad_from_deg(30.0);
   double gimbal_lag_s = 0.05;
 };
@@ -54,23 +54,22 @@ const ParameterTable<CameraTriggerParams>& camera_trigger_table() {
       ParameterTable<P>()
           .include(&P::camera, survey_camera_table())
           .number("interval_s", "s", &P::interval_s, kPositive,
-                  "time between pictures; default: as fast as the camera can")
+                  "time between pictures; default: the camera's minimum")
           .number("distance_m", "m", &P::distance_m, kPositive,
                   "distance over ground between pictures, instead of interval_s")
           .choice("on", &P::is_on_lanes, {{"lanes", true}, {"always", false}},
-                  "where it takes pictures: on the plan's legs only, or all the time")
+                  "take pictures only on the plan's legs, or always")
           .choice("mount", &P::has_gimbal, {{"fixed", false}, {"gimbal", true}},
-                  "gimbal: a stabilised mount takes the vehicle's roll and pitch out of "
-                  "rotation_deg")
+                  "gimbal: a stabilised mount compensates the vehicle's roll and pitch")
           .degrees("gimbal_limit_deg", &P::gimbal_limit_rad, between(0.0, 90.0),
-                   "roll and pitch that the gimbal takes out at most")
+                   "largest roll and pitch that the gimbal compensates")
           .number("gimbal_lag_s", "s", &P::gimbal_lag_s, between(0.0, 10.0),
-                  "time constant with which the gimbal follows; 0: at once")
+                  "time constant of the gimbal; 0: no lag")
           .rule(find_fault_in_trigger);
   return table;
 }
 
-/// Straight down, upper edge of the picture ahead.
+/// Default mounting: straight down, upper edge of the picture ahead.
 struct CameraMountingParams {
   MountingParams mounting{.rotation_rad = {0.0, rad_from_deg(90.0), 0.0}};
 };
@@ -107,7 +106,8 @@ class CameraTrigger final : public MountedSensor<CameraShot> {
 
   void connect(Ports& ports) override {
     if (on_lanes_) {
-      // For the check that somebody plans: without lanes there would never be a picture.
+      // Makes the bus check that a planner writes the plan: without lanes there would never be a
+      // picture.
       static_cast<void>(ports.read<PlannedPath>("plan"));
       plan_.connect(ports);
     }
@@ -117,12 +117,11 @@ class CameraTrigger final : public MountedSensor<CameraShot> {
 
   void step(Time now) override {
     const Odometry& truth = body();
-    // A gimbal also turns between the pictures.
+    // A gimbal also moves between the pictures.
     const Eigen::Quaterniond q_W =
         has_gimbal_ ? gimbal_.advance((now - last_).s(), truth.X_WB.q) : truth.X_WB.q;
     last_ = now;
-    // Whoever releases the shutter knows where the vehicle thinks it is; without an estimator there
-    // is the truth alone.
+    // The trigger uses the vehicle's estimate; without an estimator it uses the truth.
     const Odometry& known = estimate_.has_value() ? estimate_.value() : truth;
     if (!is_due(now, known) || readings_.is_in_outage(now)) {
       readings_.push_nothing();
@@ -178,16 +177,16 @@ class CameraTrigger final : public MountedSensor<CameraShot> {
   bool on_lanes_;
   bool has_gimbal_;
   CameraGimbal gimbal_;
-  Time last_;  ///< tick
+  Time last_;  ///< last tick
   Duration fastest_;
   Duration interval_;
-  double distance_m_;  ///< 0: by time
+  double distance_m_;  ///< 0: triggered by time
   std::array<Eigen::Vector3d, 4> corners_S_;
-  CameraShot shot_;  ///< the last
+  CameraShot shot_;  ///< last picture
   Time shot_at_;
-  Eigen::Vector2d shot_from_W_ = Eigen::Vector2d::Zero();  ///< as known then
+  Eigen::Vector2d shot_from_W_ = Eigen::Vector2d::Zero();  ///< by the estimate, at the last picture
   int lane_ = -1;
-  bool waits_for_lane_ = false;  ///< a lane has begun, and there is no picture of it yet
+  bool waits_for_lane_ = false;  ///< a lane has started and has no picture yet
   PlanStretch plan_;
   SignalReader<Odometry> estimate_;
 };
@@ -200,9 +199,8 @@ PartSpec camera_trigger_spec() {
       "Survey camera: pictures by time or by distance, each with its pose and its footprint on the "
       "ground",
       20.0, camera_trigger_table().specs(), camera_mounting_table().specs());
-  spec.reads.push_back("plan (where on: lanes)");
-  spec.reads.push_back(
-      "estimate (where there is one: which lane, and how far from the last picture)");
+  spec.reads.push_back("plan (if on: lanes)");
+  spec.reads.push_back("estimate (if available: lane, and distance from the last picture)");
   spec.gives = ProductKind::kPictures;
   return spec;
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// Readings on their way from a sensor to its signal: first in, first out, fixed capacity, no heap
-/// after set-up.
+/// Delay line between a sensor and its signal: first in, first out, fixed capacity, no heap after
+/// set-up.
 
 #include <vector>
 
@@ -18,15 +18,15 @@ class DelayLine {
     if (delay.ns > 0) ring_.resize(static_cast<std::size_t>(delay.ns / period.ns) + 2);
   }
 
-  /// For readings that own memory (names, lists): every place of the line gets it now, so that
-  /// push() only copies into it.
+  /// For readings that own memory (names, lists): copies the reading into every slot, so that
+  /// push() does not allocate.
   void prefill(const T& reading) {
     for (Entry& entry : ring_) entry.reading = reading;
   }
 
   Duration delay() const { return delay_; }
 
-  /// Writes at once without delay, else keeps the reading until deliver().
+  /// Writes at once if there is no delay; otherwise keeps the reading until deliver().
   void push(Time measured, const T& reading, SignalWriter<T>& out) {
     if (delay_.ns == 0) {
       out.write(measured, reading);
@@ -38,12 +38,12 @@ class DelayLine {
     entry.is_lost = false;
   }
 
-  /// A reading that will not arrive; it takes its place, so that others keep their time.
+  /// Enters a lost reading, which keeps its slot so that the timing of the others is unchanged.
   void push_lost() {
     if (delay_.ns > 0) next().is_lost = true;
   }
 
-  /// Hands over the oldest reading, if it was not lost; its stamp is the time of the measurement.
+  /// Writes the oldest reading if it was not lost; its stamp is the time of the measurement.
   void deliver(SignalWriter<T>& out) {
     if (count_ == 0) return;
     const Entry& oldest = ring_[first_];

@@ -13,24 +13,24 @@ const ParameterTable<EchoParams>& echo_table() {
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .number("echo_threshold", "", &P::threshold, between(0.0, 1e6),
-                  "weakest echo that is heard, of a perfect reflector that fills the cone at "
-                  "1 m; 0: every return is heard")
+                  "weakest echo that is detected, relative to a perfect reflector that fills the "
+                  "cone at 1 m; 0: every return is detected")
           .number("echo_pulse_m", "m", &P::pulse_m, kPositive,
-                  "returns nearer to each other add up")
+                  "returns closer together than this add up")
           .degrees("beam_half_power_deg", &P::beam_half_power_rad, kPositive,
-                   "off the axis the echo, out and back, has half of its power")
+                   "angle off the axis at which the echo, out and back, has half of its power")
           .number("absorption_db_per_m", "dB/m", &P::absorption_db_per_m, between(0.0, 100.0),
-                  "of sound in the air")
+                  "absorption of sound in the air")
           .number("canopy_scatter", "", &P::canopy_scatter, between(0.0, 1.0),
-                  "echo of leaves, of a perfect reflector's")
+                  "echo of leaves, relative to a perfect reflector")
           .number("ground_scatter", "", &P::ground_scatter, between(0.0, 1.0),
                   "echo of soil and grass seen from above")
           .number("stem_scatter", "", &P::stem_scatter, between(0.0, 1.0),
                   "echo of posts and trunks")
           .number("smooth_scatter", "", &P::smooth_scatter, between(0.0, 1.0),
-                  "echo of hard smooth surfaces aside of the mirrored one")
+                  "diffuse echo of hard smooth surfaces")
           .degrees("smooth_lobe_deg", &P::smooth_lobe_rad, kPositive,
-                   "incidence at which a hard smooth surface mirrors 1/e of the sound back");
+                   "incidence at which a hard smooth surface reflects 1/e of the sound back");
   return table;
 }
 
@@ -63,7 +63,7 @@ double echo_spreading(const EchoParams& params, double distance_m) {
          (distance_m * distance_m);
 }
 
-double first_heard_m(const EchoParams& params, std::span<EchoReturn> returns) {
+double first_echo_m(const EchoParams& params, std::span<EchoReturn> returns) {
   std::sort(returns.begin(), returns.end(),
             [](const EchoReturn& a, const EchoReturn& b) { return a.distance_m < b.distance_m; });
   double sum = 0.0;

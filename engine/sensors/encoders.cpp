@@ -13,7 +13,7 @@
 namespace vinerow::sensors {
 namespace {
 
-/// What one kind of encoder does to a true value.
+/// Error model of one kind of encoder.
 struct Channel {
   double resolution = 0.0;
   double noise_std = 0.0;
@@ -24,7 +24,7 @@ struct Channel {
 };
 
 /// Defaults: a 12-bit absolute magnetic encoder on the steering axle (AMS AS5600 data sheet: 4096
-/// steps a turn, 0.015 deg noise in the slow filter), and a motor's hall-sensor speed estimate
+/// steps per turn, 0.015 deg noise with the slow filter), and a motor's hall-sensor speed estimate
 /// (chosen: 0.01 rad/s at the wheel).
 struct EncodersParams {
   Channel angle{0.00153398, 0.00026};

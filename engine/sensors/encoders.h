@@ -3,8 +3,8 @@
 /// them.
 ///
 /// reading = resolution * round((true + white noise) / resolution); a resolution of 0 does not
-/// round. Writes NamedValues with the actuators' names, in their order: those in rad with the angle
-/// parameters, those in rad/s with the speed parameters. In an outage every value is +infinity.
+/// round. Writes NamedValues with the actuators' names, in their order. Actuators in rad use the
+/// angle parameters, those in rad/s the speed parameters. In an outage every value is +infinity.
 
 #include <memory>
 
@@ -13,8 +13,8 @@
 namespace vinerow::sensors {
 
 PartSpec encoders_spec();
-/// @throws ConfigError where the vehicle does not know the states of its actuators, or one is
-/// neither an angle nor a rate
+/// @throws ConfigError if the vehicle does not model its actuator states, or one is neither an
+/// angle nor a rate
 std::unique_ptr<Sensor> make_encoders(const ParameterSet& parameters, const SensorContext& context);
 
 }  // namespace vinerow::sensors

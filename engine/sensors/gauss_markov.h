@@ -1,5 +1,5 @@
 #pragma once
-/// First-order Gauss-Markov process: an error that wanders about zero and forgets.
+/// First-order Gauss-Markov process: exponentially correlated noise with zero mean.
 
 #include <cmath>
 
@@ -20,9 +20,9 @@ class GaussMarkov {
         decay_(time_s > 0.0 ? std::exp(-period_s / time_s) : 0.0),
         kick_(std * std::sqrt(1.0 - decay_ * decay_)) {}
 
-  /// Starts as if it had run for ever. Draws one number.
+  /// Starts in the stationary distribution. Draws one number.
   void start(RandomStream& random) { value_ = std_ * random.normal(); }
-  /// One step further. Draws one number. @returns the new value
+  /// Advances by one step. Draws one number. @returns the new value
   double step(RandomStream& random) { return value_ = decay_ * value_ + kick_ * random.normal(); }
   double value() const { return value_; }
 

@@ -35,10 +35,9 @@ const ParameterTable<JammingParams>& jamming_table() {
           .reword("begin_s", "start of the jamming")
           .reword("end_s", "end of the jamming")
           .number("drop_dB", "dB", &P::drop_dB, between(0.0, 200.0),
-                  "loss of carrier-to-noise density at its strongest")
+                  "maximum loss of carrier-to-noise density")
           .required()
-          .number("ramp_s", "s", &P::ramp_s, between(0.0, 1e6),
-                  "how long it takes to rise, and to fall")
+          .number("ramp_s", "s", &P::ramp_s, between(0.0, 1e6), "rise time, and fall time")
           .rule(find_fault_in_ramp);
   return table;
 }
@@ -134,8 +133,8 @@ class Gnss final : public SatelliteReceiver {
 PartSpec gnss_spec() {
   return mounted_sensor_spec<GnssFix>(
       "gnss",
-      "Satellite receiver, standalone to RTK, whose fix and error follow from the satellites it "
-      "sees past ground, posts and leaves",
+      "Satellite receiver, standalone to RTK, whose fix and error depend on the satellites visible "
+      "past ground, posts and leaves",
       5.0, gnss_table().specs());
 }
 

@@ -28,21 +28,21 @@ ParameterTable<GnssErrorParams> make_gnss_error_table() {
     };
     table
         .numbers(key + "_white_std_m", "m", mode(&GnssModeError::white_std_m), between(0.0, 1e3),
-                 words + ": white error of east and north, of up")
+                 words + ": white error, horizontal and vertical")
         .numbers(key + "_walk_std_m", "m", mode(&GnssModeError::walk_std_m), between(0.0, 1e3),
-                 words + ": slowly moving error of east and north, of up")
+                 words + ": slowly varying error, horizontal and vertical")
         .number(key + "_walk_time_s", "s", mode(&GnssModeError::walk_time_s), kPositive,
-                words + ": correlation time of that")
+                words + ": correlation time of the slowly varying error")
         .number(key + "_velocity_std_mps", "m/s", mode(&GnssModeError::velocity_std_mps),
                 between(0.0, 100.0), words + ": white error of the velocity, each axis");
   }
   table
       .numbers("code_usual_dop", "", &P::code_usual_dop, above(0.0, 1e3),
-               "horizontal, vertical dilution by code at which these errors hold")
+               "horizontal, vertical dilution by code for which these errors hold")
       .numbers("carrier_usual_dop", "", &P::carrier_usual_dop, above(0.0, 1e3),
-               "horizontal, vertical dilution by carrier at which these errors hold")
+               "horizontal, vertical dilution by carrier for which these errors hold")
       .number("baseline_m", "m", &P::baseline_m, between(0.0, 50e3),
-              "distance of the base station, 1 mm of error per km");
+              "distance to the base station; adds 1 mm of error per km");
   return table;
 }
 
@@ -89,7 +89,7 @@ void GnssError::draw() {
 void GnssError::apply(const Dilution& dilution, GnssFix& fix) const {
   const std::size_t index = static_cast<std::size_t>(fix.mode) - 1;
   const GnssModeError& mode = modes_[index];
-  // Of one axis of the plane, and of the vertical.
+  // Dilution of one horizontal axis, and of the vertical.
   const double usual[2] = {mode.usual_dop[0] / std::sqrt(2.0), mode.usual_dop[1]};
   for (int axis = 0; axis < 3; ++axis) {
     const int kind = axis == 2 ? 1 : 0;

@@ -1,12 +1,12 @@
 #pragma once
-/// Errors of a receiver's position and velocity in each of its modes.
+/// Position and velocity errors of a GNSS receiver in each of its modes.
 ///
-/// Per axis: error = s (white_std n + walk_std g), with n white and g a first-order Gauss-Markov
-/// process of unit variance and the mode's `walk_time_s` (each mode has its own g, which runs on
-/// while another mode rules), and s the dilution of that axis over the usual one, at which the
-/// mode's figures hold: that of code for standalone and SBAS, of carrier phase for float and fixed.
-/// Velocity: white, s of the dilution of position as a whole. RTK's walk has beside its own 1 mm
-/// per km of `baseline_m` (ZED-F9P data sheet: 1 ppm).
+/// Per axis: error = s (white_std n + walk_std g). n is white. g is a first-order Gauss-Markov
+/// process of unit variance and the mode's `walk_time_s`; each mode has its own g, which also
+/// advances while another mode is active. s is the dilution of that axis relative to the usual one,
+/// for which the mode's figures hold: that of code for standalone and SBAS, of carrier phase for
+/// float and fixed. Velocity: white, with s from the dilution of position as a whole. RTK's walk
+/// includes an additional 1 mm per km of `baseline_m` (ZED-F9P data sheet: 1 ppm).
 
 #include <array>
 
@@ -21,13 +21,13 @@ namespace vinerow::sensors {
 /// Horizontal (each axis), vertical.
 using GnssPair = std::array<double, 2>;
 
-/// Of one mode, at the usual dilution.
+/// Errors of one mode at the usual dilution.
 struct GnssModeError {
   GnssPair white_std_m;
   GnssPair walk_std_m;
   double walk_time_s;
   double velocity_std_mps;
-  GnssPair usual_dop{};  ///< at which these hold
+  GnssPair usual_dop{};  ///< dilution for which these figures hold
 };
 
 /// Indexed by mode - 1: standalone, SBAS, float, fixed.
@@ -48,12 +48,13 @@ struct GnssErrorParams {
   GnssPair carrier_usual_dop{1.0, 1.45};
   double baseline_m = 1000.0;
 
-  /// The modes, each with its usual dilution and, by RTK, with what the baseline adds.
+  /// Errors of the modes, each with its usual dilution and, for RTK, with the baseline's
+  /// contribution.
   GnssModeErrors resolve() const;
 };
 
 /// `standalone_white_std_m` [horizontal, vertical], `standalone_walk_std_m`,
-/// `standalone_walk_time_s`, `standalone_velocity_std_mps`, the same of `sbas`, `float` and
+/// `standalone_walk_time_s`, `standalone_velocity_std_mps`, the same for `sbas`, `float` and
 /// `fixed`; `code_usual_dop` [horizontal, vertical], `carrier_usual_dop`, `baseline_m`.
 const ParameterTable<GnssErrorParams>& gnss_error_table();
 
@@ -61,10 +62,10 @@ class GnssError {
  public:
   GnssError(const GnssModeErrors& modes, double period_s, RandomStream random);
 
-  /// One tick, whether there is a fix or not: always draws the same count of numbers.
+  /// Advances by one tick, with or without a fix: always draws the same count of numbers.
   void draw();
 
-  /// Adds errors to an exact fix, and says how large they may be.
+  /// Adds errors to an exact fix and sets its standard deviations.
   /// @param fix  its mode is not kNone
   void apply(const Dilution& dilution, GnssFix& fix) const;
 

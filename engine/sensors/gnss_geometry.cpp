@@ -12,11 +12,11 @@ void GnssGeometry::add(const Eigen::Vector3d& direction_W, double weight) {
 }
 
 bool GnssGeometry::read(Dilution& dilution) const {
-  // Four satellites on one cone tell nothing; a dilution of 1e4 is none either.
-  constexpr double kLeastPivot = 1e-8;
+  // Four satellites on one cone do not determine a position, and a dilution of 1e4 is useless.
+  constexpr double kMinPivot = 1e-8;
   if (count_ < 4) return false;
   const Eigen::LDLT<Eigen::Matrix4d> factors(normal_);
-  if (factors.info() != Eigen::Success || factors.vectorD().minCoeff() < kLeastPivot) return false;
+  if (factors.info() != Eigen::Success || factors.vectorD().minCoeff() < kMinPivot) return false;
   const Eigen::Matrix4d Q = factors.solve(Eigen::Matrix4d::Identity());
   dilution.axes = Q.diagonal().head<3>().cwiseSqrt();
   dilution.clock = std::sqrt(Q(3, 3));

@@ -1,9 +1,9 @@
 #pragma once
-/// Dilution of precision: what the satellites' places make of errors of their ranges.
+/// Dilution of precision: effect of the satellite geometry on range errors.
 ///
-/// Rows of G are (-e_east, -e_north, -e_up, 1) with e the unit vector to the satellite, the fourth
-/// unknown is the receiver's clock, Q = (G' W G)^-1. Source: Kaplan, Hegarty, Understanding GPS,
-/// 2nd ed., section 7.3.1; weighted as there in 7.3.2 with w = (usual variance / variance).
+/// The rows of G are (-e_east, -e_north, -e_up, 1) with e the unit vector to the satellite; the
+/// fourth unknown is the receiver's clock; Q = (G' W G)^-1. Source: Kaplan, Hegarty, Understanding
+/// GPS, 2nd ed., section 7.3.1; weighted as in 7.3.2 with w = (usual variance / variance).
 
 #include <Eigen/Core>
 #include <cmath>
@@ -19,13 +19,14 @@ struct Dilution {
   double position() const { return axes.norm(); }
 };
 
-/// Gathers the satellites of one fix.
+/// Accumulates the satellites of one fix.
 class GnssGeometry {
  public:
-  /// @param direction_W  unit  @param weight  > 0; 1: a usual one
+  /// @param direction_W  unit
+  /// @param weight  > 0; 1: a usual satellite
   void add(const Eigen::Vector3d& direction_W, double weight);
   int count() const { return count_; }
-  /// @param dilution  written only if the satellites tell four unknowns
+  /// @param dilution  written only if the satellites determine the four unknowns
   /// @returns whether they do
   bool read(Dilution& dilution) const;
 

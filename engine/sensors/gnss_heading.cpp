@@ -15,8 +15,9 @@ namespace vinerow::sensors {
 namespace {
 
 /// Defaults: u-blox, ZED-F9P and ZED-F9H data sheets, moving base: heading accuracy 0.4 deg over 1
-/// m, which is 7.0 mm across the baseline. Quoted; sheets not at hand. Share of white noise and
-/// correlation time as of an RTK fix (gnss_error.h); the height is chosen to err twice as much.
+/// m, which is 7.0 mm across the baseline (secondary source; the data sheets were not available).
+/// Share of white noise and correlation time as for an RTK fix (gnss_error.h); twice the error in
+/// height is chosen.
 struct GnssHeadingParams {
   double baseline_m = 1.0;
   GnssPair white_std_m{0.0040, 0.0080};
@@ -33,23 +34,24 @@ const ParameterTable<GnssHeadingParams>& gnss_heading_table() {
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .number("baseline_m", "m", &P::baseline_m, between(0.1, 50.0),
-                  "from the first antenna to the second, along x of the sensor")
+                  "distance from the first antenna to the second, along x of the sensor")
           .numbers("white_std_m", "m", &P::white_std_m, between(0.0, 10.0),
-                   "white error of the baseline, east and north, up")
+                   "white error of the baseline, horizontal and vertical")
           .numbers("walk_std_m", "m", &P::walk_std_m, between(0.0, 10.0),
-                   "slowly moving error of the baseline, east and north, up")
-          .number("walk_time_s", "s", &P::walk_time_s, kPositive, "correlation time of that")
+                   "slowly varying error of the baseline, horizontal and vertical")
+          .number("walk_time_s", "s", &P::walk_time_s, kPositive,
+                  "correlation time of the slowly varying error")
           .numbers("usual_dop", "", &P::usual_dop, above(0.0, 1e3),
-                   "horizontal, vertical dilution at which these errors hold")
+                   "horizontal, vertical dilution for which these errors hold")
           .include(&P::sky, gnss_sky_table())
           .integer("fixed_satellites", inside(&P::modes, &GnssModeRules::fixed_satellites),
-                   between(5, 50), "least number by carrier phase, of either antenna")
+                   between(5, 50), "minimum number of satellites by carrier phase at each antenna")
           .number("max_rtk_pdop", "", inside(&P::modes, &GnssModeRules::max_rtk_pdop),
-                  between(1.0, 1e3), "largest dilution")
+                  between(1.0, 1e3), "maximum dilution")
           .number("time_to_fix_s", "s", inside(&P::modes, &GnssModeRules::time_to_fix_s),
-                  between(0.0, 1e4), "until the ambiguities are resolved, first time")
+                  between(0.0, 1e4), "time until the ambiguities are first resolved")
           .number("time_to_refix_s", "s", inside(&P::modes, &GnssModeRules::time_to_refix_s),
-                  between(0.0, 1e4), "until they are again")
+                  between(0.0, 1e4), "time until they are resolved again")
           .include(&P::signals, gnss_signal_table());
   return table;
 }
@@ -138,11 +140,11 @@ class GnssHeadingSensor final : public MountedSensor<GnssHeading> {
 }  // namespace
 
 PartSpec gnss_heading_spec() {
-  return mounted_sensor_spec<GnssHeading>("gnss_heading",
-                                          "Heading and slope by two satellite antennas (moving "
-                                          "baseline by carrier phase), past ground, "
-                                          "posts and leaves",
-                                          5.0, gnss_heading_table().specs());
+  return mounted_sensor_spec<GnssHeading>(
+      "gnss_heading",
+      "Heading and slope by two satellite antennas (moving baseline by carrier phase), visible "
+      "past ground, posts and leaves",
+      5.0, gnss_heading_table().specs());
 }
 
 std::unique_ptr<Sensor> make_gnss_heading(const ParameterSet& parameters,

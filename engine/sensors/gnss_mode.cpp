@@ -32,24 +32,25 @@ const ParameterTable<GnssModeRules>& gnss_mode_table() {
                   {{"none", GnssCorrections::kNone},
                    {"sbas", GnssCorrections::kSbas},
                    {"rtk", GnssCorrections::kRtk}},
-                  "what the receiver is told: nothing, SBAS, or a base station's RTK")
+                  "corrections that the receiver gets: none, SBAS, or RTK from a base station")
           .choice("start", &P::is_running_at_start, {{"running", true}, {"cold", false}},
-                  "running: it has had its best solution for long; cold: switched on now")
+                  "running: it already has its best solution; cold: it is switched on at the start")
           .number("cold_start_s", "s", &P::cold_start_s, between(0.0, 1e4),
-                  "time to first fix, start: cold")
+                  "time to first fix with start: cold")
           .number("max_pdop", "", &P::max_pdop, between(1.0, 1e3),
-                  "largest dilution of a position by code")
-          .number("sbas_s", "s", &P::sbas_s, between(0.0, 1e4), "until corrections are there")
+                  "maximum dilution of a position by code")
+          .number("sbas_s", "s", &P::sbas_s, between(0.0, 1e4),
+                  "time until corrections are available")
           .integer("float_satellites", &P::float_satellites, between(4, 50),
-                   "least number for carrier phase, float")
+                   "minimum number of satellites by carrier phase for float")
           .integer("fixed_satellites", &P::fixed_satellites, between(4, 50),
-                   "least number for carrier phase, fixed")
+                   "minimum number of satellites by carrier phase for fixed")
           .number("max_rtk_pdop", "", &P::max_rtk_pdop, between(1.0, 1e3),
-                  "largest dilution of a position by carrier phase")
+                  "maximum dilution of a position by carrier phase")
           .number("time_to_fix_s", "s", &P::time_to_fix_s, between(0.0, 1e4),
-                  "from float to fixed, first time")
+                  "time from float to fixed, the first time")
           .number("time_to_refix_s", "s", &P::time_to_refix_s, between(0.0, 1e4),
-                  "from float to fixed again")
+                  "time from float to fixed, later")
           .rule(find_fault_in_satellites)
           .rule(find_fault_in_fixing);
   return table;
@@ -65,7 +66,7 @@ GnssModes::GnssModes(const GnssModeRules& rules, double period_s)
 
 GnssFix::Mode GnssModes::step(double code_pdop, int carrier_count, double carrier_pdop) {
   using Mode = GnssFix::Mode;
-  // Times count from the first tick at which a condition holds.
+  // Times start at the first tick at which a condition holds.
   const auto count = [this](bool holds, double& time_s) {
     time_s = holds ? time_s + period_s_ : -period_s_;
   };

@@ -11,15 +11,27 @@
 #include "engine/core/suggest.h"
 #include "engine/math/angles.h"
 
+// Direction to a satellite at the instant t. Frames: E turns with the Earth (x through the equator
+// at Greenwich, z through the north pole), W is east, north, up at the world's origin.
+//
+//   u    = phase_rad + phase_rate age              argument of latitude, age = t - epoch
+//   node = node_rad + node_rate age - theta(t)     longitude of the ascending node
+//   p_E  = radius Rz(node) (cos u, sin u cos i, sin u sin i)
+//   direction_W = R_WE (p_E - origin_E), normalised
+//
+// theta is the sidereal angle of Greenwich, i the inclination.
+
 namespace vinerow::sensors {
 namespace {
 
 using Eigen::Vector3d;
 
 constexpr double kDay_s = 86'400.0;
-constexpr double kEarthTurn_degpd = 360.98564736629;  // Meeus, eq. (12.4)
+/// Sidereal angle of Greenwich at 2000-01-01 12:00 UTC, and its rate. Meeus, eq. (12.4).
+constexpr double kSiderealAngle2000_deg = 280.46061837;
+constexpr double kEarthTurn_degpd = 360.98564736629;
 
-/// s since 2000-01-01 12:00.
+/// Seconds since 2000-01-01 12:00.
 double instant_of(std::chrono::year_month_day day, double seconds_of_day) {
   using std::chrono::sys_days;
   constexpr std::chrono::year_month_day kReference{std::chrono::year{2000}, std::chrono::month{1},
@@ -33,7 +45,9 @@ double instant_of(int year, unsigned month, unsigned day) {
                     0.0);
 }
 
-/// Earth-fixed, of a point on the WGS84 ellipsoid or above it.
+/// Position in E of a point on the WGS84 ellipsoid or above it:
+///   ((N + h) cos lat cos lon, (N + h) cos lat sin lon, (N (1 - e^2) + h) sin lat)
+/// with the prime vertical radius N = a / sqrt(1 - e^2 sin^2 lat).
 Vector3d position_on_earth(const GeoOrigin& place) {
   constexpr double kRadius_m = 6'378'137.0, kFlattening = 1.0 / 298.257223563;
   constexpr double kE2 = kFlattening * (2.0 - kFlattening);
@@ -44,7 +58,7 @@ Vector3d position_on_earth(const GeoOrigin& place) {
           (normal_m * (1.0 - kE2) + place.altitude_m) * sin_lat};
 }
 
-/// Rows: east, north, up.
+/// R_WE: its rows are east, north and up in E.
 Eigen::Matrix3d local_axes(const GeoOrigin& place) {
   const double sin_lat = std::sin(place.latitude_rad), cos_lat = std::cos(place.latitude_rad);
   const double sin_lon = std::sin(place.longitude_rad), cos_lon = std::cos(place.longitude_rad);
@@ -58,7 +72,7 @@ Eigen::Matrix3d local_axes(const GeoOrigin& place) {
 }  // namespace
 
 double sidereal_angle_rad(double instant_s) {
-  const double turned_deg = 280.46061837 + kEarthTurn_degpd * (instant_s / kDay_s);
+  const double turned_deg = kSiderealAngle2000_deg + kEarthTurn_degpd * (instant_s / kDay_s);
   return rad_from_deg(std::remainder(turned_deg, 360.0));
 }
 
@@ -88,6 +102,7 @@ double read_utc(std::string_view text, std::string_view name) {
 }
 
 Vector3d CircularOrbit::position_E(double instant_s) const {
+  // remainder() keeps the angles small, so that sin and cos lose no digits after years.
   const double age_s = instant_s - epoch_s;
   const double u = std::remainder(phase_rad + phase_rate_radps * age_s, 2.0 * kPi);
   const double node = node_rad + node_rate_radps * age_s - sidereal_angle_rad(instant_s);
@@ -103,19 +118,22 @@ std::vector<CircularOrbit> gps_orbits() {
       {272.847, 268.126, 161.786, 11.676, 41.806},  {332.847, 80.956, 173.336, 309.976, 204.376},
       {32.847, 111.876, 11.796, 339.666, 241.556},  {92.847, 135.226, 265.446, 35.156, 167.356},
       {152.847, 197.046, 302.596, 66.066, 333.686}, {212.847, 238.886, 345.226, 105.206, 135.346}};
-  // Table A-2-1 of the standard: the node goes back by 4.4874e-7 deg/s.
+  // Table A-2-1 of the standard: the node regresses by 4.4874e-7 deg/s.
   constexpr double kNodeRate_degpd = -4.4874e-7 * kDay_s;
+  // Two turns per turn of the Earth relative to the node: the ground track repeats every day.
+  constexpr double kPhaseRate_degpd = 2.0 * (kEarthTurn_degpd - kNodeRate_degpd);
+  constexpr double kRadius_m = 26'559'700.0, kInclination_deg = 55.0;  // of the standard
   std::vector<CircularOrbit> orbits;
   for (const auto& plane : kPlanes) {
     for (int slot = 1; slot <= 4; ++slot) {
       CircularOrbit orbit;
-      orbit.radius_m = 26'559'700.0;
-      orbit.inclination_rad = rad_from_deg(55.0);
+      orbit.radius_m = kRadius_m;
+      orbit.inclination_rad = rad_from_deg(kInclination_deg);
       orbit.epoch_s = instant_of(1993, 7, 1);
       orbit.node_rad = rad_from_deg(plane[0]);
       orbit.node_rate_radps = rad_from_deg(kNodeRate_degpd) / kDay_s;
       orbit.phase_rad = rad_from_deg(plane[slot]);
-      orbit.phase_rate_radps = rad_from_deg(2.0 * (kEarthTurn_degpd - kNodeRate_degpd)) / kDay_s;
+      orbit.phase_rate_radps = rad_from_deg(kPhaseRate_degpd) / kDay_s;
       orbits.push_back(orbit);
     }
   }
@@ -123,17 +141,24 @@ std::vector<CircularOrbit> gps_orbits() {
 }
 
 std::vector<CircularOrbit> galileo_orbits() {
+  // Walker 24/3/1: planes 120 deg apart, slots 45 deg apart, and a phase shift of 360 / 24 = 15 deg
+  // from one plane to the next. Numbers of the reference constellation (gnss_sky.h).
+  constexpr double kRadius_m = 29'600'318.0, kInclination_deg = 56.0;
+  constexpr double kFirstNode_deg = 25.0, kPlaneSpacing_deg = 120.0;
+  constexpr double kFirstPhase_deg = 338.333, kSlotSpacing_deg = 45.0, kPhaseShift_deg = 15.0;
+  constexpr double kNodeRate_degpd = -0.02764398, kPhaseRate_degpd = 613.72253566;
   std::vector<CircularOrbit> orbits;
   for (int plane = 0; plane < 3; ++plane) {
     for (int slot = 0; slot < 8; ++slot) {
       CircularOrbit orbit;
-      orbit.radius_m = 29'600'318.0;
-      orbit.inclination_rad = rad_from_deg(56.0);
+      orbit.radius_m = kRadius_m;
+      orbit.inclination_rad = rad_from_deg(kInclination_deg);
       orbit.epoch_s = instant_of(2010, 3, 21);
-      orbit.node_rad = rad_from_deg(25.0 + 120.0 * plane);
-      orbit.node_rate_radps = rad_from_deg(-0.02764398) / kDay_s;
-      orbit.phase_rad = rad_from_deg(338.333 + 45.0 * slot + 15.0 * plane);
-      orbit.phase_rate_radps = rad_from_deg(613.72253566) / kDay_s;
+      orbit.node_rad = rad_from_deg(kFirstNode_deg + kPlaneSpacing_deg * plane);
+      orbit.node_rate_radps = rad_from_deg(kNodeRate_degpd) / kDay_s;
+      orbit.phase_rad =
+          rad_from_deg(kFirstPhase_deg + kSlotSpacing_deg * slot + kPhaseShift_deg * plane);
+      orbit.phase_rate_radps = rad_from_deg(kPhaseRate_degpd) / kDay_s;
       orbits.push_back(orbit);
     }
   }
@@ -155,9 +180,9 @@ const ParameterTable<GnssSkyParams>& gnss_sky_table() {
   using P = GnssSkyParams;
   static const ParameterTable<P> table =
       ParameterTable<P>()
-          .texts("constellations", &P::constellations, "satellites it receives: gps, galileo")
+          .texts("constellations", &P::constellations, "constellations it receives: gps, galileo")
           .text("epoch_utc", &P::epoch_utc,
-                "date and time at the start of the run, which say where satellites stand");
+                "date and time at the start of the run, which determine the satellites' positions");
   return table;
 }
 

@@ -13,15 +13,15 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// What hides the sky of a parcel is nearer.
+/// Length of the rays. Chosen: all obstacles to the sky of a parcel are nearer.
 constexpr double kReach_m = 1'000.0;
 constexpr SurfaceMask kSeen =
     kAllSurfaces & ~mask_of(SurfaceClass::kWire) & ~mask_of(SurfaceClass::kVehicle);
-/// From one surface to the next; far above the rounding of the ray caster.
+/// Step behind a surface before the next ray. Chosen: far above the rounding of the ray caster.
 constexpr double kStep_m = 2e-3;
-/// After that many surfaces of canopy nothing is left of a signal.
-constexpr int kMostCrossings = 12;
-/// A sheet of leaves without a back: about a vine's shoot and leaves.
+/// Chosen: after this number of canopy surfaces nothing remains of a signal.
+constexpr int kMaxCrossings = 12;
+/// Depth of a sheet of leaves without a back. Chosen: about a vine's shoot and leaves.
 constexpr double kLoneLeaves_m = 0.3;
 constexpr double kNoSignal_dBHz = -std::numeric_limits<double>::infinity();
 
@@ -44,32 +44,34 @@ const ParameterTable<GnssSignals>& gnss_signal_table() {
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .degrees("mask_deg", &P::mask_rad, between(0.0, 60.0),
-                   "satellites lower than this are not used")
+                   "elevation mask: lower satellites are not used")
           .number("zenith_cn0_dBHz", "dB-Hz", &P::zenith_cn0_dBHz, between(0.0, 60.0),
                   "carrier-to-noise density of a satellite at the zenith")
           .number("horizon_cn0_dBHz", "dB-Hz", &P::horizon_cn0_dBHz, between(0.0, 60.0),
                   "carrier-to-noise density at the horizon, by the antenna's pattern")
           .number("usual_cn0_dBHz", "dB-Hz", &P::usual_cn0_dBHz, between(0.0, 60.0),
-                  "from here on a satellite has its full weight")
+                  "carrier-to-noise density from which a satellite has its full weight")
           .number("code_noise_share", "", &P::code_noise_share, between(0.0, 1.0),
                   "share of noise in the variance of a code's range at the usual C/N0")
           .number("carrier_noise_share", "", &P::carrier_noise_share, between(0.0, 1.0),
-                  "the same of carrier phase")
+                  "the same for carrier phase")
           .number("code_cn0_dBHz", "dB-Hz", &P::code_cn0_dBHz, between(0.0, 60.0),
-                  "least for a position by code")
+                  "minimum for a position by code")
           .number("carrier_cn0_dBHz", "dB-Hz", &P::carrier_cn0_dBHz, between(0.0, 60.0),
-                  "least for a position by carrier phase")
+                  "minimum for a position by carrier phase")
           .number("leaves_dB_per_m", "dB/m", &P::leaves_dB_per_m, between(0.0, 100.0),
                   "loss in canopy; tree crowns have 2 in the L band")
           .number("fading_share", "", &P::fading_share, between(0.0, 2.0),
-                  "standard deviation of that loss as leaves and antenna move, as a share")
-          .number("fading_time_s", "s", &P::fading_time_s, kPositive, "correlation time of that")
+                  "standard deviation of the fading by moving leaves and antenna, as a share of "
+                  "that loss")
+          .number("fading_time_s", "s", &P::fading_time_s, kPositive,
+                  "correlation time of the fading")
           .number("reacquisition_s", "s", &P::reacquisition_s, between(0.0, 600.0),
-                  "until a satellite that was lost serves again")
+                  "time until a lost satellite is used again")
           .number("bridged_gap_s", "s", &P::bridged_gap_s, between(0.0, 60.0),
-                  "gaps of a signal up to this need no reacquisition")
+                  "longest gap of a signal that needs no reacquisition")
           .number("carrier_lock_s", "s", &P::carrier_lock_s, between(0.0, 600.0),
-                  "until the carrier phase of a satellite serves after any gap")
+                  "time until the carrier phase of a satellite is used after any gap")
           .rule(find_fault_in_code)
           .rule(find_fault_in_zenith);
   return table;
@@ -83,18 +85,18 @@ GnssTracking::GnssTracking(const GnssSignals& signals, GnssSky sky, const SceneQ
       period_s_(period_s),
       random_(random),
       satellites_(sky_.size()) {
-  constexpr double kHeardLong_s = 1e9;
+  constexpr double kTrackedLong_s = 1e9;
   for (Satellite& satellite : satellites_) {
     satellite.fading = GaussMarkov(1.0, signals_.fading_time_s, period_s_);
     satellite.fading.start(random_);
-    if (locked) satellite.heard_s = satellite.carrier_s = kHeardLong_s;
+    if (locked) satellite.received_s = satellite.carrier_s = kTrackedLong_s;
   }
 }
 
 double GnssTracking::leaves_m(const Vector3d& p_W, const Vector3d& direction_W) {
   double total_m = 0.0, from_m = 0.0, entered_m = 0.0;
   bool inside = false;
-  for (int crossing = 0; crossing < kMostCrossings; ++crossing) {
+  for (int crossing = 0; crossing < kMaxCrossings; ++crossing) {
     const auto hit =
         scene_->cast_ray(p_W + from_m * direction_W, direction_W, kReach_m - from_m, kSeen);
     if (!hit) return inside ? total_m + kLoneLeaves_m : total_m;
@@ -118,11 +120,11 @@ void GnssTracking::track(Satellite& satellite, double cn0_dBHz) const {
     satellite.carrier_s = 0.0;
   }
   if (cn0_dBHz >= signals_.code_cn0_dBHz) {
-    satellite.heard_s += period_s_;
+    satellite.received_s += period_s_;
     satellite.gap_s = 0.0;
   } else {
     satellite.gap_s += period_s_;
-    if (satellite.gap_s > signals_.bridged_gap_s + 1e-9) satellite.heard_s = 0.0;
+    if (satellite.gap_s > signals_.bridged_gap_s + 1e-9) satellite.received_s = 0.0;
   }
 }
 
@@ -152,7 +154,7 @@ GnssView GnssTracking::look(double time_s, const Vector3d& p_W, bool deaf, doubl
     }
     track(satellite, cn0_dBHz);
     if (cn0_dBHz < signals_.code_cn0_dBHz) continue;
-    if (satellite.heard_s >= signals_.reacquisition_s - 1e-9) {
+    if (satellite.received_s >= signals_.reacquisition_s - 1e-9) {
       view.code.add(direction_W, weight(cn0_dBHz, signals_.code_noise_share));
     }
     const bool has_phase = cn0_dBHz >= signals_.carrier_cn0_dBHz &&

@@ -1,19 +1,20 @@
 #pragma once
-/// Which satellites a receiver hears, how well, and for how long already.
+/// Satellite tracking of a receiver: which satellites it receives, with which C/N0, and for how
+/// long.
 ///
-/// Every satellite above the mask is looked for by a ray from the antenna through the true world.
-/// Ground, posts, stems and other solid things take it away. Leaves weaken it by so many dB per
-/// metre of canopy, plus a share of that which fades in and out (a first-order Gauss-Markov process
-/// of each satellite). Two neighbouring surfaces of canopy along a ray bound leaves; an odd one, a
-/// sheet without a back, counts as `lone_leaves_m`.
+/// A ray from the antenna through the true world checks every satellite above the mask. Ground,
+/// posts, stems and other solid objects block it. Leaves attenuate it by a loss per metre of
+/// canopy, plus a fading share of that loss (a first-order Gauss-Markov process for each
+/// satellite). Two successive canopy surfaces along a ray bound leaves; an unpaired one, a sheet
+/// without a back, counts as `lone_leaves_m`.
 ///
 ///   C/N0 = horizon + (zenith - horizon) sin(elevation) - leaves - jamming
 ///
-/// A satellite serves a position by code once its C/N0 has been enough for `reacquisition_s`, or at
-/// once after a gap of at most `bridged_gap_s`. It serves one by carrier phase once its C/N0 has
-/// been enough for that during `carrier_lock_s` without any gap: a gap is a cycle slip. Weight in
-/// the geometry, at most 1, with the share k that noise has in a range's variance at the usual
-/// C/N0:
+/// A satellite is used for a code position if its C/N0 has been sufficient for `reacquisition_s`,
+/// or at once after a gap of at most `bridged_gap_s`. It is used for a carrier-phase position if
+/// its C/N0 has been sufficient for that during `carrier_lock_s` without any gap: a gap is a cycle
+/// slip. Its weight in the geometry, at most 1, depends on the share k of noise in a range's
+/// variance at the usual C/N0:
 ///
 ///   w = 1 / (1 - k + k 10^((usual - C/N0) / 10))
 ///
@@ -49,11 +50,11 @@ struct GnssSignals {
   double carrier_lock_s = 2.0;
 };
 
-/// Refuses signals of which carrier phase needs less than code, or of which there is less at the
-/// zenith than at the horizon.
+/// Rejects signals if carrier phase needs less C/N0 than code, or C/N0 is smaller at the zenith
+/// than at the horizon.
 const ParameterTable<GnssSignals>& gnss_signal_table();
 
-/// What one look at the sky gave.
+/// Geometry of the satellites of one tick.
 struct GnssView {
   GnssGeometry code;
   GnssGeometry carrier;
@@ -65,20 +66,21 @@ class GnssTracking {
   GnssTracking(const GnssSignals& signals, GnssSky sky, const SceneQuery& scene, double period_s,
                bool locked, RandomStream random);
 
-  /// One tick. Draws one number per satellite, seen or not.
-  /// @param deaf  hears nothing at all  @param jamming_dB  loss of C/N0 of every satellite
+  /// Advances by one tick. Draws one number per satellite, visible or not.
+  /// @param deaf  no satellite is received
+  /// @param jamming_dB  loss of C/N0 of every satellite
   GnssView look(double time_s, const Eigen::Vector3d& p_W, bool deaf, double jamming_dB);
 
 
  private:
   struct Satellite {
-    double heard_s = 0.0;    ///< C/N0 enough for code, gaps bridged
-    double gap_s = 0.0;      ///< not enough
-    double carrier_s = 0.0;  ///< enough for carrier phase
+    double received_s = 0.0;    ///< C/N0 sufficient for code, gaps bridged
+    double gap_s = 0.0;      ///< not sufficient
+    double carrier_s = 0.0;  ///< sufficient for carrier phase
     GaussMarkov fading;      ///< unit variance
   };
 
-  /// @returns metres of leaves on the way to the sky; negative if something solid is in it
+  /// @returns metres of leaves along the ray to the sky; negative if it is blocked
   double leaves_m(const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction_W);
   void track(Satellite& satellite, double cn0_dBHz) const;
   double weight(double cn0_dBHz, double noise_share) const;

@@ -37,7 +37,7 @@ const ParameterTable<GpsParams>& gps_table() {
           .number("velocity_std_mps", "m/s", &P::velocity_std_mps, between(0.0, 100.0),
                   "gaussian: white error of the velocity")
           .number("walk_std_m", "m", &P::walk_std_m, between(0.0, 100.0),
-                  "gaussian: slowly moving part of the error")
+                  "gaussian: slowly varying part of the error")
           .number("walk_time_s", "s", &P::walk_time_s, kPositive,
                   "gaussian: correlation time of that part");
   return table;
@@ -53,7 +53,7 @@ class Gps final : public SatelliteReceiver {
     white_std_m_ = {params.horizontal_std_m, params.horizontal_std_m, params.vertical_std_m};
     velocity_std_mps_ = params.velocity_std_mps;
     walk_std_m_ = params.walk_std_m;
-    // Exact discretisation of the Gauss-Markov process keeps its variance whatever the rate.
+    // Exact discretisation of the Gauss-Markov process: its variance does not depend on the rate.
     walk_decay_ = std::exp(-context.period.s() / params.walk_time_s);
     for (int axis = 0; axis < 3; ++axis) walk_m_[axis] = walk_std_m_ * random_.normal();
   }

@@ -26,7 +26,7 @@ TriadNames accelerometer_names() {
 }
 
 /// Defaults: white noise and ranges of the VectorNav VN-100/VN-200 (gyro 0.0035 deg/s/rtHz,
-/// accelerometer 0.14 mg/rtHz, 2000 deg/s, 16 g); all else is off.
+/// accelerometer 0.14 mg/rtHz, 2000 deg/s, 16 g); other errors are zero.
 struct ImuParams {
   TriadFigures gyro{.allan = {.white_u_rtHz = rad_from_deg(0.0035)},
                     .range_u = rad_from_deg(2000.0)};
@@ -48,7 +48,7 @@ const ParameterTable<ImuParams>& imu_table() {
   return table;
 }
 
-/// Rotation vector of a unit quaternion, the shorter way round.
+/// Rotation vector of a unit quaternion, by the shorter rotation.
 Vector3d rotation_vector(const Quaterniond& q) {
   const double sine = q.vec().norm();
   if (sine < 1e-12) return q.w() < 0.0 ? Vector3d(-2.0 * q.vec()) : Vector3d(2.0 * q.vec());
@@ -82,7 +82,7 @@ class Imu final : public MountedSensor<ImuSample> {
   }
 
  private:
-  /// Without errors.
+  /// Reading without errors.
   ImuSample measure() {
     const Quaterniond q_WS = X_WS().q;
     const Vector3d v_WS_W = v_WS();
@@ -105,7 +105,7 @@ class Imu final : public MountedSensor<ImuSample> {
   }
 
   const Vehicle* vehicle_;
-  Vector3d gravity_W_;  ///< what an accelerometer at rest reads
+  Vector3d gravity_W_;  ///< reading of an accelerometer at rest
   double period_s_;
   Triad gyro_;
   Triad accelerometer_;

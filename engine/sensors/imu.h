@@ -1,17 +1,17 @@
 #pragma once
 /// Inertial measurement unit: rate gyro and accelerometer (specific force), in the sensor frame S.
 ///
-/// A reading is the mean over the period before it, as a real unit integrates inside at a far
-/// higher rate: the rate gyro tells the rotation of the period over its length (coning is in it),
-/// the accelerometer the change of S's velocity, gravity taken off, over its length, in the axes
-/// that S has half way (sculling is in it). An estimator that turns by rate times period and adds
-/// the turned force times period follows the true motion whatever happened between two readings. It
-/// lags by half a period. The first reading tells the moment.
+/// A reading is the mean over the period before it, because a real unit integrates internally at a
+/// far higher rate. The rate gyro measures the rotation of the period divided by its length (coning
+/// included). The accelerometer measures the change of S's velocity without gravity, divided by the
+/// period, in the axes of S at the middle of the period (sculling included). An estimator that
+/// turns by rate times period and adds the turned force times period follows the true motion,
+/// whatever happened between two readings. A reading lags by half a period. The first reading is
+/// the instantaneous value.
 ///
-/// What is added: see triad.h and bias_instability.h; g-sensitivity of the gyro (a matrix, each
-/// entry drawn once per run). Vibration of rotors and wheels is left out, as are the Earth's
-/// turning (W is taken as inertial, as in the physics) and temperature. In an outage the unit is
-/// silent.
+/// Errors: see triad.h and bias_instability.h; g-sensitivity of the gyro (a matrix, each entry
+/// drawn once per run). Not modelled: vibration of rotors and wheels, the Earth's rotation (W is
+/// inertial, as in the physics) and temperature. In an outage the unit sends nothing.
 
 #include <memory>
 

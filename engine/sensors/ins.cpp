@@ -13,7 +13,7 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 struct MixedErrorParams {
-  double white_share = 0.0;  ///< of its variance
+  double white_share = 0.0;  ///< share of the variance
   double time_s = 60.0;      ///< correlation time of the rest, 0: white as well
 };
 
@@ -22,7 +22,7 @@ const ParameterTable<MixedErrorParams>& mixed_error_table() {
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .number("white_share", "", &P::white_share, between(0.0, 1.0),
-                  "share of its variance that is fresh at every reading")
+                  "share of the variance that is new at every reading")
           .number("time_s", "s", &P::time_s, between(0.0, 1e5),
                   "correlation time of the rest; 0: white as well");
   return table;
@@ -46,7 +46,7 @@ const ParameterTable<InsParams>& ins_table() {
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .number("horizontal_std_m", "m", &P::horizontal_std_m, between(0.0, 1e3),
-                  "1 sigma of the position to the east and to the north, each")
+                  "1 sigma of the position, east and north each")
           .number("vertical_std_m", "m", &P::vertical_std_m, between(0.0, 1e3),
                   "1 sigma of the height")
           .include(&P::position, mixed_error_table(), {.prefix = "position_"})
@@ -62,11 +62,11 @@ const ParameterTable<InsParams>& ins_table() {
   return table;
 }
 
-/// Three independent errors, partly white and partly Gauss-Markov.
+/// Error vector with three independent components, partly white and partly Gauss-Markov.
 class MixedError {
  public:
-  /// @param std  of the whole, each component
-  /// @param quantity  names its random stream
+  /// @param std  of each component, both parts together
+  /// @param quantity  name of its random stream
   MixedError(const Vector3d& std, const MixedErrorParams& params, const std::string& quantity,
              const SensorContext& context)
       : random_(context.random(quantity)) {

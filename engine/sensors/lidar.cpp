@@ -13,10 +13,11 @@
 namespace vinerow::sensors {
 namespace {
 
-constexpr int kMostBeams = 20'000;
-constexpr int kMostSubRays = 15;
+constexpr int kMaxBeams = 20'000;
+constexpr int kMaxSubRays = 15;
 
-/// Defaults: the geometry of a Hokuyo UST-10LX with ideal readings. Real ones: assets/sensors.
+/// Defaults: the geometry of a Hokuyo UST-10LX with ideal readings. assets/sensors has real
+/// scanners.
 struct LidarParams {
   double field_of_view_deg = 270.0;
   double angle_step_deg = 0.25;
@@ -40,16 +41,16 @@ struct LidarParams {
 };
 
 std::string find_fault_in_beams(const LidarParams& p) {
-  if (p.count_beams() <= kMostBeams) return "";
+  if (p.count_beams() <= kMaxBeams) return "";
   return fmt::format(
       "angle_step_deg = {} deg makes {:.0f} beams of field_of_view_deg = {} deg, must be at most "
       "{}",
-      p.angle_step_deg, p.count_beams(), p.field_of_view_deg, kMostBeams);
+      p.angle_step_deg, p.count_beams(), p.field_of_view_deg, kMaxBeams);
 }
 
 std::string find_fault_in_sub_rays(const LidarParams& p) {
   if (p.sub_rays % 2 != 0) return "";
-  return fmt::format("sub_rays = {}, must be odd: one lies in the middle", p.sub_rays);
+  return fmt::format("sub_rays = {}, must be odd: one ray is in the middle", p.sub_rays);
 }
 
 std::string find_fault_in_laser_range(const LidarParams& p) {
@@ -74,28 +75,28 @@ const ParameterTable<LidarParams>& lidar_table() {
           .number("noise_std_m", "m", &P::noise_std_m, between(0.0, 10.0),
                   "white noise of a range at 0 m")
           .number("noise_growth", "m/m", &P::noise_growth, between(0.0, 1.0),
-                  "what that grows by with distance")
+                  "growth of that noise with distance")
           .number("dark_range_m", "m", &P::dark_range_m, kPositive,
-                  "where a surface of 10 % reflectance, met head on, is detected nine "
-                  "times in ten; large: nothing is lost")
+                  "distance at which a surface of 10 % reflectance at normal incidence is detected "
+                  "nine times in ten; large: nothing is lost")
           .number("beam_dropout_share", "", &P::beam_dropout_share, between(0.0, 1.0),
-                  "share of the beams that are lost whatever they meet")
+                  "share of the beams that are lost at random")
           .number("canopy_reflectance", "", &P::canopy_reflectance, between(0.0, 1.0),
-                  "near infrared, of leaves")
+                  "near-infrared reflectance of leaves")
           .number("ground_reflectance", "", &P::ground_reflectance, between(0.0, 1.0),
-                  "near infrared, of soil and grass")
+                  "near-infrared reflectance of soil and grass")
           .number("stem_reflectance", "", &P::stem_reflectance, between(0.0, 1.0),
-                  "near infrared, of posts and trunks")
+                  "near-infrared reflectance of posts and trunks")
           .number("obstacle_reflectance", "", &P::obstacle_reflectance, between(0.0, 1.0),
-                  "near infrared, of all else")
+                  "near-infrared reflectance of everything else")
           .degrees("divergence_deg", &P::divergence_rad, between(0.0, 5.0), "full width of a beam")
-          .integer("sub_rays", &P::sub_rays, between(1, kMostSubRays),
+          .integer("sub_rays", &P::sub_rays, between(1, kMaxSubRays),
                    "rays across a beam's width, an odd number")
           .choice("edge", &P::is_mixed, {{"nearest", false}, {"mixed", true}},
-                  "what a beam tells that meets two surfaces: the nearer one, or their mean "
+                  "reading of a beam that meets two surfaces: the nearer one, or their mean "
                   "weighted by power")
           .number("pulse_m", "m", &P::pulse_m, kPositive,
-                  "surfaces of a beam nearer to each other make one echo")
+                  "surfaces of a beam closer together than this make one echo")
           .rule(find_fault_in_beams)
           .rule(find_fault_in_sub_rays)
           .rule(find_fault_in_laser_range);
@@ -143,7 +144,8 @@ class Lidar final : public MountedSensor<LaserScan> {
     scan_.X_WS = true_scan_.X_WS = X_WS();
     const bool is_silent = readings_.is_in_outage(now);
     for (int beam = 0; beam < beams_; ++beam) {
-      // The same count is drawn for every beam, whatever it sees.
+      // Always draw the same count for a beam, so that later readings do not depend on what it
+      // detects.
       const double noise = random_.normal(), luck = random_.uniform();
       double& truth_m = true_scan_.ranges_m[beam];
       const Echo echo = cast(beam, truth_m);
@@ -182,7 +184,7 @@ class Lidar final : public MountedSensor<LaserScan> {
 
   /// Distance and power of a beam. @param truth_m  set to the distance along its middle
   Echo cast(int beam, double& truth_m) const {
-    std::array<Echo, kMostSubRays> hits;
+    std::array<Echo, kMaxSubRays> hits;
     Echo first;
     for (int sub = 0; sub < sub_rays_; ++sub) {
       const Eigen::Vector3d dir_W = scan_.X_WS.q * directions_S_[beam * sub_rays_ + sub];
@@ -220,7 +222,7 @@ class Lidar final : public MountedSensor<LaserScan> {
   double dropout_share_;
   std::array<double, 8> reflectance_;  ///< by SurfaceClass
   double offset_m_ = 0.0;
-  std::vector<Eigen::Vector3d> directions_S_;  ///< of all sub-rays, beam by beam
+  std::vector<Eigen::Vector3d> directions_S_;  ///< directions of all sub-rays, beam by beam
   LaserScan scan_;
   LaserScan true_scan_;
 };
@@ -231,7 +233,7 @@ PartSpec lidar_spec() {
   return mounted_sensor_spec<LaserScan>(
       "lidar",
       "2D laser scanner: ranges in a plane, with noise, dropouts by distance and incidence, and "
-      "beam divergence; a scan is of one instant",
+      "beam divergence; a scan is instantaneous",
       40.0, lidar_table().specs());
 }
 

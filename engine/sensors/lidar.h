@@ -1,20 +1,20 @@
 #pragma once
 /// Scanning laser rangefinder in the plane z = 0 of S (2D): one ray, or a narrow fan, per beam.
 ///
-/// A scan is of one instant: the mirror's turn takes no time, so a moving vehicle's scan is not
-/// skewed. Beams run from right to left, symmetrical about x of S.
+/// A scan is instantaneous, so a moving vehicle's scan is not skewed. Beams run from right to left,
+/// symmetrical about x of S.
 ///
-/// Received power of a beam, 1 where a surface of 10 % reflectance is met head on at
+/// Received power of a beam, 1 for a surface of 10 % reflectance at normal incidence at
 /// dark_range_m: P = reflectance / 0.1 x cos(incidence) x (dark_range / r)^2. It is detected with
-/// probability P^4 / (P^4 + 1/9): 0.9 at P = 1, one half where the power is 0.58 of that. Data
-/// sheets state the range on white and on 10 % targets; the slope between (power 4) is chosen.
+/// probability P^4 / (P^4 + 1/9): 0.9 at P = 1, one half at P = 0.58. Data sheets state the range
+/// on white and on 10 % targets; the slope between them (power 4) is chosen.
 ///
-/// Divergence: a beam is `sub_rays` rays across its width. What lies within one pulse length of
-/// the nearest of them adds to the power; the distance told is the nearest's or, with `edge:
-/// mixed`, the mean weighted by power: the points between a post and the wall behind it.
+/// Divergence: a beam is `sub_rays` rays across its width. Returns within one pulse length of the
+/// nearest of them add to the power. The reading is the nearest distance or, with `edge: mixed`,
+/// the mean weighted by power: the points between a post and the wall behind it.
 ///
 /// Reading: + a constant error of the device, drawn once from +-accuracy_m, + white noise of
-/// noise_std_m + noise_growth r. +infinity: nothing detected. The truth beside it is the distance
+/// noise_std_m + noise_growth r. +infinity: nothing detected. The truth signal is the distance
 /// along the beam's middle.
 
 #include <memory>

@@ -14,7 +14,7 @@
 namespace vinerow::sensors {
 namespace {
 
-/// In the units of files. Defaults: PNI RM3100, see assets/sensors/rm3100.yaml.
+/// Parameters in the units of files. Defaults: PNI RM3100, see assets/sensors/rm3100.yaml.
 struct MagnetometerParams {
   double year = kFirstGeomagneticYear;
   std::optional<Eigen::Vector3d> field_uT;
@@ -32,9 +32,9 @@ const ParameterTable<MagnetometerParams>& magnetometer_table() {
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .number("year", "", &P::year, between(kFirstGeomagneticYear, kLastGeomagneticYear),
-                  "decimal year for which the field is worked out")
+                  "decimal year for which the field is computed")
           .numbers("field_uT", "uT", &P::field_uT, kAnyNumber,
-                   "field to the east, north and up instead of the Earth's")
+                   "east, north and up components of a field that replaces the Earth's")
           .number("noise_std_nT", "nT", &P::noise_std_nT, between(0.0, 1e6),
                   "white noise of a reading, each axis")
           .number("resolution_nT", "nT", &P::resolution_nT, between(0.0, 1e6),
@@ -43,15 +43,15 @@ const ParameterTable<MagnetometerParams>& magnetometer_table() {
           .numbers("hard_iron_uT", "uT", &P::hard_iron_uT, kAnyNumber,
                    "constant field of the vehicle in S, x, y, z")
           .number("hard_iron_std_uT", "uT", &P::hard_iron_std_uT, between(0.0, 1e3),
-                  "1 sigma of what is added to it, drawn once per run and axis")
+                  "1 sigma of a random addition to it, drawn once per run and axis")
           .numbers("soft_iron", "", &P::soft_iron, kAnyNumber,
-                   "what soft iron adds to the identity: xx, yy, zz, xy, xz, yz")
+                   "soft iron matrix minus the identity: xx, yy, zz, xy, xz, yz")
           .number("soft_iron_std", "", &P::soft_iron_std, between(0.0, 1.0),
-                  "1 sigma of what is added to each of these, drawn once per run");
+                  "1 sigma of a random addition to each of these, drawn once per run");
   return table;
 }
 
-/// East, north, up, T.
+/// Field in W: east, north, up, T.
 Eigen::Vector3d field_W_T(const MagnetometerParams& params, const GeoOrigin& origin) {
   if (params.field_uT) return *params.field_uT * 1e-6;
   return calc_geomagnetic_field_T(origin.latitude_rad, origin.longitude_rad, origin.altitude_m,

@@ -1,5 +1,5 @@
 #pragma once
-/// A sensor that sits somewhere on its vehicle and measures from the body's true motion.
+/// Base class of sensors with a mounting on the vehicle that measure from the body's true motion.
 
 #include <optional>
 #include <string>
@@ -27,7 +27,7 @@ class MountedSensor : public ReadingSensor<T> {
  protected:
   const Odometry& body() const { return truth_.value(); }
   Pose X_WS() const { return body().X_WB * X_BS_; }
-  /// Velocity of the place where it sits, in W.
+  /// Velocity of the sensor's position, in W.
   Eigen::Vector3d v_WS() const {
     return body().X_WB.q * (body().v_WB_B + body().w_WB_B.cross(X_BS_.p));
   }
@@ -38,8 +38,9 @@ class MountedSensor : public ReadingSensor<T> {
   SignalReader<Odometry> truth_;
 };
 
-/// @param parameters  the sensor's own; those of its mounting are put before them, those of its
-///   readings behind  @param mounting  of mounting_table(), for a sensor with other defaults
+/// @param parameters  the sensor's own; the spec has the mounting's before them and the readings'
+/// after them
+/// @param mounting  of mounting_table(), for a sensor with other defaults
 template <class T>
 PartSpec mounted_sensor_spec(std::string name, std::string description, double default_rate_Hz,
                              std::vector<ParameterSpec> parameters,

@@ -9,7 +9,7 @@ const ParameterTable<MountingParams>& mounting_table() {
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .numbers("position_m", "m", &P::position_m, between(-100.0, 100.0),
-                   "place of the sensor in the body frame (x forward, y left, z up)")
+                   "position of the sensor in the body frame (x forward, y left, z up)")
           .numbers("rotation_deg", "deg", &P::rotation_rad, between(-360.0, 360.0),
                    "roll, pitch, yaw of the sensor in the body frame; it looks along its x axis", 3,
                    kDegrees);

@@ -1,5 +1,5 @@
 #pragma once
-/// Where a sensor sits on its vehicle: the parameters every sensor has, and the pose they make.
+/// Mounting of a sensor on its vehicle: its parameters and its pose.
 
 #include <Eigen/Core>
 
@@ -15,8 +15,8 @@ struct MountingParams {
   Pose X_BS() const;
 };
 
-/// `position_m` [x, y, z] in B and `rotation_deg` [roll, pitch, yaw] of S in B (x of S is where the
-/// sensor looks).
+/// `position_m` [x, y, z] in B and `rotation_deg` [roll, pitch, yaw] of S in B (x of S is the
+/// viewing direction).
 const ParameterTable<MountingParams>& mounting_table();
 
 }  // namespace vinerow::sensors

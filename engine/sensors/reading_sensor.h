@@ -1,6 +1,6 @@
 #pragma once
-/// What all sensors share: their readings of type T come late, get lost or fail as Readings says,
-/// and are written as the signal of the sensor's name with the truth beside it.
+/// Base class of all sensors. Readings of type T are delayed, lost or faulty according to Readings,
+/// and are written as the signal of the sensor's name, together with the truth.
 
 #include <string>
 #include <utility>
@@ -11,7 +11,7 @@
 
 namespace vinerow::sensors {
 
-/// What is left to a sensor is step(): it hands one reading a tick to `readings_`.
+/// A derived sensor implements step(): it pushes one reading per tick to `readings_`.
 template <class T>
 class ReadingSensor : public Sensor {
  public:
@@ -26,7 +26,7 @@ class ReadingSensor : public Sensor {
   Readings<T> readings_;
 };
 
-/// @param parameters  the sensor's own; those of its readings are put behind them
+/// @param parameters  the sensor's own; the spec has the readings' after them
 template <class T>
 PartSpec reading_sensor_spec(std::string name, std::string description, double default_rate_Hz,
                              std::vector<ParameterSpec> parameters) {

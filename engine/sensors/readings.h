@@ -1,14 +1,13 @@
 #pragma once
-/// What becomes of every reading: it may be lost, it may come late, and the truth is laid beside
-/// it.
+/// Output stage of a sensor: dropouts, delay, and the true value of each reading.
 ///
-/// A sensor `gps` writes the signals "gps" (what the vehicle gets) and "gps_truth" (the same
-/// without any error, at the instant of the measurement, for people and checks; no part of a
-/// vehicle may read it). Parameters: `delay_s`, `dropout_share`, `outages`.
+/// A sensor `gps` writes the signals "gps" (for the vehicle) and "gps_truth" (the same without any
+/// error, at the instant of the measurement, for people and checks; no part of a vehicle may read
+/// it). Parameters: `delay_s`, `dropout_share`, `outages`.
 ///
-/// A dropout is a message that never arrives: nothing is written. What an outage gives is the
-/// sensor's own affair: an invalid fix, no echo. Random numbers of dropouts come from a stream of
-/// their own, one a reading, so they shift no noise.
+/// A dropout is a message that never arrives: nothing is written. In an outage each sensor decides
+/// what it writes: an invalid fix, no echo. Dropouts use a random stream of their own, one number
+/// per reading, so they do not change the noise.
 
 #include <initializer_list>
 #include <string>
@@ -30,7 +29,7 @@ struct ReadingParams {
 
 /// `delay_s`, `dropout_share`, `outages`.
 const ParameterTable<ReadingParams>& reading_table();
-/// Several lists as one, in their order.
+/// Concatenates several lists, in their order.
 std::vector<ParameterSpec> join_parameters(std::initializer_list<std::vector<ParameterSpec>> lists);
 
 template <class T>
@@ -50,14 +49,14 @@ class Readings {
     out_ = ports.write<T>(name_);
     truth_out_ = ports.write<T>(name_ + "_truth");
   }
-  /// For readings that own memory: see DelayLine.
+  /// For readings that own memory; see DelayLine.
   void prefill(const T& reading) { line_.prefill(reading); }
   Duration delay() const { return line_.delay(); }
   void deliver() { line_.deliver(out_); }
 
   bool is_in_outage(Time now) const { return is_in_any(outages_, now); }
 
-  /// Once a tick, outages included. What is lost stands in the truth all the same.
+  /// Called once per tick, outages included. The truth is written even if the reading is lost.
   void push(Time now, const T& reading, const T& truth) {
     truth_out_.write(now, truth);
     const bool is_lost = dropout_share_ > 0.0 && random_.uniform() < dropout_share_;
@@ -68,8 +67,8 @@ class Readings {
     }
   }
 
-  /// In an outage of a sensor whose message has no word for "invalid": nothing goes out, the truth
-  /// stands all the same, and later dropouts stay where they were.
+  /// For an outage of a sensor whose message cannot express "invalid": no reading is written, but
+  /// the truth is. The random numbers of later dropouts stay the same.
   void push_silence(Time now, const T& truth) {
     truth_out_.write(now, truth);
     if (dropout_share_ > 0.0) random_.uniform();
@@ -84,7 +83,7 @@ class Readings {
     }
   }
 
-  /// Instead of push() at a tick without a reading, of sensors that do not read at every tick.
+  /// Instead of push() at a tick without a reading, for sensors that do not read at every tick.
   void push_nothing() { line_.push_lost(); }
 
  private:

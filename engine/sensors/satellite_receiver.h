@@ -1,5 +1,5 @@
 #pragma once
-/// What receivers of satellites share: an antenna, and where it is on the ellipsoid.
+/// Base class of satellite receivers: an antenna and its position on the ellipsoid.
 
 #include "engine/api/messages/sensors.h"
 #include "engine/api/world_model.h"
@@ -13,7 +13,7 @@ class SatelliteReceiver : public MountedSensor<GnssFix> {
   SatelliteReceiver(const ParameterSet& parameters, const SensorContext& context)
       : MountedSensor(parameters, context), frame_(context.world->origin) {}
 
-  /// The antenna's place and velocity, without error.
+  /// Position and velocity of the antenna, without error.
   GnssFix exact_fix() const {
     GnssFix exact;
     exact.valid = true;

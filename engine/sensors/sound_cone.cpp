@@ -8,7 +8,8 @@ namespace vinerow::sensors {
 
 std::vector<ConeRay> cone_rays(double half_angle_rad, int rings) {
   if (half_angle_rad <= 0.0 || rings <= 0) return {ConeRay{}};
-  // A ray stands for what is nearer to its ring than to the next; as shares of the sphere's cap.
+  // A ray represents the region nearer to its ring than to the next one; its share is that of the
+  // spherical cap.
   const double pitch_rad = half_angle_rad / rings;
   const double cap = 1.0 - std::cos(half_angle_rad);
   const auto inside = [&](double ring) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Windows of simulated time in which something is different: an outage, jamming.
+/// Windows of simulated time for outages and jamming.
 
 #include <vector>
 
@@ -15,7 +15,7 @@ struct TimeWindow {
   bool contains(Time now) const { return now >= begin && now < end; }
 };
 
-/// A window as files state it.
+/// Parameters of a window.
 struct TimeWindowParams {
   double begin_s = 0.0;
   double end_s = 0.0;  ///< >= begin_s
@@ -23,7 +23,7 @@ struct TimeWindowParams {
   TimeWindow window() const;
 };
 
-/// `begin_s` and `end_s`, in words for an outage.
+/// `begin_s` and `end_s`, described as an outage.
 const ParameterTable<TimeWindowParams>& time_window_table();
 
 std::vector<TimeWindow> windows_of(const std::vector<TimeWindowParams>& params);

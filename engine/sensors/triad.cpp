@@ -22,20 +22,20 @@ ParameterTable<TriadFigures> make_triad_table(const TriadNames& n) {
               between(0.0, 100.0), "turn-on bias, constant, drawn once per run and axis", n.si)
       .number(n.name + "_bias_instability_" + n.instability_key, n.instability_unit,
               allan(&AllanFigures::instability_u), between(0.0, 1e5),
-              "in-run bias instability B: least Allan deviation 0.664 B (IEEE 952)",
+              "in-run bias instability B: minimum Allan deviation 0.664 B (IEEE 952)",
               n.instability_si)
       .number(n.name + "_walk_" + n.walk_key + "_rtHz", n.walk_unit + "/sqrt(Hz)",
               allan(&AllanFigures::walk_u_per_rts), between(0.0, 10.0), "random walk of the bias",
               n.si)
       .number(n.name + "_scale_error_std", "", &P::scale_error_std, between(0.0, 0.5),
-              "error of scale as a share, drawn once per run and axis")
+              "scale error as a share, drawn once per run and axis")
       .numbers(n.name + "_scale_errors", "", &P::scale_errors, kAnyNumber,
-               "errors of scale of x, y, z, added to what is drawn")
+               "scale errors of x, y, z, added to the drawn ones")
       .degrees(n.name + "_misalignment_std_deg", &P::misalignment_std_rad, between(0.0, 10.0),
-               "by how much an axis leans towards another, drawn once per run, six angles")
+               "misalignment of an axis towards another, drawn once per run, six angles")
       .numbers(n.name + "_misalignments_deg", "deg", &P::misalignments_rad, kAnyNumber,
-               "x towards y and z, y towards x and z, z towards x and y, added to what is drawn", 6,
-               kDegrees)
+               "x towards y and z, y towards x and z, z towards x and y, added to the drawn ones",
+               6, kDegrees)
       .number(n.name + "_range_" + n.unit_key, n.unit, &P::range_u, kPositive, "saturation", n.si)
       .number(n.name + "_resolution_" + n.unit_key, n.unit, &P::resolution_u, between(0.0, 100.0),
               "step of the reading; 0: none", n.si);
@@ -55,7 +55,7 @@ Triad::Triad(const TriadNames& names, const TriadFigures& figures, const PartCon
     const double to_unit =
         1.0 / (names.instability_si.to_member ? names.instability_si.to_member(1.0) : 1.0);
     throw ConfigError(fmt::format(
-        "{0}_bias_instability_{1} = {2:.6g} {3} asks for a least Allan deviation of {4:.6g} {3}, "
+        "{0}_bias_instability_{1} = {2:.6g} {3} requires a minimum Allan deviation of {4:.6g} {3}, "
         "but white noise and random walk alone are {5:.6g} {3} or more up to {6:g} s",
         names.name, names.instability_key, allan.instability_u * to_unit, names.instability_unit,
         kInstabilityFactor * allan.instability_u * to_unit,

@@ -1,9 +1,9 @@
 #pragma once
-/// Three sensitive axes of an inertial unit, and what they get wrong.
+/// Three-axis sensor of an inertial unit, with its errors.
 ///
-/// reading = limit(round((I + E) truth + turn-on bias + wandering bias + white noise)): E holds the
-/// errors of scale on its diagonal and the misalignments beside it, axis i seeing m_ij of axis j.
-/// What belongs to the device (turn-on bias, E) is drawn once per run.
+/// reading = limit(round((I + E) truth + turn-on bias + in-run bias + white noise)). E has the
+/// scale errors on its diagonal and the misalignments off it: axis i senses m_ij of axis j.
+/// Properties of the device (turn-on bias, E) are drawn once per run.
 
 #include <Eigen/Core>
 #include <array>
@@ -15,20 +15,20 @@
 
 namespace vinerow::sensors {
 
-/// SI and radians; u is rad/s or m/s2.
+/// Errors of one triad, in SI units and radians; u is rad/s or m/s2.
 struct TriadFigures {
   AllanFigures allan;
   double turn_on_bias_std_u = 0.0;
   double scale_error_std = 0.0;                            ///< share
-  Eigen::Vector3d scale_errors = Eigen::Vector3d::Zero();  ///< added to what is drawn
+  Eigen::Vector3d scale_errors = Eigen::Vector3d::Zero();  ///< added to the drawn errors
   double misalignment_std_rad = 0.0;                       ///< of each of the six angles
-  /// Added to what is drawn, rad: x towards y and z, y towards x and z, z towards x and y.
+  /// Added to the drawn angles, rad: x towards y and z, y towards x and z, z towards x and y.
   std::array<double, 6> misalignments_rad{};
   double range_u = 1.0;       ///< > 0
   double resolution_u = 0.0;  ///< 0: continuous
 };
 
-/// How the parameters of one triad are called: `<name>_noise_<unit>_rtHz`, ...
+/// Parameter names of one triad: `<name>_noise_<unit>_rtHz`, ...
 struct TriadNames {
   std::string name;                               ///< "gyro"
   std::string unit, unit_key;                     ///< "deg/s", "dps"
@@ -38,15 +38,14 @@ struct TriadNames {
   ParameterConversion instability_si;             ///< from `instability_unit` to SI
 };
 
-/// @returns a table of its own, to be kept
+/// @returns a new table, which the caller keeps
 ParameterTable<TriadFigures> make_triad_table(const TriadNames& names);
 
 class Triad {
  public:
-  /// @param part  e.g. "rover.imu", for the random streams "<part>.<names.name>_noise" (white),
-  ///              "_bias" (wandering) and "_device" (drawn once)
-  /// @throws ConfigError if white noise and random walk alone are more than the bias instability
-  ///                     allows
+  /// @param context  its part, e.g. "rover.imu", names the random streams
+  /// "<part>.<names.name>_noise" (white), "_bias" (in-run) and "_device" (drawn once)
+  /// @throws ConfigError if white noise and random walk alone exceed the bias instability
   Triad(const TriadNames& names, const TriadFigures& figures, const PartContext& context);
 
   Eigen::Vector3d read(const Eigen::Vector3d& truth);

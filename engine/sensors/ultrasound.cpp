@@ -13,13 +13,27 @@
 #include "engine/sensors/resolution.h"
 #include "engine/sensors/sound_cone.h"
 
+// Plan of one tick, with r the true distance of a return:
+//
+//   draw_fate     noise n, missed and false echoes: always the same count of random numbers
+//   turn_         does the sensor fire at this tick?
+//   shortest_m    without a threshold: r = smallest hit of the rays
+//   listen        with a threshold: r = first return that is strong enough (echo.h); of ray i
+//                   strength_i = share_i spreading(r_i) surface_echo_i
+//                   share_i    = solid angle_i pattern_i / sum_k (solid angle_k pattern_k)
+//   reading_of    reading = round(scale r + n)
+//
+// The sensor measures the travel time 2 r / c_air and multiplies it by c_assumed / 2. The speed of
+// sound c grows with the square root of the absolute temperature T, so
+//   scale = c_assumed / c_air = sqrt(T_assumed / T_air).
+
 namespace vinerow::sensors {
 namespace {
 
-constexpr double kFreezing_K = 273.15;
+constexpr double kFreezing_K = 273.15;  // 0 degC
 
-/// Defaults: HC-SR04 data sheet (2 cm to 4 m, 3 mm, 15 degrees effective cone); all else ideal.
-/// The real one is assets/sensors/hc_sr04.yaml.
+/// Defaults: HC-SR04 data sheet (2 cm to 4 m, 3 mm, 15 degrees effective cone); other errors are
+/// zero. assets/sensors/hc_sr04.yaml has a realistic sensor.
 struct UltrasoundParams {
   double half_angle_rad = rad_from_deg(15.0);
   int rings = 2;
@@ -63,9 +77,9 @@ const ParameterTable<UltrasoundParams>& ultrasound_table() {
           .number("resolution_m", "m", &P::resolution_m, between(0.0, 1.0),
                   "readings are multiples of it; 0: all values")
           .number("air_temperature_degC", "degC", &P::air_temperature_degC, between(-60.0, 80.0),
-                  "of the true air")
+                  "temperature of the true air")
           .number("assumed_temperature_degC", "degC", &P::assumed_temperature_degC,
-                  between(-60.0, 80.0), "that the sensor's speed of sound belongs to")
+                  between(-60.0, 80.0), "temperature for which the sensor's speed of sound holds")
           .number("missed_share", "", &P::missed_share, between(0.0, 1.0),
                   "share of the echoes that are missed")
           .number("false_share", "", &P::false_share, between(0.0, 1.0),
@@ -75,21 +89,22 @@ const ParameterTable<UltrasoundParams>& ultrasound_table() {
           .number("cycle_s", "s", &P::cycle_s, between(0.0, 10.0),
                   "time between pulses, a multiple of the period; 0: one at every tick")
           .number("phase_s", "s", &P::phase_s, between(0.0, 10.0),
-                  "first pulse, a multiple of the period below cycle_s: rangers in turn")
+                  "time of the first pulse, a multiple of the period below cycle_s, for rangers "
+                  "that fire in turn")
           .rule(find_fault_in_sound_range);
   return table;
 }
 
-/// When a sensor fires: phase, phase + cycle, phase + 2 cycle ... after its first tick. Its ticks
-/// need not fall on multiples of the period: vehicles tick one after the other, and from when their
-/// phase of a mission begins.
+/// Firing schedule: phase, phase + cycle, phase + 2 cycle ... after the sensor's first tick. Ticks
+/// need not be at multiples of the period: vehicles tick one after the other, from the start of
+/// their phase of a mission.
 struct Turn {
   Duration cycle;
   Duration phase;
   Duration period;
   std::int64_t ticks = 0;
 
-  /// Whether it fires at this tick; to be asked once at each.
+  /// True if the sensor fires at this tick. Call it exactly once per tick.
   bool is_now() {
     const std::int64_t since_first_ns = ticks++ * period.ns;
     return cycle.ns == 0 || since_first_ns % cycle.ns == phase.ns;
@@ -130,13 +145,14 @@ class Ultrasound final : public MountedSensor<RangeSample> {
         accuracy_m_(params.accuracy_m),
         noise_std_m_(params.noise_std_m),
         resolution_m_(params.resolution_m),
-        // The speed of sound goes with the root of the absolute temperature.
+        // scale = sqrt(T_assumed / T_air), see above.
         scale_(std::sqrt((kFreezing_K + params.assumed_temperature_degC) /
                          (kFreezing_K + params.air_temperature_degC))),
         missed_share_(params.missed_share),
         false_share_(params.false_share),
         echo_(params.echo),
         rays_(cone_rays(half_angle_rad_, params.rings)) {
+    // Weights the shares of the solid angle by the beam pattern; their sum stays 1.
     double sum = 0.0;
     for (const ConeRay& ray : rays_) sum += ray.share * beam_pattern(echo_, ray.off_axis_rad);
     for (ConeRay& ray : rays_) ray.share *= beam_pattern(echo_, ray.off_axis_rad) / sum;
@@ -144,7 +160,7 @@ class Ultrasound final : public MountedSensor<RangeSample> {
   }
 
   void step(Time now) override {
-    // The same count is drawn at every tick, whatever is seen.
+    // Always draw the same count, so that later readings do not depend on what the sensor detects.
     const Fate fate = draw_fate();
     if (!turn_.is_now()) {
       readings_.push_nothing();
@@ -156,23 +172,23 @@ class Ultrasound final : public MountedSensor<RangeSample> {
     truth.half_angle_rad = half_angle_rad_;
     truth.X_WS = X_WS();
     RangeSample sample = truth;
-    double heard_m;
+    double echo_m;
     if (echo_.threshold > 0.0) {
-      heard_m = listen(truth.X_WS, truth.range_m);
+      echo_m = listen(truth.X_WS, truth.range_m);
     } else {
-      heard_m = truth.range_m = shortest_m(truth.X_WS);
+      echo_m = truth.range_m = shortest_m(truth.X_WS);
     }
-    sample.range_m = readings_.is_in_outage(now) ? kInfinity : reading_of(heard_m, fate);
+    sample.range_m = readings_.is_in_outage(now) ? kInfinity : reading_of(echo_m, fate);
     readings_.push(now, sample, truth);
   }
 
  private:
-  /// What chance does to one reading.
+  /// Random effects on one reading.
   struct Fate {
     double noise_m;
     bool is_missed;
     bool is_false;
-    double false_place;  ///< between the shortest range and the true echo, 0 to 1
+    double false_place;  ///< position between the shortest range and the true echo, 0 to 1
   };
 
   Fate draw_fate() {
@@ -185,7 +201,7 @@ class Ultrasound final : public MountedSensor<RangeSample> {
     return fate;
   }
 
-  /// Shortest hit, infinity if there is none. Rays need not reach farther than the shortest so far.
+  /// Shortest hit; infinity without a hit. A ray is only as long as the shortest hit so far.
   double shortest_m(const Pose& X_WS) const {
     double nearest_m = kInfinity;
     for (const ConeRay& ray : rays_) {
@@ -198,13 +214,14 @@ class Ultrasound final : public MountedSensor<RangeSample> {
 
   /// Distance of the first return that is strong enough. @param nearest_m  set to the shortest hit
   double listen(const Pose& X_WS, double& nearest_m) {
-    // What comes more than a pulse after the shortest hit matters only if that is too weak.
+    // A return more than a pulse behind the shortest hit cannot add to it. Cast the rays that far
+    // first; the full range is needed only if the shortest hit is too weak.
     const double first_m = listen_up_to(X_WS, echo_.pulse_m, nearest_m);
     if (first_m == nearest_m) return first_m;
     return listen_up_to(X_WS, max_range_m_, nearest_m);
   }
 
-  /// The same, leaving out what comes farther than `after_m` behind the shortest hit.
+  /// The same without returns farther than `after_m` behind the shortest hit.
   double listen_up_to(const Pose& X_WS, double after_m, double& nearest_m) {
     returns_.clear();
     nearest_m = kInfinity;
@@ -213,21 +230,23 @@ class Ultrasound final : public MountedSensor<RangeSample> {
       const auto hit = scene_->cast_ray(X_WS.p, dir_W, std::min(nearest_m + after_m, max_range_m_));
       if (!hit) continue;
       nearest_m = std::min(nearest_m, hit->distance_m);
+      // Below the shortest range the strength stays that of the shortest range: it grows with r^-2.
       const double distance_m = std::max(hit->distance_m, min_range_m_);
       returns_.push_back(
           {hit->distance_m, ray.share * echo_spreading(echo_, distance_m) *
                                 surface_echo(echo_, hit->surface, -hit->normal_W.dot(dir_W))});
     }
-    return first_heard_m(echo_, returns_);
+    return first_echo_m(echo_, returns_);
   }
 
-  double reading_of(double heard_m, const Fate& fate) const {
+  double reading_of(double echo_m, const Fate& fate) const {
+    // A false echo is uniform between the shortest range and the true echo.
     if (fate.is_false) {
-      const double until_m = std::max(min_range_m_, std::min(heard_m, max_range_m_));
+      const double until_m = std::max(min_range_m_, std::min(echo_m, max_range_m_));
       return min_range_m_ + fate.false_place * (until_m - min_range_m_);
     }
-    if (fate.is_missed || !std::isfinite(heard_m)) return kInfinity;
-    const double reading_m = round_to_step(scale_ * heard_m + fate.noise_m, resolution_m_);
+    if (fate.is_missed || !std::isfinite(echo_m)) return kInfinity;
+    const double reading_m = round_to_step(scale_ * echo_m + fate.noise_m, resolution_m_);
     return reading_m > max_range_m_ ? kInfinity : std::max(min_range_m_, reading_m);
   }
 
@@ -246,7 +265,7 @@ class Ultrasound final : public MountedSensor<RangeSample> {
   double missed_share_;
   double false_share_;
   EchoParams echo_;
-  std::vector<ConeRay> rays_;  ///< shares with the beam pattern, all together 1
+  std::vector<ConeRay> rays_;  ///< shares include the beam pattern; their sum is 1
   std::vector<EchoReturn> returns_;
 };
 

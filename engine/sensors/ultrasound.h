@@ -1,16 +1,16 @@
 #pragma once
-/// Ultrasonic ranger: the first return that is heard inside a cone, from rays against terrain,
-/// canopy, posts and obstacles.
+/// Ultrasonic ranger: the first detected return inside a cone, from rays against terrain, canopy,
+/// posts and obstacles.
 ///
-/// The cone is a bundle of rays (sound_cone.h). By default every return is heard and the reading is
-/// the shortest hit plus noise; with an `echo_threshold` an echo must be strong enough (echo.h), so
-/// smooth surfaces seen aslant and slim things far away are lost. Then, in this order: the error
-/// of the speed of sound, noise, resolution; a missed echo; a false echo before the true one.
-/// +infinity: nothing heard within the range. Nearer than min_range_m the reading is min_range_m.
-/// Beside it stands the truth: distance of the bundle's first return, with none of these errors.
+/// The cone is a bundle of rays (sound_cone.h). By default every return is detected and the reading
+/// is the shortest hit plus noise. With an `echo_threshold` an echo must be strong enough (echo.h),
+/// so smooth surfaces at an angle and slim distant objects are lost. Then follow, in this order:
+/// the error of the speed of sound, noise, resolution; a missed echo; a false echo before the true
+/// one. +infinity: no echo within the range. Below min_range_m the reading is min_range_m. The
+/// truth signal is the distance of the bundle's first return, without these errors.
 ///
-/// Several rangers that fire in turn: the same `cycle_s` and a `phase_s` each. Nobody hears
-/// another's pulse; what crosstalk does is told by `false_share`. The pulse takes no time.
+/// Several rangers can fire in turn: the same `cycle_s` and a different `phase_s` for each. A
+/// ranger never receives another's pulse; `false_share` models crosstalk. The pulse takes no time.
 
 #include <memory>
 
@@ -19,7 +19,7 @@
 namespace vinerow::sensors {
 
 PartSpec ultrasound_spec();
-/// @throws ConfigError if cycle, phase and rate do not go together, or the range is empty
+/// @throws ConfigError if cycle, phase and rate are inconsistent, or the range is empty
 std::unique_ptr<Sensor> make_ultrasound(const ParameterSet& parameters,
                                         const SensorContext& context);
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view kVersion = "vinerow-abi";
 
-/// The fields of a tag, "name value" each, in order. Empty where it is no such tag.
+/// Fields of a tag, each "name value", in order. Empty if the text is not a valid tag.
 std::vector<std::pair<std::string, std::string>> split_tag(std::string_view tag) {
   std::vector<std::pair<std::string, std::string>> fields;
   while (!tag.empty()) {
@@ -32,7 +32,7 @@ std::string describe_layout(const std::string& layout) {
                      slash == std::string::npos ? "?" : layout.substr(slash + 1));
 }
 
-/// Why a field differs, in words. @param value, own  of plug-in and program
+/// Sentence about a field that differs. @param value, own  of plug-in and program
 std::string explain(const std::string& name, const std::string& value, const std::string& own) {
   if (name == kVersion || name == "headers") {
     return fmt::format("was built for another version of vinerow's headers ({} {}, this one is {})",
@@ -55,7 +55,7 @@ std::string explain(const std::string& name, const std::string& value, const std
     return fmt::format("was compiled for C++ ABI {} (another compiler?), this vinerow for {}",
                        value, own);
   }
-  return fmt::format("holds {} in {}, this vinerow in {} (other compiler flags?)", name,
+  return fmt::format("stores {} in {}, this vinerow in {} (other compiler flags?)", name,
                      describe_layout(value), describe_layout(own));
 }
 
@@ -72,10 +72,10 @@ std::string abi_difference(std::string_view plugin, std::string_view program) {
   const std::map<std::string, std::string> by_name(others.begin(), others.end());
   for (const auto& [name, value] : own) {
     const auto found = by_name.find(name);
-    if (found == by_name.end()) return fmt::format("does not say its '{}'", name);
+    if (found == by_name.end()) return fmt::format("does not state its '{}'", name);
     if (found->second != value) return explain(name, found->second, value);
   }
-  return fmt::format("says more than this vinerow asks ('{}')", plugin);
+  return fmt::format("states more than this vinerow expects ('{}')", plugin);
 }
 
 }  // namespace vinerow

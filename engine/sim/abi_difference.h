@@ -1,5 +1,5 @@
 #pragma once
-/// Why a plug-in does not fit this program.
+/// Comparison of a plug-in's ABI with that of this program.
 
 #include <string>
 #include <string_view>
@@ -7,9 +7,9 @@
 namespace vinerow {
 
 /// Compares two ABI tags (engine/api/abi.h) field by field.
-/// @param plugin  what the plug-in says of itself; anything, also tags of before version 9
-/// @returns "" where they fit, else the first difference that explains the others: "was compiled
-/// with 32-byte alignment (-mavx or -march=native?), this vinerow uses 16"
+/// @param plugin  tag of the plug-in; any text, including tags from before version 9
+/// @returns "" if they are compatible, else the first difference that explains the others: "was
+/// compiled with 32-byte alignment (-mavx or -march=native?), this vinerow uses 16"
 std::string abi_difference(std::string_view plugin, std::string_view program);
 
 }  // namespace vinerow

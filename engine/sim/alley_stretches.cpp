@@ -10,7 +10,8 @@
 namespace vinerow {
 namespace {
 
-// A chord of more than this share of the diameter does not fit the arc its point claims.
+// A chord longer than this share of the diameter does not fit the arc of its point's curvature, so
+// that it is measured as a straight line.
 constexpr double kLargestChordShare = 0.999;
 
 double calc_arc_m(double chord_m, double curvature_per_m) {
@@ -19,13 +20,13 @@ double calc_arc_m(double chord_m, double curvature_per_m) {
   return 2.0 * std::asin(half) / curvature_per_m;
 }
 
-/// Segments [first, last) of the plan that are one thing.
+/// Consecutive segments [first, last) of the plan with the same role.
 struct Part {
   enum class What { kLeg, kLink, kAbove };
   What what = What::kLink;
   int first = 0, last = 0;
   int alley = -1;            ///< of a leg
-  bool leads_there = false;  ///< a flying vehicle's way to the rows
+  bool leads_there = false;  ///< a flying vehicle's path to the rows
 };
 
 class StretchFinder {
@@ -44,20 +45,20 @@ class StretchFinder {
     part();
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       const Part& part = parts_[i];
-      const double begin_m = at_m_[part.first], end_m = at_m_[part.last];
+      const double start_m = at_m_[part.first], end_m = at_m_[part.last];
       if (part.what == Part::What::kLeg) {
-        add(begin_m, end_m, {part.alley});
+        add(start_m, end_m, {part.alley});
         continue;
       }
       const int before = i > 0 ? parts_[i - 1].alley : -1;
       const int after = i + 1 < parts_.size() ? parts_[i + 1].alley : -1;
       const bool is_above = part.what == Part::What::kAbove;
       if (!is_above && before >= 0 && after >= 0) {
-        add_way(begin_m, end_m, {before, after});
+        add_path(start_m, end_m, {before, after});
       } else if (after >= 0 && (!is_above || part.leads_there)) {
-        add_way(std::max(begin_m, end_m - use_.approach_m), end_m, {after});
+        add_path(std::max(start_m, end_m - use_.approach_m), end_m, {after});
       } else if (before >= 0 && !is_above) {
-        add_way(begin_m, std::min(end_m, begin_m + use_.approach_m), {before});
+        add_path(start_m, std::min(end_m, start_m + use_.approach_m), {before});
       }
     }
     return std::move(stretches_);
@@ -75,7 +76,7 @@ class StretchFinder {
 
   Eigen::Vector2d p(int i) const { return points_[i].p_W.head<2>(); }
 
-  /// @returns -1 where no alley is near
+  /// @returns -1 if no alley is near
   int nearest_alley(double middle_m, int first, int last) const {
     int i = first;
     while (i + 1 < last && at_m_[i + 1] < middle_m) ++i;
@@ -83,11 +84,11 @@ class StretchFinder {
     const double share = length_m > 0.0 ? (middle_m - at_m_[i]) / length_m : 0.0;
     const Eigen::Vector2d middle = p(i) + std::clamp(share, 0.0, 1.0) * (p(i + 1) - p(i));
     int best = -1;
-    double least_m = std::numeric_limits<double>::infinity();
+    double min_m = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < lines_.size(); ++k) {
       const double away_m = lines_[k].nearest(middle).distance_m;
-      if (away_m > alleys_[k].width_m || away_m >= least_m) continue;
-      least_m = away_m;
+      if (away_m > alleys_[k].width_m || away_m >= min_m) continue;
+      min_m = away_m;
       best = static_cast<int>(k);
     }
     return best;
@@ -108,7 +109,7 @@ class StretchFinder {
       const auto is_same = [&](int k) {
         return points_[k].kind == point.kind && points_[k].alley == point.alley;
       };
-      // A leg that tells no alley may lead through several.
+      // A leg without an alley number may lead through several alleys, so its segments stay apart.
       do ++i;
       while (i < segments && is_same(i) && !(point.kind == PathKind::kLeg && point.alley < 0));
       next.last = i;
@@ -129,7 +130,7 @@ class StretchFinder {
         part.what = Part::What::kLink;
         return;
       case PathKind::kTransit:
-        // Between its rows a flight is as low as in them.
+        // Between its first and last leg a flight is as low as in the rows.
         part.leads_there = use_.flies && part.first < first_leg_;
         part.what = part.leads_there || (use_.flies && part.first > last_leg_) ? Part::What::kAbove
                                                                                : Part::What::kLink;
@@ -153,27 +154,27 @@ class StretchFinder {
     parts_.push_back(part);
   }
 
-  void add(double begin_m, double end_m, std::vector<int> needs) {
-    if (!(end_m > begin_m)) return;
+  void add(double start_m, double end_m, std::vector<int> needs) {
+    if (!(end_m > start_m)) return;
     if (!stretches_.empty() && stretches_.back().needs == needs &&
-        stretches_.back().end_m == begin_m) {
+        stretches_.back().end_m == start_m) {
       stretches_.back().end_m = end_m;
       return;
     }
-    stretches_.push_back({begin_m, end_m, std::move(needs)});
+    stretches_.push_back({start_m, end_m, std::move(needs)});
   }
 
-  /// Between the alleys: also needs those whose mouths it passes.
-  void add_way(double begin_m, double end_m, std::vector<int> needs) {
+  /// Adds a path between alleys, which also needs the alleys whose mouths it passes.
+  void add_path(double start_m, double end_m, std::vector<int> needs) {
     for (int i = 0; i + 1 < static_cast<int>(points_.size()); ++i) {
-      if (at_m_[i + 1] <= begin_m || at_m_[i] >= end_m) continue;
+      if (at_m_[i + 1] <= start_m || at_m_[i] >= end_m) continue;
       for (std::size_t k = 0; k < extended_.size(); ++k) {
         if (crosses(p(i), p(i + 1), extended_[k])) needs.push_back(static_cast<int>(k));
       }
     }
     std::sort(needs.begin(), needs.end());
     needs.erase(std::unique(needs.begin(), needs.end()), needs.end());
-    add(begin_m, end_m, std::move(needs));
+    add(start_m, end_m, std::move(needs));
   }
 
   static bool crosses(const Eigen::Vector2d& a, const Eigen::Vector2d& b,

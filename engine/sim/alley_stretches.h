@@ -1,8 +1,8 @@
 #pragma once
-/// Which shared alleys a plan needs, and from where to where.
+/// Stretches of a plan and the shared alleys that each of them needs.
 ///
-/// Distances along a plan are those that followers tell: arcs where its points tell a curvature,
-/// seen from above; of what flies in space.
+/// Distances along a plan are those that followers report: arc length in the plane, along arcs
+/// between points that have a curvature; for flying vehicles, arc length in space.
 
 #include <vector>
 
@@ -13,29 +13,31 @@ namespace vinerow {
 
 /// A stretch of a plan that may be entered only with all these alleys.
 struct AlleyStretch {
-  double begin_m = 0.0;
+  double start_m = 0.0;
   double end_m = 0.0;
-  std::vector<int> needs;  ///< indices into the list of alleys, rising, not empty
+  std::vector<int> needs;  ///< indices into the list of alleys, ascending, not empty
 };
 
+/// How a vehicle uses the alleys.
 struct AlleyUse {
-  /// Ways up, down, home and to the rows are not on the ground and need nothing, but for approach_m
-  /// before the rows.
+  /// The vehicle climbs, descends, returns and approaches the rows above them. These parts of its
+  /// plan need no alley, except for the last approach_m before the rows.
   bool flies = false;
-  /// So much of the way to the first alley, and of a ground vehicle's way from the last, needs that
-  /// alley too: who waits shall not stand where others turn.
+  /// Length of the path to the first alley, and of a ground vehicle's path from the last one, that
+  /// needs that alley too, so that nobody waits where others turn.
   double approach_m = 4.0;
-  /// How far beyond an alley's end a way that crosses its direction passes its mouth.
+  /// Distance beyond an alley's end within which a crossing path counts as passing its mouth.
   double headland_m = 8.0;
 };
 
-/// Distance of every point of a plan along it, m. @param flies  in space
+/// Arc length from the start of a plan to each of its points, m. @param flies  measures in space
 std::vector<double> measure_plan(const PlannedPath& plan, bool flies);
 
-/// Legs need the alley whose centre line is nearest to their middle, if it is not farther than its
-/// width: the plan's own numbers count in a map that may be another one. What leads from leg to leg
-/// needs both, and every alley whose mouth it passes. Stretches that need nothing are left out.
-/// @returns in order, not overlapping
+/// Finds the stretches of a plan that need alleys. A leg needs the alley whose centre line is
+/// nearest to its middle, if that is not farther away than the alley's width. The alley numbers of
+/// the plan are not used, because they may belong to another map. The path between two legs needs
+/// the alleys of both, and every alley whose mouth it passes.
+/// @returns stretches in order, not overlapping; without those that need no alley
 std::vector<AlleyStretch> find_alley_stretches(const PlannedPath& plan,
                                                const std::vector<Alley>& alleys,
                                                const AlleyUse& use);

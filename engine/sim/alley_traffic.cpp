@@ -8,6 +8,28 @@
 #include "engine/core/constants.h"
 #include "engine/core/error.h"
 
+// Plan of the algorithm. Vehicle i is at distance s_i along its plan, whose stretches k need the
+// sets needs_k of alleys between start_k and end_k. It has passed the first p_i stretches
+// (`passed`) and holds a grant for the first g_i (`granted`), p_i <= g_i. holder(a) is the vehicle
+// that holds alley a; i holds exactly the alleys of the stretches p_i .. g_i - 1.
+//
+//   passing     stretch k is passed when end_k <= s_i - length_i (its tail has left it)
+//   stopping    i must stop at start_g - stop_before_i
+//   requesting  i requests stretch g_i when s_i + look_ahead_i >= start_g - stop_before_i
+//
+// Waiting relations, with the set `wanted` = needs_g of a requesting vehicle:
+//   W0(i, j)    i requests, and j holds an alley in wanted_i
+//   W           transitive closure of W0 (`waits_to_get_`)
+//   stuck(i)    W(i, i), or W(i, k) for a k that has stopped or has W(k, k): never served
+//   Q(i, k)     i and k request, k earlier; k is not stuck; both want the same alley, which neither
+//               of them holds
+//   V           transitive closure of W and Q together (`waits_`)
+//
+// serve() grants the earliest request whose alleys are all free and that is not behind another one:
+// i is behind k if Q(i, k) and not V(k, i). Without the last condition, k could block i while it
+// waits for i itself. A deadlock exists if some i has W(i, i), or waits for an alley of a vehicle
+// that has stopped. With n vehicles each grant costs O(n^3); n is small.
+
 namespace vinerow {
 namespace {
 
@@ -70,7 +92,8 @@ void AlleyTraffic::begin(int vehicle, Time now, const PlannedPath& plan, double 
   }
   lane.granted = lane.passed;
   release(vehicle);
-  while (lane.granted < count && lane.stretches[lane.granted].begin_m <= distance_m &&
+  // Take the stretches that the vehicle already stands in, if they are free.
+  while (lane.granted < count && lane.stretches[lane.granted].start_m <= distance_m &&
          are_free_for(vehicle, wanted(lane))) {
     take(vehicle, wanted(lane));
     ++lane.granted;
@@ -82,13 +105,15 @@ void AlleyTraffic::advance(int vehicle, Time now, double distance_m) {
   Lane& lane = lanes_[vehicle];
   if (!lane.works) return;
   lane.distance_m = distance_m;
+  // Passing: release only after extend(), which may still need the alleys of a passed stretch.
   const int passed = lane.passed;
   const double tail_m = distance_m - lane.self.length_m;
   while (lane.passed < lane.granted && lane.stretches[lane.passed].end_m <= tail_m) ++lane.passed;
   extend(vehicle);
   if (lane.passed != passed) release(vehicle);
+  // Requesting.
   if (lane.asks || lane.granted == static_cast<int>(lane.stretches.size())) return;
-  const double stop_at_m = lane.stretches[lane.granted].begin_m - lane.self.stop_before_m;
+  const double stop_at_m = lane.stretches[lane.granted].start_m - lane.self.stop_before_m;
   if (distance_m + lane.self.look_ahead_m < stop_at_m) return;
   lane.asks = true;
   lane.since = now;
@@ -101,9 +126,9 @@ void AlleyTraffic::leave(int vehicle, Leaving leaving) {
   lane.stays = leaving == Leaving::kStaysThere;
   lane.authority = {};
   lane.authority.stop_at_m = kInfinity;
-  // It stands somewhere from its tail to as far ahead: what it has got farther on becomes free.
+  // It occupies at most one length behind and ahead of s. Grants beyond that are released.
   const double front_m = lane.distance_m + lane.self.length_m;
-  while (lane.granted > lane.passed && lane.stretches[lane.granted - 1].begin_m > front_m) {
+  while (lane.granted > lane.passed && lane.stretches[lane.granted - 1].start_m > front_m) {
     --lane.granted;
   }
   if (!lane.stays) lane.granted = lane.passed;
@@ -111,13 +136,14 @@ void AlleyTraffic::leave(int vehicle, Leaving leaving) {
 }
 
 void AlleyTraffic::serve() {
+  // One grant at a time, because each one changes the waiting relations.
   for (bool has_granted = true; has_granted;) {
     has_granted = false;
     calc_waiting();
     int next = -1;
     for (int i = 0; i < vehicles(); ++i) {
-      if (!is_asking(i) || find_taken(i) >= 0 || is_behind(i)) continue;
-      if (next < 0 || asked_earlier(i, next)) next = i;
+      if (!is_requesting(i) || find_taken(i) >= 0 || is_behind(i)) continue;
+      if (next < 0 || requested_earlier(i, next)) next = i;
     }
     if (next < 0) break;
     take(next, wanted(lanes_[next]));
@@ -171,7 +197,7 @@ int AlleyTraffic::find_taken(int vehicle) const {
   return -1;
 }
 
-bool AlleyTraffic::asked_earlier(int a, int b) const {
+bool AlleyTraffic::requested_earlier(int a, int b) const {
   const Time first = lanes_[a].since, second = lanes_[b].since;
   return first.ns != second.ns ? first.ns < second.ns : a < b;
 }
@@ -179,6 +205,7 @@ bool AlleyTraffic::asked_earlier(int a, int b) const {
 bool AlleyTraffic::want_the_same(int a, int b) const {
   const std::vector<int>& others = wanted(lanes_[b]);
   for (const int alley : wanted(lanes_[a])) {
+    // An alley that one of them holds is already in W0.
     if (holder_[alley] == a || holder_[alley] == b) continue;
     if (std::binary_search(others.begin(), others.end(), alley)) return true;
   }
@@ -187,7 +214,7 @@ bool AlleyTraffic::want_the_same(int a, int b) const {
 
 bool AlleyTraffic::is_behind(int vehicle) const {
   for (int i = 0; i < vehicles(); ++i) {
-    if (i == vehicle || !is_asking(i) || !asked_earlier(i, vehicle)) continue;
+    if (i == vehicle || !is_requesting(i) || !requested_earlier(i, vehicle)) continue;
     if (!want_the_same(i, vehicle)) continue;
     if (!is_stuck_[i] && !at(waits_, i, vehicle)) return true;
   }
@@ -195,6 +222,7 @@ bool AlleyTraffic::is_behind(int vehicle) const {
 }
 
 void AlleyTraffic::close_paths(std::vector<char>& leads) const {
+  // Warshall's algorithm.
   const int n = vehicles();
   for (int via = 0; via < n; ++via) {
     for (int a = 0; a < n; ++a) {
@@ -207,9 +235,10 @@ void AlleyTraffic::close_paths(std::vector<char>& leads) const {
 
 void AlleyTraffic::calc_waiting() {
   const int n = vehicles();
+  // W0 and its closure W.
   std::fill(waits_to_get_.begin(), waits_to_get_.end(), 0);
   for (int i = 0; i < n; ++i) {
-    if (!is_asking(i)) continue;
+    if (!is_requesting(i)) continue;
     for (const int alley : wanted(lanes_[i])) {
       const int other = holder_[alley];
       if (other >= 0 && other != i) at(waits_to_get_, i, other) = 1;
@@ -224,11 +253,12 @@ void AlleyTraffic::calc_waiting() {
       if (never && at(waits_to_get_, i, k) != 0) is_stuck_[i] = 1;
     }
   }
-  // In the queue nobody waits for one that is never served.
+  // Q, and the closure V of W0 and Q. A stuck vehicle is excluded, so that it does not block the
+  // queue forever.
   for (int i = 0; i < n; ++i) {
     for (int k = 0; k < n; ++k) {
-      if (i == k || !is_asking(i) || !is_asking(k) || is_stuck_[k]) continue;
-      if (asked_earlier(k, i) && want_the_same(k, i)) at(waits_, i, k) = 1;
+      if (i == k || !is_requesting(i) || !is_requesting(k) || is_stuck_[k]) continue;
+      if (requested_earlier(k, i) && want_the_same(k, i)) at(waits_, i, k) = 1;
     }
   }
   close_paths(waits_);
@@ -241,24 +271,25 @@ void AlleyTraffic::write_authority(int vehicle) {
   authority.alley = -1;
   authority.holder.clear();
   if (!lane.works || lane.granted == static_cast<int>(lane.stretches.size())) return;
-  authority.stop_at_m = lane.stretches[lane.granted].begin_m - lane.self.stop_before_m;
+  authority.stop_at_m = lane.stretches[lane.granted].start_m - lane.self.stop_before_m;
   if (!lane.asks) return;
   int alley = find_taken(vehicle);
   if (alley >= 0) {
     authority.holder = lanes_[holder_[alley]].self.name;
   } else {
-    alley = wanted(lane).front();  // free, but somebody asked for it before
+    alley = wanted(lane).front();  // free, but requested earlier by another vehicle
   }
   authority.alley = alleys_[alley].id;
 }
 
-std::string AlleyTraffic::tell_circle(int vehicle) const {
-  // How many vehicles on the shortest way from each one back to this one, and by which alley.
+std::string AlleyTraffic::describe_cycle(int vehicle) const {
+  // steps[i]: length of the shortest chain of W0 from i back to `vehicle`; by[i]: the alley for
+  // which i waits on that chain. Bellman-Ford with n rounds.
   const int n = vehicles();
   std::vector<int> steps(n, n + 1), by(n, -1);
   for (int round = 0; round < n; ++round) {
     for (int i = 0; i < n; ++i) {
-      if (!is_asking(i)) continue;
+      if (!is_requesting(i)) continue;
       for (const int alley : wanted(lanes_[i])) {
         const int other = holder_[alley];
         if (other < 0 || other == i) continue;
@@ -284,10 +315,10 @@ std::string AlleyTraffic::tell_circle(int vehicle) const {
 
 std::optional<std::string> AlleyTraffic::deadlock() const {
   for (int i = 0; i < vehicles(); ++i) {
-    if (is_asking(i) && at(waits_to_get_, i, i)) return tell_circle(i);
+    if (is_requesting(i) && at(waits_to_get_, i, i)) return describe_cycle(i);
   }
   for (int i = 0; i < vehicles(); ++i) {
-    if (!is_asking(i)) continue;
+    if (!is_requesting(i)) continue;
     for (const int alley : wanted(lanes_[i])) {
       const int other = holder_[alley];
       if (other < 0 || !lanes_[other].stays) continue;

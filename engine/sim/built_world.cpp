@@ -9,7 +9,7 @@
 namespace vinerow {
 namespace {
 
-/// Whether the sentence is about one of the parameters: "terrain_cell_m = 0.5 m gives ...".
+/// True if the sentence starts with one of the parameters: "terrain_cell_m = 0.5 m gives ...".
 bool begins_with_key(const std::string& text, const ParameterSet& parameters) {
   for (const ParameterSpec& spec : parameters.specs()) {
     if (text.starts_with(spec.name + " ")) return true;
@@ -31,7 +31,7 @@ std::unique_ptr<WorldModel> build_world(const scenario::Scenario& scenario,
   try {
     return registry.make_world(scenario.world.type, parameters, context);
   } catch (const ConfigError& error) {
-    // What a world finds out only while it is built is told as the loader tells its faults.
+    // Prefix errors about a key with the place in the scenario file, as the loader does.
     const std::string text = error.what();
     if (!begins_with_key(text, parameters)) throw;
     throw ConfigError(fmt::format("{}: world.{}", scenario.world.where.text(), text));

@@ -1,6 +1,5 @@
 #pragma once
-/// A world with all that physics has prepared of it: what a run can be given instead of building
-/// it, and what runs can share.
+/// World with its prepared physics scene, which runs can share instead of building their own.
 
 #include <cstdint>
 #include <memory>
@@ -13,16 +12,16 @@ namespace vinerow {
 
 struct BuiltWorld {
   std::shared_ptr<const WorldModel> model;
-  std::shared_ptr<const physics::StaticScene> scene;  ///< of it, or of one with another wind
-  std::uint64_t seed = 0;                             ///< of the run it is for
+  std::shared_ptr<const physics::StaticScene> scene;  ///< of it, or of a twin with other wind
+  std::uint64_t seed = 0;                             ///< of the run it was built for
 };
 
-/// The world of a scenario. @param shelf  of files; null: none. @throws ConfigError
+/// Builds the world of a scenario. @param shelf  cache of files; may be null. @throws ConfigError
 BuiltWorld build_static_world(const scenario::Scenario& scenario, const Registry& registry,
                               FileShelf* shelf = nullptr);
 
-/// The same for the same scenario with another seed. Only a world that depends on the seed is built
-/// anew. @throws ConfigError
+/// World of the same scenario with another seed. Rebuilds it only if it depends on the seed.
+/// @throws ConfigError
 BuiltWorld reseed_world(const BuiltWorld& world, const scenario::Scenario& scenario,
                         const Registry& registry, FileShelf* shelf = nullptr);
 

@@ -4,13 +4,13 @@
 
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
-#include "engine/sim/standing_ground.h"
+#include "engine/sim/placement_ground.h"
 
 namespace vinerow {
 namespace {
 
-/// The mesh that surrounds a point so closely that nothing else is seen: rays to all sides and up
-/// end on it within a few metres. What lies below may be the ground that it stands on. -1: none.
+/// Index of the mesh that encloses a point: horizontal rays to four sides and one upwards all hit
+/// it within kClose_m. Below the point there may be other ground. -1 if there is no such mesh.
 int find_surrounding(const SceneQuery& scene, const Eigen::Vector3d& p_W) {
   constexpr double kClose_m = 3.0;
   constexpr SurfaceMask kRigid = kAllSurfaces & ~mask_of(SurfaceClass::kCanopy);
@@ -29,13 +29,13 @@ int find_surrounding(const SceneQuery& scene, const Eigen::Vector3d& p_W) {
 
 void refuse_hidden_cameras(const scenario::PicturesConfig& pictures, const WorldModel& world,
                            const SceneQuery& scene) {
-  const StandingGround ground(world, scene);
+  const PlacementGround ground(world, scene);
   for (const scenario::CameraConfig& camera : pictures.cameras) {
     if (camera.kind != scenario::CameraKind::kFixed) continue;
     const auto refuse = [&](const std::string& where) {
       throw ConfigError(fmt::format(
-          "{}: camera '{}' would stand {}; position_m = [{:g}, {:g}, {:g}] counts its height from "
-          "the ground up",
+          "{}: camera '{}' would be {}; the height in position_m = [{:g}, {:g}, {:g}] is measured "
+          "from the ground",
           camera.where.text(), camera.name, where, camera.p_W.x(), camera.p_W.y(), camera.p_W.z()));
     };
     if (camera.p_W.z() <= 0.0) refuse(fmt::format("{:g} m below the ground", -camera.p_W.z()));

@@ -1,5 +1,5 @@
 #pragma once
-/// Refuses cameras that would show nothing but the inside of something.
+/// Check for cameras that would show only the inside of something.
 
 #include "engine/api/forward.h"
 #include "engine/api/scene_query.h"
@@ -7,8 +7,8 @@
 
 namespace vinerow {
 
-/// Looks at the fixed ones: where the others are is known in the run alone.
-/// @throws ConfigError "scenario.yaml:30: pictures.cameras: camera 'gate' would stand 2 m below the
+/// Checks fixed cameras. The positions of other cameras are known only during the run.
+/// @throws ConfigError "scenario.yaml:30: pictures.cameras: camera 'gate' would be 2 m below the
 /// ground; ..."
 void refuse_hidden_cameras(const scenario::PicturesConfig& pictures, const WorldModel& world,
                            const SceneQuery& scene);

@@ -1,5 +1,5 @@
 #pragma once
-/// The end of a vehicle: when and why it was wrecked, is stuck, or gave its task up.
+/// Failure of a vehicle: when and why it crashed, got stuck or gave up.
 
 #include <string>
 
@@ -9,8 +9,8 @@ namespace vinerow {
 
 enum class EndKind {
   kCrashed,
-  kStuck,   ///< whole, but it gets nowhere
-  kGaveUp,  ///< whole, but its guidance or controller cannot go on
+  kStuck,   ///< undamaged, but it makes no progress
+  kGaveUp,  ///< undamaged, but its guidance or controller cannot continue
 };
 
 /// "crashed", "is stuck", "gave up"

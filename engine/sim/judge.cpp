@@ -6,24 +6,25 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/core/constants.h"
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
-#include "engine/metrics/register_metrics.h"
 #include "engine/scenario/known_names.h"
+#include "engine/sim/separation.h"
 
 namespace vinerow {
 namespace {
 
-/// What metrics there are, from the one that is likeliest meant on: a few where there is a hint,
-/// all where nothing is near.
+/// Known metrics, the most similar first: at most kMaxWithHint if one is similar enough for a hint,
+/// else all.
 std::string list_metrics(const std::string& wrong, std::vector<std::string> known) {
-  constexpr std::size_t kMostWithHint = 10;
+  constexpr std::size_t kMaxWithHint = 10;
   if (nearest_name(wrong, known).empty()) return join(known);
   std::stable_sort(known.begin(), known.end(), [&](const std::string& a, const std::string& b) {
     return edit_distance(wrong, a) < edit_distance(wrong, b);
   });
-  const bool is_cut = known.size() > kMostWithHint;
-  return scenario::list_known(known, kMostWithHint) + (is_cut ? "; see 'vinerow list metric'" : "");
+  const bool is_cut = known.size() > kMaxWithHint;
+  return scenario::list_known(known, kMaxWithHint) + (is_cut ? "; see 'vinerow list metric'" : "");
 }
 
 double find_metric(const scenario::Criterion& criterion,
@@ -42,7 +43,7 @@ double find_metric(const scenario::Criterion& criterion,
                                 list_metrics(criterion.metric, known)));
 }
 
-/// Why a metric has no value, from what its name says that it looks at.
+/// Reason why a metric has no value, derived from its name.
 const char* why_not_measured(const std::string& metric) {
   const std::string name = metric.substr(metric.find('.') + 1);
   for (const char* begin : {"cross_track_", "heading_error_rms_rad", "altitude_error_",
@@ -51,7 +52,7 @@ const char* why_not_measured(const std::string& metric) {
   }
   if (name.starts_with("turn_") || name.ends_with("_turn")) return "it never drove a turn";
   if (name.starts_with("hover_")) return "it never hovered";
-  return "nothing happened to measure it on";
+  return "there was nothing to measure";
 }
 
 /// "min = 0.2 and max = 0.8"
@@ -62,20 +63,14 @@ std::string limits_text(const scenario::Criterion& criterion) {
   return text;
 }
 
-void refuse_what_nothing_meets(const scenario::Criterion& criterion,
-                               const std::vector<scenario::NamedPart>& parts) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const std::string name = criterion.metric.substr(criterion.metric.find('.') + 1);
-  for (const scenario::NamedPart& part : parts) {
-    const metrics::MetricNumber* number = metrics::find_metric_number(part.part.type, name);
-    if (!number) continue;
-    if (number->can_be_in(criterion.min.value_or(-kInfinity), criterion.max.value_or(kInfinity))) {
-      return;
-    }
-    throw ConfigError(fmt::format("{}: criteria: no value of {} meets {} (possible: {})",
-                                  criterion.where.text(), criterion.metric, limits_text(criterion),
-                                  number->range_text()));
+void refuse_impossible_limits(const scenario::Criterion& criterion, const ResultSpec* declared) {
+  if (!declared || declared->range.can_be_in(criterion.min.value_or(-kInfinity),
+                                             criterion.max.value_or(kInfinity))) {
+    return;
   }
+  throw ConfigError(fmt::format("{}: criteria: no value of {} meets {} (possible: {})",
+                                criterion.where.text(), criterion.metric, limits_text(criterion),
+                                declared->range.text()));
 }
 
 }  // namespace
@@ -110,12 +105,32 @@ std::vector<CriterionResult> judge(
   return results;
 }
 
+const ResultSpec* find_declared_result(const scenario::Scenario& scenario, const Registry& registry,
+                                       const std::string& metric) {
+  const std::size_t dot = metric.find('.');
+  const std::string owner = metric.substr(0, dot), name = metric.substr(dot + 1);
+  for (const scenario::NamedPart& part : scenario.metrics) {
+    const PartSpec& spec = registry.spec(PartKind::kMetric, part.part.type);
+    if (const ResultSpec* found = find_result(spec.results, name)) return found;
+  }
+  for (const scenario::VehicleConfig& vehicle : scenario.vehicles) {
+    if (vehicle.name != owner) continue;
+    for (const scenario::NamedPart& payload : vehicle.payloads) {
+      if (!name.starts_with(payload.name + "_")) continue;
+      const PartSpec& spec = registry.spec(PartKind::kPayload, payload.part.type);
+      const std::string rest = name.substr(payload.name.size() + 1);
+      if (const ResultSpec* found = find_result(spec.results, rest)) return found;
+    }
+  }
+  return find_result(separation_results(), name);
+}
+
 void check_criteria(const std::vector<scenario::Criterion>& criteria,
                     const std::map<std::string, std::map<std::string, double>>& metrics,
-                    const std::vector<scenario::NamedPart>& parts) {
+                    const std::function<const ResultSpec*(const std::string&)>& declared) {
   for (const scenario::Criterion& criterion : criteria) {
     static_cast<void>(find_metric(criterion, metrics));
-    refuse_what_nothing_meets(criterion, parts);
+    refuse_impossible_limits(criterion, declared(criterion.metric));
   }
 }
 

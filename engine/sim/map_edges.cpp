@@ -12,10 +12,10 @@
 namespace vinerow {
 namespace {
 
-/// Cosine of the bend up to which two triangles are taken for a quad.
-constexpr double kLeastCosine = 0.7071;
+/// Cosine of the angle between the normals of two triangles up to which they form a quad, 45 deg.
+constexpr double kMinCosine = 0.7071;
 
-/// Both ends by their places, the smaller one first.
+/// Positions of both ends, the lexicographically smaller one first.
 using Edge = std::array<float, 6>;
 
 Edge edge_between(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
@@ -31,15 +31,15 @@ Eigen::Vector3d high_end(const Edge& edge) {
   return Eigen::Vector3f(edge[3], edge[4], edge[5]).cast<double>();
 }
 
-/// What the triangles at an edge say of it.
+/// Properties of the triangles at an edge.
 struct Sides {
   int triangles = 0;
-  int longest_of = 0;       ///< in how many of them it is the longest
+  int longest_of = 0;       ///< number of them in which it is the longest edge
   Eigen::Vector3d first_n;  ///< normals of the first and the last of them
   Eigen::Vector3d last_n;
 
   bool is_diagonal() const {
-    return triangles == 2 && longest_of == 2 && first_n.dot(last_n) > kLeastCosine;
+    return triangles == 2 && longest_of == 2 && first_n.dot(last_n) > kMinCosine;
   }
 };
 

@@ -1,15 +1,15 @@
 #pragma once
-/// The ground as a vehicle's map has it.
+/// Ground according to a vehicle's map.
 
 #include "engine/api/forward.h"
 #include "engine/api/scene_query.h"
 
 namespace vinerow {
 
-/// What planners are told of the ground where the map brings a terrain of its own. Beyond its edge
-/// the edge's height goes on for 10 m, as headlands do that a survey has not wholly seen; farther
-/// out there is no ground. And a map of the ground has nothing that a ray could hit, or that could
-/// be near a box: what stands on it are the map's rows, meshes and grid.
+/// Scene for planners whose map has its own terrain. For 10 m beyond the terrain's edge the ground
+/// has the height of the edge, for headlands that a survey covered only partly. Farther out there
+/// is no ground. Rays hit nothing and no box is near anything, because the map's rows, meshes and
+/// grid represent the objects on the ground.
 class MapGround final : public SceneQuery {
  public:
   /// @param terrain  must outlive this

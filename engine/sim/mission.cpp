@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "engine/api/map.h"
 #include "engine/core/error.h"
@@ -27,9 +28,9 @@ PhaseReport report_of(const scenario::PhaseConfig& config) {
   return report;
 }
 
-/// What a vehicle's parts are built on before the map they will get is there: the true rows as row
-/// meshes, which is what every part that takes a map can be built on.
-std::shared_ptr<const RowMap> make_stand_in(const RunContext& run) {
+/// Placeholder for a map that does not exist before the run, used to rehearse a vehicle's parts:
+/// the true rows as row meshes, which every part that needs a map accepts.
+std::shared_ptr<const RowMap> make_placeholder(const RunContext& run) {
   constexpr const char* kType = "row_mesh";
   const std::vector<std::string> known = run.registry.names(PartKind::kMap);
   const bool has_type = std::find(known.begin(), known.end(), kType) != known.end();
@@ -138,23 +139,41 @@ void Mission::build_job(Phase& phase) {
   }
 }
 
+void Mission::check_criteria_of(
+    const Phase& phase, std::map<std::string, std::map<std::string, double>> metrics) const {
+  if (!phase.job) {
+    check_criteria(phase.config->criteria, metrics, [&](const std::string& metric) {
+      return find_declared_result(run_.scenario, run_.registry, metric);
+    });
+    return;
+  }
+  // A plug-in's job may declare no results; its numbers are then known only after it has run.
+  const std::vector<ResultSpec>& results =
+      run_.registry.spec(PartKind::kJob, phase.config->job->type).results;
+  if (results.empty()) return;
+  for (const ResultSpec& result : results) {
+    metrics[""][result.name] = std::numeric_limits<double>::quiet_NaN();
+  }
+  check_criteria(phase.config->criteria, metrics,
+                 [&](const std::string& metric) { return find_result(results, metric); });
+}
+
 void Mission::rehearse() {
-  std::shared_ptr<const RowMap> stand_in;
-  const auto stand_in_map = [&] {
-    if (!stand_in) stand_in = make_stand_in(run_);
-    return stand_in;
+  std::shared_ptr<const RowMap> placeholder;
+  const auto placeholder_map = [&] {
+    if (!placeholder) placeholder = make_placeholder(run_);
+    return placeholder;
   };
   for (const Phase& phase : phases_) {
     PhaseHandover handover;
-    if (takes(*phase.config, ProductKind::kMap)) handover.map = stand_in_map();
+    if (takes(*phase.config, ProductKind::kMap)) handover.map = placeholder_map();
     if (takes(*phase.config, ProductKind::kPlan)) handover.plan = std::make_shared<PlannedPath>();
     std::map<std::string, std::map<std::string, double>> metrics;
     for (VehicleRuntime* vehicle : phase.vehicles) {
       vehicle->rehearse(handover);
       metrics[vehicle->name()] = vehicle->metric_results();
     }
-    // The numbers of a job are known when it has run.
-    if (!phase.job) check_criteria(phase.config->criteria, metrics, run_.scenario.metrics);
+    check_criteria_of(phase, metrics);
   }
 }
 
@@ -175,7 +194,7 @@ std::size_t Mission::index_of(const std::string& name) const {
 }
 
 void Mission::advance(Time now) {
-  // What ends now may let others begin at this instant.
+  // A phase that ends now may let others start at the same instant.
   while (step_all(now)) {
   }
   write_states(now);
@@ -210,7 +229,7 @@ void Mission::wait(std::size_t i, Time now) {
         return;
       case WeatherWatch::Verdict::kGiveUp:
         fail(i, now,
-             fmt::format("no window of weak wind came: the mean over {:g} s is {:.1f} m/s, the "
+             fmt::format("no window of weak wind occurred: the mean over {:g} s is {:.1f} m/s, the "
                          "limit {:g} m/s",
                          phases_[i].config->weather->over_s, phases_[i].weather->mean_mps(),
                          phases_[i].config->weather->max_wind_mps));
@@ -230,7 +249,7 @@ void Mission::begin(std::size_t i, Time now) {
   if (phases_[i].job) {
     run_job(i, now);
   } else {
-    begin_vehicles(i, now);
+    start_vehicles(i, now);
   }
 }
 
@@ -247,7 +266,7 @@ std::map<std::string, Product> Mission::inputs_of(std::size_t i) const {
   return inputs;
 }
 
-void Mission::begin_vehicles(std::size_t i, Time now) {
+void Mission::start_vehicles(std::size_t i, Time now) {
   PhaseHandover handover;
   for (const auto& [key, product] : inputs_of(i)) {
     if (product.kind == ProductKind::kMap) handover.map = product.map;
@@ -261,7 +280,7 @@ void Mission::begin_vehicles(std::size_t i, Time now) {
     try {
       vehicle->begin(now, handover);
     } catch (const ConfigError& error) {
-      // What was rehearsed was right; what the products hold is not.
+      // The configuration passed the rehearsal, so the error is in the products.
       fail(i, now, error.what());
       return;
     }
@@ -278,7 +297,7 @@ void Mission::run_job(std::size_t i, Time now) {
   std::filesystem::create_directories(phase.folder, failed);
   if (failed) {
     throw ConfigError(
-        fmt::format("folder '{}' cannot be made: {}", phase.folder.string(), failed.message()));
+        fmt::format("folder '{}' cannot be created: {}", phase.folder.string(), failed.message()));
   }
   try {
     const Result<JobOutcome> outcome = phase.job->run(inputs_of(i));
@@ -336,7 +355,7 @@ void Mission::watch(std::size_t i, Time now) {
   } else if (phase.config->timeout_s > 0.0 &&
              now - *reports_[i].begin >= duration_from_s(phase.config->timeout_s)) {
     fail(i, now,
-         fmt::format("{} had not finished after {:g} s, its timeout", join(late, " and "),
+         fmt::format("{} had not finished within its timeout of {:g} s", join(late, " and "),
                      phase.config->timeout_s));
   }
 }
@@ -356,7 +375,7 @@ void Mission::finish(std::size_t i, Time now) {
   try {
     judge_phase(i);
   } catch (const ConfigError& error) {
-    // Only the numbers of a job are not known before.
+    // This can happen only for numbers of a job, which cannot be checked before the run.
     fail(i, now, error.what());
     return;
   }
@@ -407,7 +426,7 @@ void Mission::abort(std::size_t failed, Time now) {
       settle(i, now, PhaseState::kStopped, reason);
     }
   }
-  // Those that wait for it are told so; the others were not reached.
+  // Phases that wait for a failed or stopped phase are blocked; the others are "not started".
   for (bool changed = true; changed;) {
     changed = false;
     for (std::size_t i = 0; i < phases_.size(); ++i) {

@@ -1,11 +1,11 @@
 #pragma once
-/// A mission as a graph of phases: begins those whose turn it is, ends those that are done, hands
-/// their products on, and says what became of each.
+/// Execution of a mission, a graph of phases: starts and ends phases, passes their products on and
+/// reports their outcomes.
 ///
-/// A phase begins at the first instant at which every phase it is `after` has succeeded. It has
-/// succeeded when its job is done, or every vehicle's controller has finished, and its criteria are
-/// met; it has failed after a crash, at its timeout, without a plan or a product. What is `after`
-/// a phase that did not succeed is blocked.
+/// A phase starts at the first instant at which every phase in its `after` has succeeded. It
+/// succeeds when its job is done, or every vehicle's controller has finished, and its criteria are
+/// met. It fails after a crash, at its timeout, or without a plan or product. A phase is blocked if
+/// a phase in its `after` did not succeed.
 
 #include <filesystem>
 #include <functional>
@@ -24,22 +24,23 @@ namespace vinerow {
 
 class Mission {
  public:
-  /// Builds the jobs and rehearses every vehicle, so that faults of either are found before the
-  /// run. @param run,vehicles  outlive the mission
-  /// @param products  folder for the jobs' files, "<phase>" below it each
+  /// Builds the jobs and rehearses every vehicle, to find configuration errors before the run.
+  /// @param run,vehicles  outlive the mission
+  /// @param products  folder for the jobs' files, with one subfolder "<phase>" for each job
   /// @throws ConfigError
   Mission(const RunContext& run, const std::vector<std::unique_ptr<VehicleRuntime>>& vehicles,
           std::filesystem::path products);
 
-  /// Looks at all phases; called at every instant, before anything else runs.
+  /// Updates all phases; called at every instant, before anything else runs.
   /// @throws SimulationError
   void advance(Time now);
-  /// The run ends here: what runs has failed, what waits has not started. @param reason  a sentence
+  /// Ends the mission with the run: running phases fail, waiting phases are "not started".
+  /// @param reason  a sentence
   void close(Time now, const std::string& reason);
-  /// A phase of vehicles fails from outside. @param vehicle  that works in it
+  /// Fails the phase in which a vehicle works, for a reason outside the mission.
   void fail_phase_of(const std::string& vehicle, Time now, const std::string& reason);
 
-  /// No phase runs or will.
+  /// No phase runs or will start.
   bool over() const;
   bool succeeded() const;
   const std::vector<PhaseReport>& reports() const { return reports_; }
@@ -57,11 +58,15 @@ class Mission {
   };
 
   void build_job(Phase& phase);
+  /// @param metrics  of the phase's vehicles, by vehicle and name; the values are ignored
+  /// @throws ConfigError as check_criteria (judge.h)
+  void check_criteria_of(const Phase& phase,
+                         std::map<std::string, std::map<std::string, double>> metrics) const;
   void rehearse();
   bool step_all(Time now);
   void wait(std::size_t i, Time now);
   void begin(std::size_t i, Time now);
-  void begin_vehicles(std::size_t i, Time now);
+  void start_vehicles(std::size_t i, Time now);
   void run_job(std::size_t i, Time now);
   void watch(std::size_t i, Time now);
   void finish(std::size_t i, Time now);

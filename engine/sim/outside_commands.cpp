@@ -55,8 +55,8 @@ void OutsideCommands::add(OutsideCommand command, Time now) {
                     value.name(), command.stamp.s(), now.s()));
   }
   if (command.value->has_nan()) {
-    throw ConfigError(
-        fmt::format("a command for '{}' at {:.9g} s holds NaN", value.name(), command.stamp.s()));
+    throw ConfigError(fmt::format("a command for '{}' at {:.9g} s contains NaN", value.name(),
+                                  command.stamp.s()));
   }
   const auto earlier = [](const OutsideCommand& a, const OutsideCommand& b) {
     return std::tie(a.stamp.ns, a.value->name()) < std::tie(b.stamp.ns, b.value->name());

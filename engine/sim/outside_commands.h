@@ -1,5 +1,5 @@
 #pragma once
-/// What comes into a run from outside: which signals, and the values that wait for their instant.
+/// Signals that are written from outside a run, and a queue of their values.
 
 #include <string>
 #include <vector>
@@ -11,19 +11,19 @@ namespace vinerow {
 class OutsideCommands {
  public:
   /// Claims the signals on the bus, before any part is built. @param bus  outlives this object
-  /// @throws ConfigError where two claim one signal
+  /// @throws ConfigError if a signal is claimed twice
   OutsideCommands(SignalBus& bus, const std::vector<OutsideSignal>& signals);
 
-  /// Called when every part is connected. @throws ConfigError where no part reads such a signal
+  /// Call when every part is connected. @throws ConfigError if no part reads one of the signals
   void check_read() const;
 
-  /// Keeps a value for the first instant that is not before its stamp.
-  /// @param now  the next instant to be worked on
+  /// Queues a value for the first instant at or after its stamp.
+  /// @param now  the next instant to be processed
   /// @throws ConfigError on a signal that is not written from outside, another type, a stamp
-  ///   before `now`, a value that is not a number
+  ///   before `now`, a value that is NaN
   void add(OutsideCommand command, Time now);
 
-  /// Writes what is due, in the order of stamps, then of signals' names, then of coming in. Where
+  /// Writes the values that are due, in order of stamp, then of signal name, then of arrival. If
   /// several values of one signal are due, the last one counts.
   void deliver(Time now);
 

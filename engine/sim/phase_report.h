@@ -1,5 +1,5 @@
 #pragma once
-/// What became of a mission's phases.
+/// Outcome of a mission's phases.
 
 #include <map>
 #include <optional>
@@ -12,13 +12,13 @@
 namespace vinerow {
 
 enum class PhaseState {
-  kWaiting,  ///< for other phases, or for weather
+  kWaiting,  ///< for other phases or for weather
   kRunning,
   kSucceeded,
   kFailed,
-  kBlocked,    ///< waited for a phase that did not succeed
+  kBlocked,    ///< a phase that it is `after` did not succeed
   kStopped,    ///< was running when the mission was aborted
-  kNotStarted  ///< the mission was over before its turn
+  kNotStarted  ///< the mission ended before it could start
 };
 /// "waiting", "running", "succeeded", "failed", "blocked", "stopped", "not started".
 const char* to_string(PhaseState state);
@@ -39,7 +39,7 @@ struct PhaseReport {
   std::vector<std::string> after;
   PhaseState state = PhaseState::kWaiting;
   std::optional<Time> begin, end;
-  std::string reason;  ///< one sentence, where it did not succeed
+  std::string reason;  ///< one sentence, if it did not succeed
   std::vector<CriterionResult> criteria;
   std::map<std::string, double> numbers;                         ///< of a job
   std::map<std::string, std::map<std::string, double>> metrics;  ///< by vehicle, at the phase's end

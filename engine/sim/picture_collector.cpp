@@ -7,8 +7,9 @@
 
 namespace vinerow {
 
-Eigen::Vector3d told_place(const Odometry& estimate, double later_s, const Eigen::Vector3d& p_B) {
-  // Shots and estimates are a few milliseconds apart, in which the body hardly turns.
+Eigen::Vector3d estimated_place(const Odometry& estimate, double later_s,
+                                const Eigen::Vector3d& p_B) {
+  // Constant velocity, without rotation: shots and estimates are only a few milliseconds apart.
   return estimate.X_WB * p_B + later_s * (estimate.X_WB.q * estimate.v_WB_B);
 }
 
@@ -37,18 +38,18 @@ PictureCollector::PictureCollector(SignalBus& bus, const std::string& vehicle,
 void PictureCollector::look() {
   if (!shots_.is_newer_than(seen_)) return;
   const CameraShot& shot = shots_.value();
-  // The signal is repeated at the sensor's rate; its index tells pictures apart.
+  // The signal is repeated at the sensor's rate; the index identifies a new picture.
   if (shot.index < 0 || shot.index == last_index_) return;
   last_index_ = shot.index;
   pictures_->X_WS.push_back(shot.X_WS);
-  // One that knows nothing yet cannot write anything into a picture.
+  // A set with a picture before the first estimate stores no estimates at all.
   const bool knows = estimate_.has_value();
-  if (!knows) told_all_ = false;
-  if (told_all_) {
-    pictures_->told_W.push_back(
-        told_place(estimate_.value(), (shots_.stamp() - estimate_.stamp()).s(), p_BS_));
+  if (!knows) has_all_estimates_ = false;
+  if (has_all_estimates_) {
+    pictures_->estimated_W.push_back(
+        estimated_place(estimate_.value(), (shots_.stamp() - estimate_.stamp()).s(), p_BS_));
   } else {
-    pictures_->told_W.clear();
+    pictures_->estimated_W.clear();
   }
 }
 

@@ -47,16 +47,25 @@ class PlanJob : public Job {
   const std::string of_vehicle_;
 };
 
+std::vector<ResultSpec> plan_results() {
+  using Range = ResultRange;
+  return {
+      {"length_m", "m", Range::from_zero(), "planned length",
+       "Length of the path planned by the job `plan`.", ""},
+      {"points", "1", Range::count(), "points of the plan", "Number of points of the plan.", ""}};
+}
+
 }  // namespace
 
 void register_plan_job(Registry& registry) {
   PartSpec spec;
   spec.name = "plan";
+  spec.results = plan_results();
   spec.description =
-      "plans for a vehicle from where it stands, with its own planner, before the phase in which "
-      "it drives";
+      "plans a path for a vehicle from its present pose, with its own planner, before the phase in "
+      "which it drives";
   spec.parameters = plan_job_table().specs();
-  spec.takes = {{"map", ProductKind::kMap, false, "to plan on; default: the vehicle's own"}};
+  spec.takes = {{"map", ProductKind::kMap, false, "map to plan on; default: the vehicle's own"}};
   spec.gives = ProductKind::kPlan;
   registry.add_job(std::move(spec), [](const ParameterSet& parameters, const JobContext& context) {
     return std::make_unique<PlanJob>(parameters, context);

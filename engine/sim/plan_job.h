@@ -1,11 +1,12 @@
 #pragma once
-/// The job `plan`: a vehicle's own planner, run before the phase that drives its plan.
+/// Job `plan`: runs a vehicle's own planner before the phase that drives the plan.
 
 #include "engine/api/registry.h"
 
 namespace vinerow {
 
-/// Takes a `map` if given, gives the plan of one vehicle from where it stands.
+/// Registers the job. It plans for one vehicle from its present place, on the product `map` if
+/// there is one.
 void register_plan_job(Registry& registry);
 
 }  // namespace vinerow

@@ -31,7 +31,7 @@ void load_plugin(const std::filesystem::path& file, Registry& registry) {
   const std::string difference = abi_difference(abi(), VINEROW_ABI_TAG);
   if (!difference.empty()) {
     throw ConfigError(
-        fmt::format("plug-in '{}' {}; build it again with the headers and flags of this vinerow",
+        fmt::format("plug-in '{}' {}; rebuild it with the headers and flags of this vinerow",
                     file.string(), difference));
   }
   registry.set_origin(file.string());

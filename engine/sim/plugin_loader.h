@@ -1,5 +1,5 @@
 #pragma once
-/// Loads shared libraries that bring parts of their own (engine/api/plugin.h).
+/// Loader of shared libraries that contain parts (engine/api/plugin.h).
 
 #include <filesystem>
 
@@ -8,10 +8,9 @@
 namespace vinerow {
 
 /// Registers the parts of a plug-in. The library stays loaded until the program ends.
-/// @throws ConfigError naming the file and the reason: cannot be loaded, is no Vinerow plug-in, was
-/// built for
-///         another ABI (both tags are named), its registration threw, or it brings a name that is
-///         taken
+/// @throws ConfigError with the file and the reason: it cannot be loaded, is not a Vinerow plug-in,
+/// was built for another ABI (with both tags), threw in its registration, or registers a name that
+/// is taken
 void load_plugin(const std::filesystem::path& file, Registry& registry);
 
 }  // namespace vinerow

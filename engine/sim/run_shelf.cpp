@@ -12,7 +12,7 @@ BuiltWorld RunShelf::world(const scenario::Scenario& scenario, const Registry& r
   const std::string key =
       fmt::format("{} ns, {} m/s2\n{}", scenario.physics_step.ns, scenario.gravity_mps2,
                   scenario::resolved_block(scenario, "world"));
-  // Held while a world is built: others that want the same one wait for it.
+  // Held while a world is built, so that other runs wait for it instead of building it too.
   const std::lock_guard lock(mutex_);
   const auto found =
       std::find_if(kept_.begin(), kept_.end(), [&](const Kept& kept) { return kept.key == key; });
@@ -24,8 +24,8 @@ BuiltWorld RunShelf::world(const scenario::Scenario& scenario, const Registry& r
     if (world.model.get() != model && world.model->depends_on_seed) ++built_;
     return world;
   }
-  // Room first: two large worlds at a time may be one too many.
-  while (kept_.size() >= most_worlds_) kept_.pop_back();
+  // Remove first: there may not be enough memory for two large worlds.
+  while (kept_.size() >= max_worlds_) kept_.pop_back();
   kept_.push_front({key, build_static_world(scenario, registry, &files_)});
   ++built_;
   return kept_.front().world;

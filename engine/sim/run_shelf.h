@@ -1,5 +1,5 @@
 #pragma once
-/// What runs of one process share although their scenarios differ: contents of files, built worlds.
+/// Cache of file contents and built worlds, shared by the runs of one process.
 
 #include <list>
 #include <memory>
@@ -14,26 +14,26 @@ namespace vinerow {
 /// Safe to call from several threads.
 class RunShelf {
  public:
-  /// @param most_worlds  kept, those that were asked for last; >= 1
-  explicit RunShelf(std::size_t most_worlds = 1) : most_worlds_(most_worlds) {}
+  /// @param max_worlds  number of worlds to keep, the most recently requested ones; >= 1
+  explicit RunShelf(std::size_t max_worlds = 1) : max_worlds_(max_worlds) {}
 
   FileShelf& files() { return files_; }
-  /// The world of a scenario, built unless it was asked for before with the same parameters. A
-  /// world that depends on the seed is built anew for another one. Files are taken to be unchanged.
+  /// World of a scenario; built unless the shelf has one with the same parameters. A world that
+  /// depends on the seed is rebuilt for another seed. Files are assumed to be unchanged.
   /// @throws ConfigError
   BuiltWorld world(const scenario::Scenario& scenario, const Registry& registry);
-  /// How many worlds were built so far.
+  /// Number of worlds built so far.
   std::size_t built() const;
 
  private:
   struct Kept {
-    std::string key;  ///< all that a world depends on but the seed
+    std::string key;  ///< everything that a world depends on, except the seed
     BuiltWorld world;
   };
-  std::size_t most_worlds_;
+  std::size_t max_worlds_;
   FileShelf files_;
   mutable std::mutex mutex_;
-  std::list<Kept> kept_;  ///< the last one that was asked for stands first
+  std::list<Kept> kept_;  ///< most recently requested first
   std::size_t built_ = 0;
 };
 

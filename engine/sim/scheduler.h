@@ -1,10 +1,9 @@
 #pragma once
-/// Multi-rate scheduler on integer nanoseconds: which tasks are due at an instant, and in which
-/// order.
+/// Multi-rate scheduler on integer nanoseconds.
 ///
 /// Rates are exact: a task of period T and offset D runs at D, D + T, D + 2T ... and at no other
-/// time, so that an hour holds exactly 18,000 ticks of a 5 Hz task. Inside an instant tasks run by
-/// stage, then in order of adding.
+/// time. An hour has exactly 18,000 ticks of a 5 Hz task. Within an instant, tasks run in order of
+/// stage, then in the order in which they were added.
 
 #include <cstdint>
 #include <functional>
@@ -15,7 +14,7 @@
 
 namespace vinerow {
 
-/// The order inside one instant. Physics then carries the state to the next instant.
+/// Order within one instant. Physics then advances the state to the next instant.
 enum class Stage { kSense, kEstimate, kPlan, kGuide, kControl, kActuate, kPayload, kJudge };
 
 class Scheduler {
@@ -23,16 +22,18 @@ class Scheduler {
   /// @param step  physics step; every period and offset must be a multiple of it
   explicit Scheduler(Duration step) : step_(step) {}
 
-  /// @param name  who, for errors and timings, e.g. "rover.controller"
-  /// @param begin  the task first runs at begin + offset; not before the instant worked on
-  /// @returns what remove() takes
-  /// @throws ConfigError naming both numbers if the step does not divide the period or the offset
+  /// @param name  for errors and timings, e.g. "rover.controller"
+  /// @param begin  the task first runs at begin + offset, which must not be before the present
+  ///   instant
+  /// @returns handle for remove()
+  /// @throws ConfigError with both numbers if the step does not divide the period or the offset
   int add(Stage stage, std::string name, Duration period, Duration offset,
           std::function<void(Time)> run, Time begin = {});
-  /// Its ticks so far stay in reports(). Not to be called while tasks run.
+  /// Removes a task; its ticks so far stay in reports(). Must not be called while tasks run.
   void remove(int task);
 
-  /// Runs everything that is due at `now`. Instants must be visited in rising order without gaps.
+  /// Runs all tasks that are due at `now`. Instants must be visited in ascending order, without
+  /// gaps.
   void run_due(Time now);
 
   struct TaskReport {
@@ -40,13 +41,13 @@ class Scheduler {
     Stage stage;
     Duration period;
     std::uint64_t ticks = 0;
-    double wall_s = 0.0;  ///< computing time of all ticks; 0 where it was not measured
+    double wall_s = 0.0;  ///< computing time of all ticks; 0 if not measured
   };
   std::vector<TaskReport> reports() const;
-  /// Tells how much wall time has passed since some moment, ns. A run never asks the time itself:
-  /// whoever steps it may give it a clock, which never reaches a result.
+  /// Wall time since an arbitrary moment, ns. A run never reads the time itself. The program that
+  /// steps it may provide a clock, which influences no result.
   using Clock = std::int64_t (*)();
-  /// @param measure  the computing time of each task too, and not only of jobs
+  /// @param measure  measures the computing time of each task too, not only of jobs
   void set_clock(Clock wall_ns, bool measure) {
     clock_ = wall_ns;
     measure_ = measure && wall_ns;

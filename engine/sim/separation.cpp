@@ -26,7 +26,7 @@ void Separation::update(Time now) {
     for (int b = a + 1; b < vehicles(); ++b) {
       const Box &A = boxes_[a], &B = boxes_[b];
       if (!A.is_there || !B.is_there) continue;
-      Least& there = pairs_[pair(a, b)];
+      MinDistance& there = pairs_[pair(a, b)];
       const double spheres_m = (A.X_WC.p - B.X_WC.p).norm() - A.radius_m - B.radius_m;
       if (spheres_m >= there.distance_m) continue;
       const double distance_m = physics::box_distance_m(A.X_WC, A.half_m, B.X_WC, B.half_m);
@@ -39,9 +39,18 @@ void Separation::update(Time now) {
   }
 }
 
-Separation::Least Separation::least(int a, int b) const {
+Separation::MinDistance Separation::least(int a, int b) const {
   VINEROW_DEMAND(a != b);
   return pairs_[pair(a, b)];
+}
+
+const std::vector<ResultSpec>& separation_results() {
+  static const std::vector<ResultSpec> results = {
+      {"min_vehicle_distance_m", "m", ResultRange::from_zero(), "min distance between vehicles",
+       "Smallest true distance between the box of this vehicle and that of any other, measured at "
+       "20 Hz from the start of the run. Null if no other vehicle was present.",
+       ""}};
+  return results;
 }
 
 }  // namespace vinerow

@@ -1,11 +1,12 @@
 #pragma once
-/// How near vehicles come to each other: the least true distance between their boxes, over a run.
+/// Smallest true distance between the boxes of vehicles over a run.
 
 #include <Eigen/Core>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "engine/api/result_spec.h"
 #include "engine/core/time.h"
 #include "engine/math/pose.h"
 
@@ -13,32 +14,32 @@ namespace vinerow {
 
 class Separation {
  public:
-  /// The nearest that two vehicles came.
-  struct Least {
+  /// Closest approach of a vehicle to another one.
+  struct MinDistance {
     double distance_m = std::numeric_limits<double>::infinity();  ///< 0: touched or overlapped
-    int other = -1;  ///< vehicle that was there, -1: none was ever beside it
-    Time time;       ///< when first so near
+    int other = -1;  ///< the other vehicle, -1 if there was never one
+    Time time;       ///< of the first moment at this distance
     Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< centre of this vehicle's box then
   };
 
-  /// @param vehicles  how many, at least 1
+  /// @param vehicles  number of vehicles, at least 1
   explicit Separation(int vehicles);
 
   int vehicles() const { return static_cast<int>(boxes_.size()); }
-  /// Where a vehicle's box is now. @param X_WB  pose of the vehicle  @param centre_B  of the box
-  /// @param half_extents_m  along the axes of B
+  /// Sets the present place of a vehicle's box. @param X_WB  pose of the vehicle
+  /// @param centre_B  of the box  @param half_extents_m  along the axes of B
   void place(int vehicle, const Pose& X_WB, const Eigen::Vector3d& centre_B,
              const Eigen::Vector3d& half_extents_m);
-  /// A vehicle that is not there any more, or not yet.
+  /// Excludes a vehicle until its next place().
   void remove(int vehicle) { boxes_[vehicle].is_there = false; }
-  /// Measures every pair that is there, once per tick. Of pairs whose enclosing spheres are farther
-  /// apart than the pair has come before, only the spheres are looked at. No heap.
+  /// Measures every pair of placed vehicles; once per tick. Computes the distance of the boxes only
+  /// if the enclosing spheres are nearer than the pair's minimum so far. Does not allocate.
   void update(Time now);
 
-  /// Of the nearest other one; distance +infinity where there never was one.
-  const Least& least(int vehicle) const { return least_[vehicle]; }
-  /// Of two vehicles, in any order; `other` is the second. @pre a != b
-  Least least(int a, int b) const;
+  /// Closest approach to any other vehicle; distance +infinity if there never was one.
+  const MinDistance& least(int vehicle) const { return least_[vehicle]; }
+  /// Closest approach of two vehicles, in any order; `other` is the second. @pre a != b
+  MinDistance least(int a, int b) const;
 
  private:
   struct Box {
@@ -50,8 +51,11 @@ class Separation {
   int pair(int a, int b) const { return a * vehicles() + b; }
 
   std::vector<Box> boxes_;
-  std::vector<Least> least_;  ///< by vehicle
-  std::vector<Least> pairs_;  ///< by pair, both ways
+  std::vector<MinDistance> least_;  ///< by vehicle
+  std::vector<MinDistance> pairs_;  ///< by pair, both ways
 };
+
+/// Declaration of the result `min_vehicle_distance_m` of every vehicle in runs with several ones.
+const std::vector<ResultSpec>& separation_results();
 
 }  // namespace vinerow

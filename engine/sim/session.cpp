@@ -17,7 +17,7 @@ struct Session::Impl {
     void on_event(Time now, const Event& event) override { events.push_back({now, event}); }
     std::vector<SessionEvent> events;
   };
-  /// A run and what listens to it.
+  /// A run and its observer.
   struct Run {
     Run(const scenario::Scenario& scenario, const Registry& registry, SimulationSetup setup)
         : simulation(scenario, registry, std::move(setup)) {
@@ -32,7 +32,7 @@ struct Session::Impl {
   std::shared_ptr<RunShelf> shelf;  ///< outlives the run
   std::unique_ptr<Run> run;
   std::map<std::string, std::shared_ptr<SignalSlot>> slots;
-  std::string broken;  ///< why the run goes no further; empty: it does
+  std::string broken;  ///< reason why the run broke off; empty if it did not
 
   ~Impl() {
     for (const auto& [name, slot] : slots) slot->signal = nullptr;
@@ -44,7 +44,7 @@ struct Session::Impl {
     setup.world = std::move(world);
     setup.outside = options.outside;
     setup.shelf = &shelf->files();
-    // The old run stays until the new one is there: what throws here changes nothing.
+    // The old run stays until the new one exists, so that an exception here changes nothing.
     run = std::make_unique<Run>(scenario, *registry, std::move(setup));
     broken.clear();
     for (const auto& [name, slot] : slots) slot->signal = run->simulation.bus().find(name);
@@ -62,11 +62,11 @@ struct Session::Impl {
   void demand_going(const char* what) const {
     const Simulation& simulation = run->simulation;
     if (!broken.empty()) {
-      throw ConfigError(fmt::format("{}: session '{}' broke off: {}; reset() begins again", what,
+      throw ConfigError(fmt::format("{}: session '{}' broke off: {}; call reset() to restart", what,
                                     simulation.scenario().name, broken));
     }
     if (simulation.over()) {
-      throw ConfigError(fmt::format("{}: session '{}' is over at {:.9g} s; reset() begins again",
+      throw ConfigError(fmt::format("{}: session '{}' is over at {:.9g} s; call reset() to restart",
                                     what, simulation.scenario().name, simulation.now().s()));
     }
   }

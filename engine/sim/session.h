@@ -1,5 +1,6 @@
 #pragma once
-/// A scenario that is loaded once, stepped by the calling program, and reset as often as needed:
+/// Session: a scenario that is loaded once, stepped by the calling program, and reset as often as
+/// needed:
 ///
 ///   Session session = open_session("riseholme_rover.yaml");   // vinerow/session.h
 ///   const SignalView<Odometry> truth = session.signal<Odometry>("rover/truth");
@@ -10,8 +11,8 @@
 ///   session.reset(2);  // the same scenario with another seed; nothing is read or built twice
 ///
 /// A session does not own the loop, starts no thread that outlives a call, and never reads the wall
-/// clock. One session belongs to one thread at a time; any number of them run side by side
-/// (`twin()`). Its results are those of a process of its own, to the bit, however it is stepped.
+/// clock. Only one thread may use a session at a time; any number of sessions can run in parallel
+/// (`twin()`). However it is stepped, its results are bit-identical to those of a separate process.
 /// Guide: docs/guides/session.md.
 
 #include <cstdint>
@@ -36,8 +37,8 @@ struct Scenario;
 class RunShelf;
 class Simulation;
 
-/// A session's reference to one of its signals. reset() looks it up again; the end of the session
-/// empties it.
+/// A session's reference to one of its signals. reset() looks the signal up again; the session's
+/// destructor sets it to null.
 struct SignalSlot {
   std::string name;
   const SignalBase* signal = nullptr;
@@ -64,7 +65,7 @@ class SignalView {
   }
   /// Number of writes so far by the present writer.
   std::uint64_t sequence() const { return reader().sequence(); }
-  /// True once per advance() in which it was written, when asked after each.
+  /// True if the signal was written since the last call with the same `seen`.
   bool is_newer_than(std::uint64_t& seen) const { return reader().is_newer_than(seen); }
 
  private:
@@ -78,7 +79,7 @@ class SignalView {
 struct SignalInfo {
   std::string name;    ///< "rover/truth"
   std::string type;    ///< of the message, e.g. "Odometry"
-  std::string writer;  ///< e.g. "rover.controller", "outside"; empty: none at present
+  std::string writer;  ///< e.g. "rover.controller", "outside"; empty if it has no writer now
 };
 
 /// An event that a part reported, and when.
@@ -99,18 +100,19 @@ struct SessionPhase {
   std::string name;
   std::string state;  ///< "waiting", "running", "succeeded", "failed", "blocked", ...
   std::optional<Time> begin, end;
-  std::string reason;                     ///< one sentence, where it did not succeed
+  std::string reason;                     ///< one sentence, if it did not succeed
   std::map<std::string, double> numbers;  ///< of a job
 };
 
 struct SessionOptions {
-  /// Signals that command() writes in place of a part. The scenario's parts read them, and none of
-  /// them writes them.
+  /// Signals that command() writes in place of a part. A part of the scenario must read each of
+  /// them, and no part may write it.
   std::vector<OutsideSignal> outside;
-  /// Folder for the products of a mission's jobs; empty: a temporary one, removed with the session.
+  /// Folder for the products of a mission's jobs. If empty, a temporary folder is used, which is
+  /// removed with the session.
   std::filesystem::path products;
-  /// Worlds and contents of files, shared with sessions of other scenarios
-  /// (engine/sim/run_shelf.h, private); null: the session's own.
+  /// Cache of worlds and file contents, shared with sessions of other scenarios
+  /// (engine/sim/run_shelf.h, private). If null, the session has its own.
   std::shared_ptr<RunShelf> shelf;
 
   /// E.g. take_over<NamedValues>("rover/actuators") of a vehicle without a controller.
@@ -132,16 +134,15 @@ class Session {
   Session& operator=(Session&&) noexcept;
 
   /// Another session of the same scenario, seed and options, at time 0, for another thread. It
-  /// shares the world and the contents of files with this one. Its mission's products have a folder
-  /// of their own.
+  /// shares the world and file contents with this one, and has its own folder for products.
   Session twin() const;
 
-  /// Starts again at time 0. Views remain valid; pending commands and events that were not taken
-  /// are dropped. Reads no unchanged file again, and builds the world anew only if it depends on
-  /// the seed.
+  /// Restarts at time 0 with another seed. Views remain valid; pending commands and events that
+  /// were not taken are dropped. Reads no unchanged file again, and rebuilds the world only if it
+  /// depends on the seed.
   /// @throws ConfigError; the session is then unchanged
   void reset(std::uint64_t seed);
-  /// With the same seed.
+  /// Restarts with the same seed.
   void reset();
 
   /// Processes every instant up to and including `until`, or to the end of the run. Does nothing if
@@ -152,7 +153,7 @@ class Session {
   /// Processes the instants of the next `duration`: advance_for(a), advance_for(b) equals
   /// advance_for(a + b).
   void advance_for(Duration duration);
-  /// The next instant to be processed, 0 at the start. The earliest stamp of a command.
+  /// The next instant to be processed, 0 at the start; also the earliest valid stamp of a command.
   Time now() const;
   /// Time between two instants.
   Duration step() const;
@@ -160,49 +161,49 @@ class Session {
   std::uint64_t steps() const;
   /// The run has ended: by its duration, because all vehicles finished, or by a crash.
   bool over() const;
-  /// Every controller has finished and no vehicle crashed; of a mission: every phase succeeded.
+  /// Every controller has finished and no vehicle crashed; in a mission, every phase succeeded.
   bool finished() const;
 
   /// Sets a signal at the first instant at or after `stamp`, before any part runs. The session must
   /// have taken it over (SessionOptions). Its stamp on the bus is that instant; digest and log
-  /// contain it like any other value. Of several values for one instant the one with the latest
-  /// stamp counts; of equal stamps, the last one given.
+  /// contain it like any other value. Of several values for one instant, the one with the latest
+  /// stamp counts; if stamps are equal, the last one given.
   /// @throws ConfigError on a signal that is unknown, written by a part, or of another type; a
-  ///   stamp before now(); a value that holds NaN; actuators that the vehicle does not have; when
-  ///   over
+  ///   stamp before now(); a value that contains NaN; actuators that the vehicle does not have; if
+  ///   the run is over
   template <class T>
   void command(const std::string& signal, Time stamp, const T& value) {
     command(outside_command<T>(signal, stamp, value));
   }
   void command(OutsideCommand command);
 
-  /// @throws ConfigError naming the nearest signal, or the type it has
+  /// View of a signal. @throws ConfigError with the most similar name, or with the signal's type
   template <class T>
   SignalView<T> signal(const std::string& name) {
     return SignalView<T>(slot(name, T::kType));
   }
   /// A signal of any type. Not valid after the next reset(). @throws ConfigError
   const SignalBase& any_signal(const std::string& name) const;
-  /// All of them, in the same order in every run of a scenario.
+  /// All signals, in the same order in every run of a scenario.
   std::vector<SignalInfo> signals() const;
 
-  /// In the scenario's order.
+  /// Names of the vehicles, in the scenario's order.
   std::vector<std::string> vehicles() const;
   /// Present values: [vehicle][metric], and for a mission's jobs [phase][number].
   std::map<std::string, std::map<std::string, double>> metrics() const;
   std::vector<SessionCrash> crashes() const;
-  /// Of a mission, in the scenario's order; empty without one.
+  /// Phases of a mission, in the scenario's order; empty without a mission.
   std::vector<SessionPhase> phases() const;
   /// Events since the last call, or since time 0.
   std::vector<SessionEvent> take_events();
-  /// Over every signal written so far (docs/contributing/architecture.md).
+  /// Digest of every signal written so far (docs/contributing/architecture.md).
   std::string digest() const;
   std::uint64_t seed() const;
 
-  /// Of this run, with its resolved text; not valid after the next reset().
+  /// Scenario of this run, with its resolved text; not valid after the next reset().
   const scenario::Scenario& scenario() const;
-  /// The run itself (engine/sim/simulation.h, private), for observers in the tree; not
-  /// valid after the next reset().
+  /// The run itself (engine/sim/simulation.h, private), for observers inside the project; not valid
+  /// after the next reset().
   Simulation& simulation();
   const Simulation& simulation() const;
 

@@ -21,15 +21,15 @@
 namespace vinerow {
 namespace {
 
-/// A folder that no other simulation of this machine has.
+/// Path of a folder that no other simulation on this machine uses.
 std::filesystem::path make_own_folder() {
   static std::atomic<int> count = 0;
   return std::filesystem::temp_directory_path() /
          fmt::format("vinerow_products_{}_{}", ::getpid(), ++count);
 }
 
-/// Nobody asked for the air of another height than the ground's; empty where that is near.
-std::string doubt_of_density(const WorldModel& world) {
+/// Warning if the default air density belongs to another altitude than that of the ground, else "".
+std::string density_warning(const WorldModel& world) {
   constexpr double kSameAir_m = 150.0;  // 1.4 % of the density
   const Wind& wind = world.wind;
   if (!world.terrain || wind.atmosphere != Atmosphere::kConstant || wind.air_density_kgm3)
@@ -40,7 +40,7 @@ std::string doubt_of_density(const WorldModel& world) {
   const double height_m = ground.height_m(middle.x(), middle.y());
   if (std::abs(height_m) <= kSameAir_m) return "";
   return fmt::format(
-      "the air has the density of the origin's altitude, {:.0f} m, but the ground lies at z = "
+      "the air has the density at the origin's altitude, {:.0f} m, but the ground is at z = "
       "{:.0f} "
       "m: set wind.atmosphere to us76, or air_density_kgm3, or origin_altitude_m",
       world.origin.altitude_m, height_m);
@@ -77,7 +77,7 @@ Simulation::Simulation(const scenario::Scenario& scenario, const Registry& regis
   std::vector<StartBox> starts;
   for (const scenario::VehicleConfig& vehicle : scenario_.vehicles) {
     vehicles_.push_back(std::make_unique<VehicleRuntime>(vehicle, run, starts));
-    // In a mission a vehicle begins with its phase.
+    // In a mission, a vehicle starts with its phase.
     if (scenario_.phases.empty()) {
       vehicles_.back()->begin(now_, {});
     } else {
@@ -96,11 +96,11 @@ Simulation::Simulation(const scenario::Scenario& scenario, const Registry& regis
 
 void Simulation::add_traffic(const RunContext& run) {
   const Duration period = period_of_rate(TrafficControl::kRate_Hz);
-  // A run whose physics step does not divide this period does without.
+  // If the physics step does not divide this period, the separation is not measured.
   if (vehicles_.size() > 1 && period.ns % scenario_.physics_step.ns == 0) {
     separation_ = std::make_unique<Separation>(static_cast<int>(vehicles_.size()));
     for (const auto& vehicle : vehicles_) {
-      vehicle->tell_separation(std::numeric_limits<double>::infinity());
+      vehicle->set_separation(std::numeric_limits<double>::infinity());
     }
     scheduler_.add(Stage::kJudge, "run.separation", period, {},
                    [this](Time now) { watch_separation(now); });
@@ -109,7 +109,7 @@ void Simulation::add_traffic(const RunContext& run) {
   traffic_ = std::make_unique<TrafficControl>(
       run, vehicles_, [this](const std::string& vehicle, const std::string& reason) {
         emit(Event::Level::kError, "traffic", reason);
-        // Phases end between instants, when no part runs.
+        // This runs inside a task, and phases may end only when no task runs.
         if (mission_) lost_vehicles_.emplace_back(vehicle, reason);
       });
   scheduler_.add(Stage::kPlan, "run.traffic", period, {},
@@ -124,7 +124,7 @@ void Simulation::watch_separation(Time now) {
   }
   separation_->update(now);
   for (int i = 0; i < separation_->vehicles(); ++i) {
-    vehicles_[i]->tell_separation(separation_->least(i).distance_m);
+    vehicles_[i]->set_separation(separation_->least(i).distance_m);
   }
 }
 
@@ -136,7 +136,7 @@ Simulation::~Simulation() {
 void Simulation::classify_signals() {
   hashed_sequence_.assign(bus_.signals().size(), 0);
   hashed_.assign(bus_.signals().size(), true);
-  // Events tell people what the signals hold already.
+  // Events only repeat in words what other signals contain.
   for (std::size_t i = 0; i < bus_.signals().size(); ++i) {
     const auto* event = dynamic_cast<const Signal<Event>*>(bus_.signals()[i].get());
     if (event == nullptr) continue;
@@ -202,7 +202,7 @@ bool Simulation::is_done() const {
 void Simulation::work_instant() {
   if (now_.ns == 0 && map_.connected()) map_.write(now_, world().rows->occupancy);
   if (now_.ns == 0) {
-    const std::string doubt = doubt_of_density(world());
+    const std::string doubt = density_warning(world());
     if (!doubt.empty()) emit(Event::Level::kWarning, "world", doubt);
   }
   for (const auto& vehicle : vehicles_) vehicle->publish_truth(now_);
@@ -260,7 +260,8 @@ void Simulation::run_until(Time end) {
 
 void Simulation::end_mission() {
   if (!mission_ || mission_->over()) return;
-  mission_->close(now_, fmt::format("the run's duration of {:g} s was over", scenario_.duration_s));
+  mission_->close(now_,
+                  fmt::format("the run ended after its duration of {:g} s", scenario_.duration_s));
 }
 
 void Simulation::run() {

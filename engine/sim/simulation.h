@@ -1,10 +1,10 @@
 #pragma once
-/// One run of one scenario: builds the parts, wires the signals, steps. No files are written here.
+/// One run of one scenario: builds the parts, connects the signals, steps. Writes no files.
 ///
-/// At each instant t = k * physics step: truth is published, then sense, estimate, plan, guide,
-/// control, actuate, judge (metrics); observers see the instant and the digest takes in every
-/// signal written; then physics carries the state to t + step and is checked. Of a mission
-/// (mission.h) the phases are looked at first of all.
+/// At each instant t = k * physics step: truth is published; then the stages sense, estimate, plan,
+/// guide, control, actuate, payload and judge (metrics) run; observers see the instant, and the
+/// digest is updated with every signal written; then physics advances the state to t + step, and
+/// the state is checked. In a mission (mission.h) the phases are updated first of all.
 
 #include <filesystem>
 #include <memory>
@@ -31,21 +31,22 @@ class TrafficControl;
 struct RunContext;
 class VehicleRuntime;
 
-/// Looks at a run without changing it.
+/// Observer of a run; it does not change the run.
 class RunObserver {
  public:
   virtual ~RunObserver() = default;
-  /// Everything of this instant is written, physics has not yet moved on.
+  /// All signals of this instant are written; physics has not advanced yet.
   virtual void on_instant(Time /*now*/) {}
   /// The signal "run/events" has just been written.
   virtual void on_event(Time /*now*/, const Event& /*event*/) {}
 };
 
-/// What a run may be given beside its scenario.
+/// Inputs of a run besides its scenario.
 struct SimulationSetup {
-  /// Folder for what the jobs of a mission make; empty: one that goes with the simulation.
+  /// Folder for the products of a mission's jobs. If empty, a temporary folder is used, which is
+  /// removed with the simulation.
   std::filesystem::path products;
-  std::optional<BuiltWorld> world;  ///< of this scenario and seed; absent: built here
+  std::optional<BuiltWorld> world;  ///< of this scenario and seed; built if absent
   std::vector<OutsideSignal> outside;
   FileShelf* shelf = nullptr;  ///< outlives the simulation
 };
@@ -66,57 +67,56 @@ class Simulation {
   physics::PhysicsWorld& physics() { return *physics_; }
   Scheduler& scheduler() { return scheduler_; }
 
-  /// Called at every instant from now on; not owned.
+  /// Adds an observer, called at every instant from now on; not owned.
   void add_observer(RunObserver* observer) { observers_.push_back(observer); }
 
-  /// Takes a value in for a signal that is written from outside (SimulationSetup::outside).
+  /// Queues a value for a signal that is written from outside (SimulationSetup::outside).
   /// @throws ConfigError as OutsideCommands::add, and on actuators that the vehicle does not have
   void command(OutsideCommand command);
 
-  /// Runs until the mission is over, or `end` is reached; can be called again to go on.
+  /// Runs until the run is over or `end` is reached; can be called again to continue.
   /// @throws SimulationError
   void run_until(Time end);
   /// Runs to the scenario's end.
   void run();
-  /// No further step will be made: the duration is over, every controller has finished or lost its
-  /// vehicle, or a vehicle crashed whose crash ends the run.
+  /// No further step will be made: the duration is over, every controller has finished or its
+  /// vehicle crashed, or a vehicle crashed whose crash ends the run.
   bool over() const { return over_; }
-  /// Every controller said that it has finished, and no vehicle crashed; of a mission: every phase
-  /// succeeded.
+  /// Every controller has finished and no vehicle crashed; in a mission, every phase succeeded.
   bool finished() const;
-  /// Of a mission, in the file's order; empty without one.
+  /// Phases of a mission, in the file's order; empty without a mission.
   std::vector<PhaseReport> phases() const;
   /// In the vehicles' order.
   std::vector<Crash> crashes() const;
-  /// The next instant to be worked on.
+  /// The next instant to be processed.
   Time now() const { return now_; }
   std::uint64_t steps() const { return steps_; }
 
-  /// Digest over every signal written so far, events and diagnostics (link poses, wheel states)
-  /// excepted: they follow from the others, and their rate belongs to the log.
+  /// Digest of every signal written so far, except events and diagnostics (link poses, wheel
+  /// states): they follow from the other signals, and their rate depends on the log settings.
   std::string digest() const { return hasher_.hex(); }
 
-  /// metrics[vehicle][metric], and of a mission's jobs [phase][number]. Call when over().
+  /// metrics[vehicle][metric], and for a mission's jobs [phase][number]. Call when over().
   std::map<std::string, std::map<std::string, double>> metrics() const;
-  /// What planners told of their work: [vehicle][number].
+  /// Numbers that planners reported: [vehicle][number].
   std::map<std::string, std::map<std::string, double>> planning() const;
   /// True pose and twist of a vehicle now. @throws ConfigError for an unknown name
   const Odometry& truth(const std::string& vehicle) const;
   const std::vector<std::unique_ptr<VehicleRuntime>>& vehicles() const { return vehicles_; }
 
-  /// Writes to "run/events" and tells the observers.
+  /// Writes an event to "run/events" and notifies the observers.
   void emit(Event::Level level, const std::string& source, const std::string& text);
 
  private:
   void work_instant();
-  /// Which signals go into the digest, once all that are known are there.
+  /// Decides which signals belong to the digest. Call when all known signals exist.
   void classify_signals();
   void end_mission();
   void add_traffic(const RunContext& run);
   void watch_separation(Time now);
-  /// Nobody has anything left to do, or a crash ends the run.
+  /// No vehicle has anything left to do, or a crash ends the run.
   bool is_done() const;
-  /// Hands what parts wrote as events of their own to "run/events".
+  /// Copies events that parts wrote to their own signals to "run/events".
   void pass_on_events();
   void hash_new_signals();
   void step_physics();
@@ -128,11 +128,11 @@ class Simulation {
   OutsideCommands outside_;
   Scheduler scheduler_;
   std::vector<std::unique_ptr<VehicleRuntime>> vehicles_;
-  std::filesystem::path own_products_;       // removed with the simulation; empty: not its own
-  std::unique_ptr<Mission> mission_;         // null: none
+  std::filesystem::path own_products_;       // temporary folder; empty if the caller gave one
+  std::unique_ptr<Mission> mission_;         // null: no phases
   std::unique_ptr<TrafficControl> traffic_;  // null: alleys are not reserved
-  std::vector<std::pair<std::string, std::string>> lost_vehicles_;  // wait for ever; and why
-  std::unique_ptr<Separation> separation_;                          // null: fewer than two vehicles
+  std::vector<std::pair<std::string, std::string>> lost_vehicles_;  // deadlocked vehicles; reasons
+  std::unique_ptr<Separation> separation_;                          // null: not measured
   SignalWriter<Event> events_;
   SignalWriter<OccupancyGrid> map_;
   std::vector<std::pair<const Signal<Event>*, std::uint64_t>>
@@ -146,7 +146,7 @@ class Simulation {
   bool over_ = false;
 };
 
-/// The world of a scenario. @param shelf  of files; null: none. @throws ConfigError
+/// Builds the world of a scenario. @param shelf  cache of files; may be null. @throws ConfigError
 std::unique_ptr<WorldModel> build_world(const scenario::Scenario& scenario,
                                         const Registry& registry, FileShelf* shelf = nullptr);
 

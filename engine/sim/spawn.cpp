@@ -13,7 +13,7 @@
 #include "engine/math/angles.h"
 #include "engine/physics/box_distance.h"
 #include "engine/physics/mesh_distance.h"
-#include "engine/sim/standing_ground.h"
+#include "engine/sim/placement_ground.h"
 
 namespace vinerow {
 namespace {
@@ -29,8 +29,7 @@ Heading find_on_alley(const scenario::SpawnConfig& spawn, const WorldModel& worl
   if (alleys.empty()) {
     throw ConfigError(
         fmt::format("{}: vehicles.{}.spawn.alley = {}, but world '{}' has {} row{} and so no alley "
-                    "between two: "
-                    "give it more rows or the vehicle a spawn of {{x_m, y_m}}",
+                    "between two: add rows, or set the vehicle's spawn to {{x_m, y_m}}",
                     spawn.where.text(), vehicle, *spawn.alley, world.name, world.rows->rows.size(),
                     world.rows->rows.size() == 1 ? "" : "s"));
   }
@@ -60,11 +59,11 @@ Heading find_point(const scenario::SpawnConfig& spawn, const WorldModel& world,
       known.empty() ? "none" : join(known)));
 }
 
-/// Slope from the ground a wheel base around, so that a pebble under the centre does not tilt the
-/// vehicle.
+/// Distance at which the ground is sampled for the slope. Chosen: about half a wheel base, so that
+/// a pebble under the centre does not tilt the vehicle.
 constexpr double kReach_m = 0.5;
 
-/// Rise of the ground along an axis; from one side alone where the other has none.
+/// Slope of the ground along an axis; from one side alone if there is no ground on the other.
 double calc_slope(double here_m, std::optional<double> ahead_m, std::optional<double> behind_m) {
   if (ahead_m && behind_m) return (*ahead_m - *behind_m) / (2 * kReach_m);
   if (ahead_m) return (*ahead_m - here_m) / kReach_m;
@@ -72,7 +71,7 @@ double calc_slope(double here_m, std::optional<double> ahead_m, std::optional<do
   return 0.0;
 }
 
-/// The first mesh of some classes that a box meets. Asked before a run is refused, so it may cost.
+/// First mesh of the classes in `mask` that a box touches. Slow; used only for an error message.
 const MeshInstance* find_touched(const WorldModel& world, const StartBox& box, SurfaceMask mask) {
   for (const MeshInstance& instance : world.meshes) {
     if ((mask & mask_of(instance.surface)) == 0) continue;
@@ -85,7 +84,7 @@ const MeshInstance* find_touched(const WorldModel& world, const StartBox& box, S
   return nullptr;
 }
 
-/// "; free places of this world: ..."
+/// Hint on free places of the world, for the end of an error message.
 std::string name_free_places(const WorldModel& world) {
   if (!world.rows->alleys.empty()) {
     return fmt::format("; 'alley: 0' to 'alley: {}' start in the middle of an alley",
@@ -96,14 +95,14 @@ std::string name_free_places(const WorldModel& world) {
 
 }  // namespace
 
-std::string tell_more_ground(const ParameterSet& world) {
+std::string larger_ground_hint(const ParameterSet& world) {
   constexpr const char* kSurroundings = "surroundings_m";
   for (const ParameterSpec& spec : world.specs()) {
     if (spec.name != kSurroundings) continue;
-    return fmt::format("; a larger world.{} ({:g} m now) makes more of it", kSurroundings,
+    return fmt::format("; increase world.{} ({:g} m now) to extend it", kSurroundings,
                        world.number(kSurroundings));
   }
-  return "; keep it on the ground, or give the world more of it";
+  return "; keep it on the ground, or extend the ground of the world";
 }
 
 Pose find_spawn_pose(const scenario::SpawnConfig& spawn, const WorldModel& world,
@@ -118,16 +117,16 @@ Pose find_spawn_pose(const scenario::SpawnConfig& spawn, const WorldModel& world
     heading.p_W = *spawn.p_W;
   }
   const double x = heading.p_W.x(), y = heading.p_W.y();
-  const StandingGround standing(world, scene);
-  const auto ground = standing.height_m(x, y);
+  const PlacementGround stationary(world, scene);
+  const auto ground = stationary.height_m(x, y);
   if (!ground) {
     throw ConfigError(fmt::format(
         "{}: vehicles.{}.spawn is at x = {:.3f} m, y = {:.3f} m, where world '{}' has no ground{}",
         spawn.where.text(), vehicle, x, y, world.name, remedy));
   }
-  const bool obstacles = standing.takes_obstacles(x, y);
+  const bool obstacles = stationary.takes_obstacles(x, y);
   const auto height_at = [&](double dx, double dy) {
-    return standing.beside_m(x + dx, y + dy, *ground, obstacles, kReach_m);
+    return stationary.beside_m(x + dx, y + dy, *ground, obstacles, kReach_m);
   };
   const Eigen::Vector3d normal(
       -calc_slope(*ground, height_at(kReach_m, 0), height_at(-kReach_m, 0)),
@@ -147,7 +146,7 @@ StartBox find_start_box(const std::string& vehicle, const Pose& X_WB,
     box.extend(Eigen::Vector3d(p.x(), p.y(), description.collision_centre_B.z()));
   }
   if (description.wheeled) {
-    // A wheel may stand on a pebble.
+    // Tolerance for a wheel on a pebble.
     constexpr double kPebble_m = 0.05;
     box.extend(Eigen::Vector3d(box.center().x(), box.center().y(),
                                kPebble_m - description.height_above_ground_m));
@@ -163,18 +162,18 @@ void refuse_start_in_contact(const scenario::SpawnConfig& spawn, const StartBox&
         "{}: vehicles.{}.spawn: at x = {:.3f} m, y = {:.3f} m the vehicle would stand in {}{}",
         spawn.where.text(), box.vehicle, box.X_WC.p.x(), box.X_WC.p.y(), what, remedy));
   };
-  // Side by side they may touch.
+  // Vehicles side by side may touch.
   constexpr double kTouch_m = 1e-3;
   const Eigen::Vector3d inner_m = (box.half_m.array() - kTouch_m).max(0.0);
   for (const StartBox& other : others) {
     if (physics::box_distance_m(box.X_WC, inner_m, other.X_WC, other.half_m) > 0.0) continue;
     refuse(fmt::format("vehicle '{}', which starts at x = {:.3f} m, y = {:.3f} m", other.vehicle,
                        other.X_WC.p.x(), other.X_WC.p.y()),
-           "; give one of them another place");
+           "; move one of them");
   }
   const bool on_obstacles =
-      StandingGround(world, scene).takes_obstacles(box.X_WC.p.x(), box.X_WC.p.y());
-  // The ground may touch a vehicle from below: a little more than its lower half is for that.
+      PlacementGround(world, scene).takes_obstacles(box.X_WC.p.x(), box.X_WC.p.y());
+  // The ground may touch the lower 55 % of the box, so only the upper 45 % is checked against it.
   StartBox upper = box;
   upper.X_WC.p = box.X_WC * Eigen::Vector3d(0.0, 0.0, 0.55 * box.half_m.z());
   upper.half_m.z() *= 0.45;
@@ -191,7 +190,7 @@ void refuse_start_in_contact(const scenario::SpawnConfig& spawn, const StartBox&
     const bool is_deck = surface == SurfaceClass::kObstacle;
     refuse(touched ? fmt::format("the {} '{}'", to_string(surface), touched->name) : "the ground",
            name_free_places(world) +
-               (is_deck ? " (what vehicles are to start on must be of surface terrain)" : ""));
+               (is_deck ? " (ground on which vehicles start must be of surface terrain)" : ""));
   }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Where vehicles stand at the start, and whether they stand free there.
+/// Poses of vehicles at the start, and the check that these places are free.
 
 #include <string>
 #include <vector>
@@ -11,22 +11,22 @@
 
 namespace vinerow {
 
-/// How a world gets more ground, for the end of a refusal: "; a larger world.surroundings_m (6 m
-/// now) makes more of it" where it has that key.
-std::string tell_more_ground(const ParameterSet& world);
+/// Hint on how to get more ground, for the end of an error message: "; increase
+/// world.surroundings_m (6 m now) to extend it" if the world has that key.
+std::string larger_ground_hint(const ParameterSet& world);
 
-/// Pose of a vehicle at the start, standing on the ground: the highest terrain there, or where the
-/// world has none the highest obstacle. It is tilted as the ground is a wheel base around; what
-/// stands on the ground, or rises steeper than 45 deg, tilts nothing.
-/// @throws ConfigError naming what the world has, if the alley or spawn point is unknown; or that
-/// there is no ground
-/// @param remedy  what that ends with
+/// Pose of a vehicle at the start, on the ground: on the highest terrain there or, if the place has
+/// no terrain, on the highest obstacle. The vehicle is tilted like the ground 0.5 m around it.
+/// Objects on the ground, and ground that rises by more than 45 deg, do not tilt it.
+/// @param remedy  end of the message if there is no ground
+/// @throws ConfigError if the alley or spawn point is unknown (with those that exist), or if there
+/// is no ground
 Pose find_spawn_pose(const scenario::SpawnConfig& spawn, const WorldModel& world,
                      const SceneQuery& scene, const std::string& vehicle,
                      double height_above_ground_m, const std::string& remedy = "");
 
-/// The room that a vehicle takes at the start: its collision box, widened to its outline, and down
-/// to its wheels where it has some.
+/// Space that a vehicle occupies at the start: its collision box, extended to its outline and, for
+/// wheeled vehicles, down to its wheels.
 struct StartBox {
   std::string vehicle;
   Pose X_WC;  ///< of the box's centre
@@ -35,7 +35,7 @@ struct StartBox {
 StartBox find_start_box(const std::string& vehicle, const Pose& X_WB,
                         const VehicleDescription& description);
 
-/// @param others  vehicles that stand there already
+/// Checks that the space of a vehicle is free. @param others  vehicles that are already placed
 /// @throws ConfigError "scenario.yaml:7: vehicles.rover.spawn: at x = 3.000 m, y = 2.000 m the
 /// vehicle would stand in the canopy 'row_2'; ..."
 void refuse_start_in_contact(const scenario::SpawnConfig& spawn, const StartBox& box,

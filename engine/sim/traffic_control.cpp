@@ -11,7 +11,7 @@
 namespace vinerow {
 namespace {
 
-/// Whether one of a vehicle's parts stops where its authority ends.
+/// True if guidance or controller of a vehicle reads its authority.
 bool honours_authority(const scenario::VehicleConfig& vehicle, const Registry& registry) {
   const auto reads = [&](PartKind kind, const std::optional<scenario::PartConfig>& part) {
     if (!part) return false;
@@ -23,6 +23,13 @@ bool honours_authority(const scenario::VehicleConfig& vehicle, const Registry& r
          reads(PartKind::kController, vehicle.controller);
 }
 
+/// Largest speed between rows that look_ahead_m is made for. Chosen: no vehicle is faster there.
+constexpr double kMaxRowSpeed_mps = 4.0;
+/// Speed of a vehicle whose description has no top speed. Chosen.
+constexpr double kUnknownSpeed_mps = 1.5;
+/// Distance added to the stopping distance. Chosen.
+constexpr double kStopMargin_m = 2.0;
+
 TrafficVehicle describe(const VehicleRuntime& vehicle, double stop_before_m) {
   const VehicleDescription& description = vehicle.vehicle().description();
   TrafficVehicle result;
@@ -30,10 +37,10 @@ TrafficVehicle describe(const VehicleRuntime& vehicle, double stop_before_m) {
   const double half_m = description.collision_half_extents_m.x();
   result.length_m = 2.0 * half_m;
   result.stop_before_m = stop_before_m + half_m;
-  // From its top speed at a gentle 0.5 m/s2; a vehicle between rows is never faster than 4 m/s.
+  // Stopping distance v^2 / (2 a) at a gentle a = 0.5 m/s2, which is v^2, plus the margin.
   const std::optional<double>& speed_mps = description.max_speed_mps;
-  const double v_mps = speed_mps ? std::min(*speed_mps, 4.0) : 1.5;
-  result.look_ahead_m = v_mps * v_mps + 2.0;
+  const double v_mps = speed_mps ? std::min(*speed_mps, kMaxRowSpeed_mps) : kUnknownSpeed_mps;
+  result.look_ahead_m = v_mps * v_mps + kStopMargin_m;
   result.use.flies = description.flies();
   return result;
 }
@@ -59,7 +66,7 @@ TrafficControl::TrafficControl(
       lane.vehicle = vehicles[i].get();
       lane.plan = run.bus.subscribe_optional<PlannedPath>(name + "/plan", "traffic");
       lane.follower = run.bus.subscribe_optional<FollowerState>(name + "/follower", "traffic");
-      // What a fixed wing calls so is of another type, and it does not share alleys.
+      // A fixed-wing vehicle's "reference" has another type, but it does not share alleys.
       lane.reference =
           run.bus.subscribe_optional<ReferenceTrajectory>(name + "/reference", "traffic");
       lane.authority = run.bus.advertise<MovementAuthority>(name + "/authority", "traffic");

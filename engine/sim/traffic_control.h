@@ -1,6 +1,6 @@
 #pragma once
-/// Wires the reservation of alleys (alley_traffic.h) into a run: reads the plans and distances of
-/// the vehicles that share alleys and writes each its movement authority.
+/// Connection of the alley reservation (alley_traffic.h) to a run: reads the plans and distances
+/// of the vehicles that share alleys and writes each vehicle's movement authority.
 
 #include <functional>
 #include <memory>
@@ -15,18 +15,18 @@ namespace vinerow {
 
 class TrafficControl {
  public:
-  /// How often authorities are worked out.
+  /// Rate at which authorities are computed.
   static constexpr double kRate_Hz = 20.0;
 
   /// @param vehicles  of the run, in its order; outlive this object
-  /// @param on_deadlock  told once of every vehicle that will wait for ever, and why
+  /// @param on_deadlock  called once for every vehicle that will wait forever, with the reason
   /// @throws ConfigError if a vehicle's parts do not read the signal "authority", or the world has
   ///   no alleys
   TrafficControl(
       const RunContext& run, const std::vector<std::unique_ptr<VehicleRuntime>>& vehicles,
       std::function<void(const std::string& vehicle, const std::string& reason)> on_deadlock);
 
-  /// One tick, of the stage that plans.
+  /// One tick, in the stage kPlan.
   void step(Time now);
 
  private:
@@ -38,7 +38,7 @@ class TrafficControl {
     SignalWriter<MovementAuthority> authority;
     std::uint64_t plan_seen = 0;
     bool works = false;
-    bool lost = false;  ///< its waiting for ever has been told
+    bool lost = false;  ///< its deadlock has been reported
   };
   void follow(int i, Time now);
   double distance_m(const Lane& lane) const;

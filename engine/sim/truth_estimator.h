@@ -1,5 +1,5 @@
 #pragma once
-/// The estimator of a vehicle that has none: its estimate is the truth.
+/// Default estimator, whose estimate is the truth.
 
 #include "engine/api/registry.h"
 #include "engine/api/stepped_parts.h"
@@ -19,7 +19,7 @@ class TruthEstimator final : public Estimator {
   SignalWriter<Odometry> estimate_;
 };
 
-/// Adds it as `truth`, for scenarios that ask for it by name.
+/// Registers it as `truth`, for scenarios that name it.
 void register_truth_estimator(Registry& registry);
 
 }  // namespace vinerow

@@ -1,5 +1,5 @@
 #pragma once
-/// What the sources of VehicleRuntime share when they build the parts of a vehicle.
+/// Helpers shared by the sources of VehicleRuntime that build the parts of a vehicle.
 
 #include <fmt/format.h>
 
@@ -10,14 +10,15 @@
 
 namespace vinerow {
 
-/// What the part of a vehicle refuses is told with the place where the scenario names the part.
+/// Runs `make` and prefixes the ConfigErrors of a vehicle's part with the part's place in the
+/// scenario file.
 template <class Make>
 auto with_place(const io::SourceMark& where, const std::string& vehicle, Make&& make) {
   try {
     return make();
   } catch (const ConfigError& error) {
     const std::string text = error.what();
-    // Others say a place of their own: a file's, or that of the key.
+    // Other messages already start with a place: that of a file or of the key.
     if (!text.starts_with(vehicle + ".") && !text.starts_with(vehicle + ":")) throw;
     throw ConfigError(fmt::format("{}: {}", where.text(), text));
   }

@@ -18,9 +18,10 @@
 namespace vinerow {
 namespace {
 
-/// Parameter of metrics that judge pictures: the sensor that takes them.
+/// Parameter of metrics that judge pictures: name of the sensor that takes them.
 constexpr const char* kCamera = "camera";
-/// Diagnostics need no more than a picture does; the recorder thins further.
+/// Rate of parts without a rate of their own if the vehicle has no controller. Chosen: enough for
+/// pictures; the recorder reduces it further.
 constexpr double kDefaultControlRate_Hz = 20.0;
 
 /// Smallest multiple of the physics step that is not shorter than 1 / rate.
@@ -35,7 +36,7 @@ Duration diagnostics_period(double rate_Hz, Duration step) {
 std::function<void(Time)> VehicleRuntime::guarded(const std::string& part, const std::string& type,
                                                   std::function<void(Time)> step) {
   const std::string culprit = fmt::format("{} ({})", part, type);
-  // The signals this part writes are known after it has connected.
+  // Call after the part has connected: only then the bus knows the signals that it writes.
   std::vector<SignalBase*> written;
   for (const auto& signal : run_.bus.signals()) {
     if (signal->writer() == part) written.push_back(signal.get());
@@ -90,7 +91,7 @@ VehicleRuntime::VehicleRuntime(const scenario::VehicleConfig& config, const RunC
   const VehicleDescription& description = vehicle_->description();
   const Pose X_WB = find_spawn_pose(config_.spawn, run_.world, run_.physics.scene(), name,
                                     description.height_above_ground_m,
-                                    tell_more_ground(run_.scenario.world.parameters));
+                                    larger_ground_hint(run_.scenario.world.parameters));
   first_body_ = run_.physics.body_count();
   with_place(config_.vehicle.where, name, [&] { vehicle_->spawn(run_.physics, X_WB); });
   end_body_ = run_.physics.body_count();
@@ -121,7 +122,7 @@ VehicleRuntime::VehicleRuntime(const scenario::VehicleConfig& config, const RunC
 
 void VehicleRuntime::park() {
   for (int i = first_body_; i < end_body_; ++i) {
-    // What its vehicle holds itself, as an aircraft on its launcher, stays the vehicle's.
+    // Bodies that the vehicle itself holds, such as an aircraft on its launcher, stay as they are.
     if (run_.physics.is_kinematic({i})) continue;
     run_.physics.set_held({i}, true);
     held_bodies_.push_back(i);
@@ -142,7 +143,7 @@ void VehicleRuntime::begin(Time now, const PhaseHandover& handover) {
   stranded_ = false;
   if (parked_) {
     unpark();
-    publish_truth(now);  // this instant's was left out
+    publish_truth(now);  // not yet written at this instant, because the vehicle was parked
   }
   if (now.ns > 0) {
     contacts_.values = {0.0, 0.0};
@@ -182,7 +183,7 @@ void VehicleRuntime::take_down() {
   run_.bus.release(config_.name);
   actuators_seen_ = 0;
   actuator_index_.clear();
-  planned_ = said_finished_ = false;
+  planned_ = has_reported_finished_ = false;
   plan_failure_.clear();
 }
 
@@ -217,7 +218,7 @@ void VehicleRuntime::add_sensors() {
     }));
     Sensor& built = *sensors_.back();
     add_stepped(Stage::kSense, part, sensor.part.type, sensor.part.rate_Hz, built);
-    // What a sensor would read without error follows from the truth.
+    // The error-free reading follows from the truth.
     add_diagnostic(fmt::format("{}/{}_truth", config_.name, sensor.name));
     if (const auto X_BS = built.mounting_X_BS()) {
       mountings_.push_back({sensor.name, sensor.part.type, *X_BS});
@@ -271,14 +272,14 @@ void VehicleRuntime::add_observers() {
 void VehicleRuntime::add_controller() {
   if (!config_.controller && config_.guidance) {
     throw ConfigError(fmt::format(
-        "{}: {}.guidance ({}) works for a controller, but the vehicle has none: give it one, or "
-        "take the guidance away",
+        "{}: {}.guidance ({}) needs a controller, but the vehicle has no controller: add one, or "
+        "remove the guidance",
         config_.guidance->where.text(), config_.name, config_.guidance->type));
   }
   if (!config_.controller) {
     Ports ports(run_.bus, config_.name, config_.name);
     actuators_ = ports.read_optional<NamedValues>("actuators");
-    // What comes from outside acts at its instant.
+    // Commands from outside act at their instant, hence at the rate of the physics step.
     const bool driven = run_.bus.find(config_.name + "/actuators")->writer() == kOutside;
     if (driven) add_actuators(run_.scenario.physics_step);
     return;
@@ -303,7 +304,7 @@ void VehicleRuntime::add_controller() {
     if (auto* looks = dynamic_cast<SeesGround*>(guidance_.get())) {
       looks->see_ground(*planner_context().scene);
     }
-    // Where it lands: follows from what it told already.
+    // The landing point follows from other signals.
     add_diagnostic(config_.name + "/landing");
   }
   const std::string part = config_.name + ".controller";
@@ -326,7 +327,7 @@ void VehicleRuntime::note_if_it_may_fail(const SteppedPart* part) {
 }
 
 ParameterSet VehicleRuntime::parameters_of(const scenario::NamedPart& metric) const {
-  // Nothing is read here: what is not given is filled in before the part reads it by its table.
+  // Only fills in a missing camera; the part itself reads and checks the parameters.
   ParameterSet given = metric.part.parameters;
   const std::vector<ParameterSpec>& specs =
       run_.registry.spec(PartKind::kMetric, metric.part.type).parameters;
@@ -391,8 +392,8 @@ void VehicleRuntime::actuate(Time now) {
     vehicle_->actuate(actuator_values_);
     return;
   }
-  if (!said_finished_ && controller_ && finished()) {
-    said_finished_ = true;
+  if (!has_reported_finished_ && controller_ && finished()) {
+    has_reported_finished_ = true;
     run_.emit(Event::Level::kInfo, config_.name + ".controller", "finished its path");
   }
   if (!actuators_.has_value() || !actuators_.is_newer_than(actuators_seen_)) return;
@@ -420,7 +421,7 @@ void VehicleRuntime::actuate(Time now) {
 void VehicleRuntime::add_metrics() {
   for (const scenario::NamedPart& metric : run_.scenario.metrics) {
     const std::string part = fmt::format("{}.metrics.{}", config_.name, metric.name);
-    // Metrics look as often as the controller acts: the paper's samples are the poses of its
+    // Metrics run at the controller's rate by default: paper B's samples are the poses at its
     // cycles.
     const double rate_Hz = metric.part.rate_Hz > 0.0 ? metric.part.rate_Hz : control_rate_Hz();
     auto metric_context = context<MetricContext>(part, rate_Hz);
@@ -433,7 +434,7 @@ void VehicleRuntime::add_metrics() {
     }
     metrics_.push_back({metric.name, run_.registry.make_metric(
                                          metric.part.type, parameters_of(metric), metric_context)});
-    // A metric that judges plans has nothing to read where the vehicle has no planner.
+
     add_stepped(Stage::kJudge, part, metric.part.type, rate_Hz, *metrics_.back().metric);
   }
 }
@@ -445,13 +446,13 @@ void VehicleRuntime::publish_truth(Time now) {
 }
 
 void VehicleRuntime::publish_diagnostics(Time now) {
-  // Nothing of it changes; the log wants it all the same.
+  // A parked vehicle does not move, but the log needs its pose all the same.
   if (parked_) truth_writer_.write(now, truth_);
   vehicle_->read_links(links_.X_WL);
   links_writer_.write(now, links_);
   vehicle_->publish(now);
   if (now.ns == 0) contacts_writer_.write(now, contacts_);
-  // For those who look at the log: which map it was is told there, not made again from the world.
+  // The log contains the map itself, so that viewers need not rebuild it from the world.
   if (map_edges_due_) {
     map_edges_due_ = false;
     map_edges_writer_.write(now, map_edges(*own_map_));
@@ -466,7 +467,7 @@ std::map<std::string, double> VehicleRuntime::metric_results() const {
   for (const auto& [payload, part] : payloads_) {
     for (const auto& [name, value] : part->results()) all[payload + "_" + name] = value;
   }
-  if (least_separation_m_) all["min_vehicle_distance_m"] = *least_separation_m_;
+  if (min_separation_m_) all["min_vehicle_distance_m"] = *min_separation_m_;
   if (!worked_) {
     for (auto& [name, value] : all) value = std::numeric_limits<double>::quiet_NaN();
   }

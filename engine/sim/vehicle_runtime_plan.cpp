@@ -1,4 +1,4 @@
-/// What a vehicle knows of the rows and what it plans on that. Part of VehicleRuntime.
+/// Map and planner of a vehicle. Part of VehicleRuntime.
 
 #include <fmt/format.h>
 
@@ -65,7 +65,7 @@ Result<PlannedPath> VehicleRuntime::plan_ahead(std::shared_ptr<const RowMap> map
   if (!config_.planner) {
     return Failure{fmt::format("vehicle '{}' has no planner", config_.name)};
   }
-  // The parts that a later phase builds do not keep this map.
+  // This map is used for this plan only and does not replace the vehicle's own map.
   const std::shared_ptr<const RowMap> kept = own_map_;
   take_map(map ? std::move(map) : make_map());
   Result<PlannedPath> plan = Failure{};
@@ -94,7 +94,7 @@ void VehicleRuntime::try_to_plan(Time now) {
         fmt::format("{}.planner ({}): {}", config_.name, config_.planner->type, plan.reason());
     return;
   }
-  // A plan that cannot be made is bad input, not a failure of the simulation.
+  // A failed plan is bad input, not an error of the simulation.
   if (!plan) {
     throw ConfigError(fmt::format("{}: {}.planner ({}): {}", config_.planner->where.text(),
                                   config_.name, config_.planner->type, plan.reason()));
@@ -106,7 +106,7 @@ void VehicleRuntime::try_to_plan(Time now) {
   if (const PlanReport* report = planner_ ? planner_->report() : nullptr) {
     plan_numbers_ = report->numbers;
     if (!report->tree.points_W.empty()) tree_writer_.write(now, report->tree);
-    // Some planners count dozens of things, which no sentence holds.
+    // Some planners report dozens of numbers, too many for a sentence.
     if (!report->numbers.empty()) {
       told += fmt::format("; its numbers are in summary.json, planning.{}", config_.name);
     }

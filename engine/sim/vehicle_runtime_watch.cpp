@@ -1,5 +1,5 @@
-/// What ends a vehicle, or the run: a state that came apart, the edge of the ground, contacts,
-/// crashes, wheels that drive it nowhere. Part of VehicleRuntime.
+/// Checks that end a vehicle's work or the run: invalid state, edge of the ground, contacts,
+/// crashes, driven wheels without progress. Part of VehicleRuntime.
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 /// Contacts closer than this in time are one touch.
 constexpr Duration kContactGap{500'000'000};
-/// Envelope of a sane state; beyond it the run has come apart.
+/// Limits of a plausible state; beyond them the simulation has diverged.
 constexpr double kMaxDistance_m = 1e6;
 constexpr double kMaxSpeed_mps = 1e3;
 bool is_finite(const Odometry& state) {
@@ -22,17 +22,17 @@ bool is_finite(const Odometry& state) {
          state.v_WB_B.allFinite() && state.w_WB_B.allFinite();
 }
 
-/// Ground may be touched: wheels roll on it, and a belly may scrape over a bump. A face steeper
-/// than 45 deg is none, of whatever class: only a friction above 1 would hold a vehicle on it,
-/// which no tyre has on soil, so nothing drives there, and who touches it has run into it. A fence,
-/// a wall or a step that is part of the terrain's mesh is told from the terrain in this way.
+/// True for ground, contact with which is not reported: wheels roll on it, and a belly may scrape
+/// over a bump. A face steeper than 45 deg is not ground, whatever its class: a vehicle would need
+/// a friction coefficient above 1 to stay on it, which no tyre has on soil. This separates fences,
+/// walls and steps in the terrain's mesh from the terrain.
 bool is_ground(const physics::Contact& contact) {
   constexpr double kSteepestNormal_z = 0.70710678118654752;  // cos 45 deg
   return contact.surface == SurfaceClass::kTerrain &&
          std::abs(contact.normal_W.z()) >= kSteepestNormal_z;
 }
 
-/// "a post", "obstacle 'crate'": what was touched, by its name where the scenario gives it one.
+/// Name of the touched object: "a post", or "obstacle 'crate'" if the scenario names it.
 std::string name_of(const physics::Contact& contact, const WorldModel& world) {
   if (contact.surface == SurfaceClass::kTerrain) return "a wall of the terrain";
   if (contact.surface != SurfaceClass::kObstacle) {
@@ -45,7 +45,8 @@ std::string name_of(const physics::Contact& contact, const WorldModel& world) {
   return name.empty() ? "an obstacle" : fmt::format("obstacle '{}'", name);
 }
 
-/// Of the height field and the meshes of class terrain; of all that is rigid where there are none.
+/// Extent of the height field and the meshes of class terrain, or of all colliding meshes in a
+/// world without terrain.
 Eigen::AlignedBox2d find_ground_extent(const WorldModel& world) {
   Eigen::AlignedBox2d terrain, rigid;
   if (world.terrain) {
@@ -71,15 +72,15 @@ void VehicleRuntime::after_physics(Time now, Duration step) {
   Odometry state;
   vehicle_->read_truth(state);
   const std::string culprit = fmt::format("{} ({})", config_.name, config_.vehicle.type);
-  if (!is_finite(state)) throw SimulationError(culprit, now, "its state is not finite any more");
+  if (!is_finite(state)) throw SimulationError(culprit, now, "its state is no longer finite");
   if (state.X_WB.p.cwiseAbs().maxCoeff() > kMaxDistance_m) {
     throw SimulationError(culprit, now,
                           fmt::format("it is farther than {:g} m from the origin", kMaxDistance_m));
   }
   if (state.v_WB_B.norm() > kMaxSpeed_mps) {
-    throw SimulationError(culprit, now,
-                          fmt::format("its speed of {:g} m/s is beyond {:g} m/s",
-                                      state.v_WB_B.norm(), kMaxSpeed_mps));
+    throw SimulationError(
+        culprit, now,
+        fmt::format("its speed of {:g} m/s exceeds {:g} m/s", state.v_WB_B.norm(), kMaxSpeed_mps));
   }
   demand_ground(now, state.X_WB);
   watch_contacts(now);
@@ -91,7 +92,7 @@ void VehicleRuntime::demand_ground(Time now, const Pose& X_WB) const {
   if (run_.world.terrain && run_.world.terrain->contains(p.x(), p.y())) return;
   const SceneQuery& scene = run_.physics.scene();
   if (scene.ground_height_m(p.x(), p.y(), p.z())) return;
-  // A hole in a mesh smaller than the vehicle is no edge.
+  // A hole in a mesh that is smaller than the vehicle does not count as an edge.
   const VehicleDescription& description = vehicle_->description();
   const Eigen::Vector3d& half = description.collision_half_extents_m;
   for (const double side : {-1.0, 1.0}) {
@@ -107,15 +108,15 @@ void VehicleRuntime::demand_ground(Time now, const Pose& X_WB) const {
   throw SimulationError(
       culprit, now,
       fmt::format("it left the terrain at x = {:.2f} m, y = {:.2f} m: the ground of world '{}' "
-                  "lies between x = {:.1f} and {:.1f} m, y = {:.1f} and {:.1f} m{}",
+                  "extends from x = {:.1f} to {:.1f} m, y = {:.1f} to {:.1f} m{}",
                   p.x(), p.y(), run_.world.name, box.min().x(), box.max().x(), box.min().y(),
-                  box.max().y(), tell_more_ground(run_.scenario.world.parameters)));
+                  box.max().y(), larger_ground_hint(run_.scenario.world.parameters)));
 }
 
 bool VehicleRuntime::finished() const {
   if (crash_) return false;
   if (controller_ == nullptr) return true;
-  // A part may fail in the very instant in which the controller has done its work.
+  // A part may fail at the same instant at which the controller finishes.
   const bool has_failed = std::any_of(may_fail_.begin(), may_fail_.end(),
                                       [](const MayFail* part) { return !part->failure().empty(); });
   return at_work() && controller_->finished() && !has_failed;

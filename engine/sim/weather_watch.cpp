@@ -11,7 +11,7 @@ namespace {
 
 constexpr Duration kPeriod{1'000'000'000};
 
-/// Mean of the rows' ends, or W's origin where the world has none.
+/// Mean of the rows' ends, or W's origin if the world has no rows.
 Eigen::Vector2d middle_of_rows(const RowMap& rows) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   if (rows.rows.empty()) return sum;

@@ -1,5 +1,5 @@
 #pragma once
-/// Waits for a window of weak wind over the middle of the rows.
+/// Watch for a window of weak wind over the middle of the rows.
 
 #include <deque>
 
@@ -16,10 +16,10 @@ class WeatherWatch {
   WeatherWatch(const scenario::WeatherWindow& window, const WorldModel& world);
 
   enum class Verdict { kWait, kGo, kGiveUp };
-  /// Called at every instant while its phase waits. The wind is read once a second: what
-  /// everybody feels of it, the mean wind and the gusts, without turbulence.
+  /// Called at every instant while its phase waits. Reads the wind once a second: the mean wind
+  /// and the gusts, which are common to all vehicles, without turbulence.
   Verdict look(Time now);
-  /// Over the last `over_s`, m/s; of what has been read so far where that is less.
+  /// Mean speed over the last `over_s`, or over the readings so far if they are fewer, m/s.
   double mean_mps() const;
 
  private:

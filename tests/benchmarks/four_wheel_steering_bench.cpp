@@ -33,7 +33,7 @@ VehicleDescription steered_rover() {
 
 PlannedPath omega() {
   const controllers::Pose2 out{{15.0, 0.0}, 0.0}, back{{15.0, 2.5}, kPi};
-  std::vector<controllers::PathPiece> pieces = {controllers::make_straight({0, 0}, out.p, PathKind::kLeg, 0, 0.0)};
+  std::vector<controllers::PathSegment> pieces = {controllers::make_straight({0, 0}, out.p, PathKind::kLeg, 0, 0.0)};
   controllers::append_dubins(out, controllers::calc_dubins(out, back, 1.77), PathKind::kTurn, 0.0, pieces);
   pieces.push_back(controllers::make_straight(back.p, {0.0, 2.5}, PathKind::kLeg, 1, 0.0));
   return controllers::make_planned_path(pieces, 0.2);

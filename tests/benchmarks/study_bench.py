@@ -109,7 +109,7 @@ class Bench:
             place.parent.mkdir(exist_ok=True)
             place.write_bytes(text)
         taken = self.call(self.vinerow, "study", "resume", file, "--out", out, "--jobs", 1, "--quiet")
-        assert "100000 were finished before" in taken[3], taken[3]
+        assert "100000 were already finished" in taken[3], taken[3]
         again = self.call(self.vinerow, "study", "resume", file, "--out", out, "--jobs", 1, "--quiet")
         status = self.call(self.vinerow, "study", "status", file, "--out", out)
         for what, (cpu_s, wall_s, peak_MB, _) in (("listed", listing), ("resumed, files of cells", taken), ("resumed, index", again), ("status", status)):

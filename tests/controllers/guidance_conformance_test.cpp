@@ -325,9 +325,9 @@ TEST_P(EveryFlightGuidance, HoldsWhereItsAuthorityEndsAndGoesOnFromThere) {
     const double dt_s = seen[i].dt_s;
     const TrajectoryPoint &before = seen[i - 1].points[0], &now = seen[i].points[0],
                           &next = seen[i + 1].points[0];
-    const bool is_news = i >= 599 && i <= 602;  // the release
+    const bool is_new_event = i >= 599 && i <= 602;  // the release
     ASSERT_LT((next.p_W - before.p_W - 2.0 * dt_s * now.v_W).norm(), 2e-3) << i;
-    if (is_news) continue;
+    if (is_new_event) continue;
     for (std::size_t k = 0; k < 5 && i + k < 599; ++k) {
       ASSERT_LT((seen[i + k].points[0].p_W - seen[i].points[k].p_W).norm(), 1e-9) << i << " " << k;
       ASSERT_LT((seen[i + k].points[0].v_W - seen[i].points[k].v_W).norm(), 1e-9) << i << " " << k;

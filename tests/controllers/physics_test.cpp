@@ -265,7 +265,8 @@ TEST(Guidance, IsRefusedWithoutAController) {
     FAIL() << "must be refused";
   } catch (const ConfigError& error) {
     EXPECT_NE(std::string(error.what())
-                  .find("rover.guidance (dwa) works for a controller, but the vehicle has none"),
+                  .find("rover.guidance (dwa) needs a controller, but the vehicle has no "
+                        "controller"),
               std::string::npos)
         << error.what();
   }

@@ -68,7 +68,7 @@ TEST_F(CooperativeMission, TooMuchWindKeepsTheSurveyFromBeginning) {
   const run::RunResult result = run({"world.wind.mean_speed_mps=9"});
   EXPECT_EQ(result.status, run::RunStatus::kCriterionFailed);
   EXPECT_EQ(phase(result, "survey").state, PhaseState::kFailed);
-  EXPECT_THAT(phase(result, "survey").reason, StartsWith("no window of weak wind came"));
+  EXPECT_THAT(phase(result, "survey").reason, StartsWith("no window of weak wind occurred"));
   EXPECT_EQ(phase(result, "spray").state, PhaseState::kBlocked);
 }
 
@@ -90,7 +90,8 @@ TEST_F(CooperativeMission, ABlockedRoverStopsAndFailsAlone) {
        "0.6]}]"});
   EXPECT_EQ(result.status, run::RunStatus::kCriterionFailed);
   EXPECT_EQ(phase(result, "spray").state, PhaseState::kFailed);
-  EXPECT_THAT(phase(result, "spray").reason, StartsWith("rover had not finished after 400 s"));
+  EXPECT_THAT(phase(result, "spray").reason,
+              StartsWith("rover had not finished within its timeout of 400 s"));
   EXPECT_EQ(result.metrics.at("rover").at("contact_count"), 0.0)
       << "its rangers see what the map does not have";
   EXPECT_EQ(result.metrics.at("rover").at("alleys_driven"), 1.0);

@@ -97,7 +97,7 @@ TEST(Coverage, ARunWithoutPicturesHasNone) {
   EXPECT_FALSE(std::filesystem::exists(out + "/coverage.png"));
   const CommandResult none = run_vinerow("coverage " + out);
   EXPECT_EQ(none.status, 2);
-  EXPECT_THAT(none.output, HasSubstr("holds no picture"));
+  EXPECT_THAT(none.output, HasSubstr("contains no picture"));
 }
 
 }  // namespace

@@ -154,7 +154,7 @@ TEST(Plugins, WrongOnesAreRefusedByName) {
   expect_refused("list --plugin " + plugin("vinerow_test_no_plugin"),
                  {"vinerow_test_no_plugin", "VINEROW_PLUGIN"});
   expect_refused("list --plugin " + plugin("vinerow_test_old_abi"),
-                 {"vinerow_test_old_abi", "vinerow-abi-0-cxxabi-1000", "build it again"});
+                 {"vinerow_test_old_abi", "vinerow-abi-0-cxxabi-1000", "rebuild it"});
 }
 
 #if defined(__x86_64__) && !defined(__AVX__)
@@ -162,7 +162,7 @@ TEST(Plugins, OneCompiledForWiderVectorsIsRefused) {
   expect_refused("list --plugin " + plugin("vinerow_test_other_alignment"),
                  {"vinerow_test_other_alignment",
                   "was compiled with 32-byte alignment (-mavx or -march=native?), this vinerow uses "
-                  "16; build it again"});
+                  "16; rebuild it"});
 }
 #endif
 

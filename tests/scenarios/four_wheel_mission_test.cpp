@@ -165,9 +165,9 @@ TEST(FourWheelMission, RefusesWhatCannotBePlanned) {
   expect_refused(
       "rover.planner={type: rrt_quartile, alleys: [0, 1], steering: two_wheel, "
       "steering_angle_deg: 30}",
-      {"the turn from alley 0 to alley 1 needs 0.79 m more room", "turning radius of 2.60 m",
+      {"the turn from alley 0 to alley 1 needs 0.79 m more clearance", "turning radius of 2.60 m",
        "tree exhausted"});
-  expect_refused("rover.planner.margin_m=0.3", {"needs 0.2", "m more room", "1.77 m"});
+  expect_refused("rover.planner.margin_m=0.3", {"needs 0.2", "m more clearance", "1.77 m"});
   expect_refused("world.occupancy_cell_m=0", {"no occupancy grid", "occupancy_cell_m"});
 }
 

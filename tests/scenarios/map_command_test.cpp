@@ -268,7 +268,7 @@ TEST_F(MapCommand, RefusesInOneSentence) {
   expect_refused("map " + cloud_ + " --origin 91,8" + out, "--origin: 91,8 must be latitude");
   expect_refused("map " + cloud_ + " --origin 44" + out, "--origin: must be latitude,longitude");
   expect_refused("map " + cloud_ + " --origin 44,8 --scenario x.yaml" + out,
-                 "give --origin or --scenario, one of them");
+                 "give either --origin or --scenario, not both");
   expect_refused("map " + cloud_ + " --truth none.json" + out, "none.json");
   expect_refused("map " + cloud_ + " --boundary none.csv" + out,
                  "--boundary: 'none.csv' does not exist");

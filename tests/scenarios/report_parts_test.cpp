@@ -226,26 +226,34 @@ TEST(ReportNumbers, AreWrittenForPeople) {
 TEST(ReportMeanings, AreThereForEveryMetricOfTheProgram) {
   Registry registry;
   register_all(registry);
-  for (const std::string& metric : registry.names(PartKind::kMetric)) {
-    for (std::string name : registry.spec(PartKind::kMetric, metric).writes) {
-      const std::size_t comma = name.find(',');
-      if (comma != std::string::npos) continue;  // a sentence, below
-      name = name.substr(0, name.find(':'));     // without its values
-      for (const auto& [pattern, example] :
-           {std::pair<std::string, std::string>{"<wheel>", "fl"}, {"<source>", "range"}}) {
-        const std::size_t at = name.find(pattern);
-        if (at != std::string::npos) name.replace(at, pattern.size(), example);
+  for (const PartKind kind : {PartKind::kMetric, PartKind::kPayload, PartKind::kJob}) {
+    for (const std::string& part : registry.names(kind)) {
+      const std::vector<ResultSpec>& results = registry.spec(kind, part).results;
+      EXPECT_FALSE(results.empty()) << part;
+      for (const ResultSpec& result : results) {
+        std::string name = (kind == PartKind::kPayload ? "tank_" : "") + result.name;
+        for (const auto& [pattern, example] : {std::pair<std::string, std::string>{"<wheel>", "fl"},
+                                               {"<source>", "range"},
+                                               {"<observer>", "ekf"}}) {
+          const std::size_t at = name.find(pattern);
+          if (at != std::string::npos) name.replace(at, pattern.size(), example);
+        }
+        const MetricMeaning meaning = metric_meaning(name);
+        EXPECT_TRUE(meaning.known) << part << " gives " << name;
+        // Jobs may share a name: "points" of a cloud and of a plan.
+        if (kind != PartKind::kJob) {
+          EXPECT_EQ(meaning.definition, result.definition) << name;
+        }
+        EXPECT_NE(meaning.definition, "") << name;
+        EXPECT_NE(result.unit, "") << name;
       }
-      const MetricMeaning meaning = metric_meaning(name);
-      EXPECT_TRUE(meaning.known) << metric << " gives " << name;
-      EXPECT_NE(meaning.definition, "") << name;
     }
   }
   for (const char* name : {"ekf_lateral_rms_m", "paper_c_nees_mean", "ekf_nis_range_mean",
                            "no_map_consistent", "paper_c_ellipsoid_containment_share"}) {
     EXPECT_TRUE(metric_meaning(name).known) << name;
   }
-  EXPECT_THAT(metric_meaning("ekf_lateral_rms_m").title, HasSubstr("observer ekf"));
+  EXPECT_THAT(metric_meaning("ekf_lateral_rms_m").title, HasSubstr("(ekf)"));
   EXPECT_EQ(metric_meaning("relative_accuracy_per_m").source, "paper B, eq. 8");
   EXPECT_FALSE(metric_meaning("grapes_eaten").known);
   EXPECT_EQ(metric_meaning("grapes_eaten").title, "grapes eaten");
@@ -403,7 +411,7 @@ TEST(ReportFaces, TellWhichSidesOfRowsLieBesideNoAlley) {
   const auto faces = row_faces(run, driving({{-3, 1}, {23, 1}}));
   ASSERT_EQ(faces.size(), 4u);
   EXPECT_EQ(face_sentence(faces),
-            "No alley runs beside 2 of the 4 row sides: row 0 (right) and row 1 (left)");
+            "No alley runs along 2 of the 4 row sides: row 0 (right) and row 1 (left)");
   // Around the whole block: nothing to explain.
   const auto all =
       row_faces(run, driving({{-3, 1}, {23, 1}, {23, 3}, {-3, 3}, {-3, -1}, {23, -1}}));
@@ -558,7 +566,7 @@ TEST(ReportVerdict, SaysInASentenceWhatFailed) {
   EXPECT_EQ(failed.kind, Verdict::Kind::kFailed);
   EXPECT_EQ(failed.headline, "Failed: 4 of 5 requirements missed");
   EXPECT_EQ(failed.sentence,
-            "Rover: largest distance from the row's middle line is 0.13 m, at most 0.1 m is "
+            "Rover: max lateral error on legs is 0.13 m, at most 0.1 m is "
             "allowed; plane: parcel photographed is 93.4 %, at least 99 % is required; rover: "
             "mission completed: no; and 1 more below.");
 
@@ -588,7 +596,7 @@ TEST(ReportCanopy, WeighsPatchesByTheirArea) {
     read_canopy(broken);
     ADD_FAILURE() << "must be refused";
   } catch (const ConfigError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("b.json: is no canopy coverage: "));
+    EXPECT_THAT(error.what(), HasSubstr("b.json: is not a canopy coverage file: "));
     EXPECT_THAT(error.what(), HasSubstr("payload"));
   }
 }

@@ -41,10 +41,10 @@ TEST(ReportCommand, MakesOnePageOfARun) {
   EXPECT_THAT(made.output, HasSubstr("report.html"));
   check_page(run);
   const std::string page = read_text(run / "report.html");
-  for (const char* part : {"Orchard rover", "Paper B's orchard mission",
-                           "Failed: ", "Distance from the plan, sideways", "The first turn",
-                           "Control actions: wheel speeds", "Timings", "</a>, eq. 8",
-                           "S. Martelli, F. Mocera, A. Somà", "lookahead_m: 0.75"}) {
+  for (const char* part :
+       {"Orchard rover", "Paper B's orchard mission", "Failed: ", "Lateral distance from the plan",
+        "The first turn", "Control actions: wheel speeds", "Timings", "</a>, eq. 8",
+        "S. Martelli, F. Mocera, A. Somà", "lookahead_m: 0.75"}) {
     EXPECT_THAT(page, HasSubstr(part));
   }
 
@@ -65,8 +65,8 @@ TEST(ReportCommand, SaysThatARunWithoutLogHasNoPlots) {
   ASSERT_EQ(made.status, 0) << made.output;
   check_page(run);
   const std::string page = read_text(folder.path() / "run/report.html");
-  EXPECT_THAT(page, HasSubstr("The run wrote no log, so there are no plots of it"));
-  EXPECT_THAT(page, Not(HasSubstr("Distance from the plan, sideways")));
+  EXPECT_THAT(page, HasSubstr("The run wrote no log, so there are no plots."));
+  EXPECT_THAT(page, Not(HasSubstr("Lateral distance from the plan")));
 }
 
 TEST(ReportCommand, TellsThePhasesOfAMission) {
@@ -89,7 +89,7 @@ TEST(ReportCommand, TellsThePhasesOfAMission) {
   const std::string page = read_text(folder.path() / "report.html");
   EXPECT_THAT(page, HasSubstr("Failed in phase build_map"));
   EXPECT_THAT(page, HasSubstr("Phase build_map failed: found 3 rows &lt;of 4&gt;"));
-  EXPECT_THAT(page, HasSubstr("phase work could not begin: waits for build_map, which failed"));
+  EXPECT_THAT(page, HasSubstr("phase work could not start: waits for build_map, which failed"));
   EXPECT_THAT(page, HasSubstr("<strong>work</strong></td><td>rover, drone</td><td>build_map</td>"));
   EXPECT_THAT(page, HasSubstr("class=\"bar met\""));
   EXPECT_THAT(page, HasSubstr("class=\"bar failed\""));
@@ -105,8 +105,7 @@ TEST(ReportCommand, ShowsTheMapThatAJobMade) {
   for (const char* picture : {"top.png", "classes.png", "mesh.png", "grid.png"}) {
     EXPECT_GT(std::filesystem::file_size(run / "products/build_map" / picture), 10'000u) << picture;
   }
-  EXPECT_THAT(page,
-              HasSubstr("The point cloud, coloured by what its points belong to (build_map)"));
+  EXPECT_THAT(page, HasSubstr("The point cloud, coloured by class (build_map)"));
 }
 
 TEST(ReportCommand, RefusesInASentence) {
@@ -117,8 +116,9 @@ TEST(ReportCommand, RefusesInASentence) {
     return result.output;
   };
   const std::string here = folder.path().string();
-  EXPECT_THAT(refused(here + "/nowhere"), HasSubstr("nowhere: is no folder"));
-  EXPECT_THAT(refused(here), HasSubstr("holds no summary.json, so it is no folder of a run"));
+  EXPECT_THAT(refused(here + "/nowhere"), HasSubstr("nowhere: is not a folder"));
+  EXPECT_THAT(refused(here),
+              HasSubstr("contains no summary.json, so it is not the folder of a run"));
   folder.file("summary.json", "{\"scenario\": ");
   EXPECT_THAT(refused(here), HasSubstr("summary.json: is not JSON"));
   folder.file("summary.json", "{\"scenario\": 3}");
@@ -130,13 +130,13 @@ TEST(ReportCommand, RefusesInASentence) {
               R"({"scenario": "vineyard_rover", "status": "?", "digest": "0", "seed": 1})");
   EXPECT_THAT(
       refused(run.string()),
-      HasSubstr("log.mcap: is of scenario 'orchard_rover' (seed 1), summary.json beside it of "
-                "'vineyard_rover' (seed 1)"));
+      HasSubstr("log.mcap: belongs to scenario 'orchard_rover' (seed 1), but summary.json next to "
+                "it to 'vineyard_rover' (seed 1)"));
   std::filesystem::remove(run / "log.mcap");
   EXPECT_THAT(
       refused(run.string()),
-      HasSubstr("scenario.resolved.yaml: is scenario 'orchard_rover', summary.json beside it "
-                "is of 'vineyard_rover'"));
+      HasSubstr("scenario.resolved.yaml: is scenario 'orchard_rover', but summary.json next to it "
+                "belongs to 'vineyard_rover'"));
   folder.file("run/summary.json",
               R"({"scenario": "orchard_rover", "status": "?", "digest": "0", "seed": 1})");
   EXPECT_THAT(refused(run.string() + " --out " + here + "/no/where.html"),

@@ -58,8 +58,8 @@ TEST(FullDisk, InTheLogEndsTheRunAndKeepsTheVerdict) {
                       " --set stop_when_finished=false --set record.truth_rate_Hz=100",
                   "ulimit -f 800;");
   EXPECT_EQ(result.status, 3) << result.output;
-  EXPECT_THAT(result.output, HasSubstr("log.mcap: the log cannot be written: it would be larger "
-                                       "than files may be here (ulimit -f)"));
+  EXPECT_THAT(result.output, HasSubstr("log.mcap: the log cannot be written: the file would "
+                                       "exceed the size limit (ulimit -f)"));
   const nlohmann::json summary = summary_in(out);
   EXPECT_EQ(summary["status"], "broken off");
   EXPECT_THAT(summary["error"].get<std::string>(), HasSubstr("the log cannot be written"));
@@ -187,7 +187,7 @@ TEST(OneFolder, TakesNoSecondRun) {
   const CommandResult second = run_vinerow("run " + scenario + " --quiet --out " + out);
   EXPECT_EQ(second.status, 2);
   EXPECT_EQ(second.output, "vinerow: folder '" + out +
-                               "' is in use by another run: wait for its end, or give this one a "
+                               "' is in use by another run: wait until it ends, or give this one a "
                                "folder of its own (--out)\n");
   kill(child, SIGINT);
   int status = 0;
@@ -235,7 +235,7 @@ TEST(StarterScenario, GivesAPictureAndCanBeDrawnAgain) {
   EXPECT_TRUE(std::filesystem::exists(out + "/frames/chase_000001000.png"));
   const CommandResult late = run_vinerow("render " + out + "/log.mcap --time 99999");
   EXPECT_EQ(late.status, 2);
-  EXPECT_THAT(late.output, HasSubstr("there is no frame at 99999 s: the log holds 0 s to 2.3 s"));
+  EXPECT_THAT(late.output, HasSubstr("there is no frame at 99999 s: the log covers 0 s to 2.3 s"));
 }
 
 }  // namespace

@@ -33,12 +33,12 @@ TEST(SessionCommand, DrivesAVehicleWithoutAController) {
   Session session = open_free_rover();
   const auto truth = session.signal<Odometry>("rover/truth");
   session.advance_for(Duration{1'000'000'000});
-  const double begin_m = truth.value().X_WB.p.norm();
+  const double start_m = truth.value().X_WB.p.norm();
   EXPECT_LT(truth.value().v_WB_B.norm(), 0.01);
   session.command(kActuators, session.now(), wheels(4, 4));
   session.advance_for(Duration{2'000'000'000});
   EXPECT_GT(truth.value().v_WB_B.x(), 0.3);
-  EXPECT_GT(std::abs(truth.value().X_WB.p.norm() - begin_m), 0.3);
+  EXPECT_GT(std::abs(truth.value().X_WB.p.norm() - start_m), 0.3);
   EXPECT_FALSE(session.finished()) << "nobody can say so";
 }
 
@@ -154,7 +154,7 @@ TEST(SessionCommand, SaysWhatIsWrong) {
             "signal 'rover/truth' is written by rover, not from outside (taken over: "
             "rover/actuators)");
   EXPECT_THAT(refusal_of(wheels(std::numeric_limits<double>::quiet_NaN(), 0), kActuators, now),
-              HasSubstr("holds NaN"));
+              HasSubstr("contains NaN"));
   EXPECT_THAT(refusal_of(NamedValues{{"wheel_fl_speed_radp"}, {1.0}}, kActuators, now),
               HasSubstr("wheel_fl_speed_radps"));
   EXPECT_THAT(refusal_of(NamedValues{{"wheel_fl_speed_radps"}, {}}, kActuators, now),

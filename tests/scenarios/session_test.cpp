@@ -263,7 +263,7 @@ TEST(Session, SaysWhatIsWrong) {
   EXPECT_THAT(message_of([&] { session.any_signal("rover/gpss"); }), HasSubstr("rover/gps"));
   while (!session.over()) session.advance_for(Duration{1'000'000'000});
   EXPECT_EQ(message_of([&] { session.advance_for(Duration{1'000'000}); }),
-            "advance: session 'free_rover' is over at 3 s; reset() begins again");
+            "advance: session 'free_rover' is over at 3 s; call reset() to restart");
   EXPECT_THAT(message_of([] { open_session("no_such_file.yaml"); }), HasSubstr("no_such_file"));
 }
 

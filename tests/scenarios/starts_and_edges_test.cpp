@@ -84,8 +84,8 @@ TEST(MeshWorldRun, ARoverDrivesBelowZeroAndItsRunEndsWhereTheMeshEnds) {
       20.0);
   EXPECT_THAT(told, HasSubstr("rover (diff_drive_rover)"));
   EXPECT_THAT(told, HasSubstr("it left the terrain at x = 2"));
-  EXPECT_THAT(told, HasSubstr("the ground of world 'mesh' lies between x = -20.0 and 20.0 m, "
-                              "y = -20.0 and 20.0 m"));
+  EXPECT_THAT(told, HasSubstr("the ground of world 'mesh' extends from x = -20.0 to 20.0 m, "
+                              "y = -20.0 to 20.0 m"));
 }
 
 TEST(MeshWorldRun, AWallThatIsPartOfTheTerrainIsTouchedAndHoldsWhoGoesOn) {
@@ -139,7 +139,7 @@ TEST(Edges, LeavingAParcelNamesTheKeyThatMakesItLarger) {
   text.replace(text.find("duration_s: 3"), 13, "duration_s: 60");
   const std::string told = drive_off(open_session_text(text, ".", {}, driven()), -20.0);
   EXPECT_THAT(told, HasSubstr("it left the terrain at"));
-  EXPECT_THAT(told, HasSubstr("; a larger world.surroundings_m (6 m now) makes more of it"));
+  EXPECT_THAT(told, HasSubstr("; increase world.surroundings_m (6 m now) to extend it"));
 }
 
 TEST(Starts, BesideTheGroundNamesTheKeyThatMakesItLarger) {
@@ -150,8 +150,8 @@ TEST(Starts, BesideTheGroundNamesTheKeyThatMakesItLarger) {
   EXPECT_EQ(result.status, 2) << result.output;
   EXPECT_THAT(result.output,
               HasSubstr("s.yaml:8: vehicles.rover.spawn is at x = 4000.000 m, y = 0.000 m, where "
-                        "world 'vineyard' has no ground; a larger world.surroundings_m ("));
-  EXPECT_THAT(result.output, HasSubstr(" m now) makes more of it"));
+                        "world 'vineyard' has no ground; increase world.surroundings_m ("));
+  EXPECT_THAT(result.output, HasSubstr(" m now) to extend it"));
 }
 
 TEST(Worlds, AFaultThatIsFoundWhileBuildingHasItsPlaceToo) {
@@ -243,7 +243,7 @@ TEST(Density, OfAnotherHeightThanTheGroundsIsTold) {
   std::string dem = "ncols 60\nnrows 60\nxllcorner 499700\nyllcorner 4982650\ncellsize 10\n";
   for (int i = 0; i < 60 * 60; ++i) dem += i % 60 == 59 ? "1620\n" : "1620 ";
   const std::string file = folder.file("high.asc", dem);
-  const std::string warning = "the air has the density of the origin's altitude";
+  const std::string warning = "the air has the density at the origin's altitude";
   const auto told = [&](const std::string& more) {
     run(folder, scenario("{type: vineyard, row_count: 2, row_length_m: 10, surroundings_m: 90, "
                          "crs: EPSG:32632, origin_latitude_deg: 45, origin_longitude_deg: 9, "
@@ -253,7 +253,7 @@ TEST(Density, OfAnotherHeightThanTheGroundsIsTold) {
     return events(folder);
   };
   EXPECT_THAT(told(", origin_altitude_m: 0"),
-              HasSubstr(warning + ", 0 m, but the ground lies at z = 1620 m: set wind.atmosphere "
+              HasSubstr(warning + ", 0 m, but the ground is at z = 1620 m: set wind.atmosphere "
                                   "to us76, or air_density_kgm3, or origin_altitude_m"));
   EXPECT_THAT(told(", origin_altitude_m: 1500"), Not(HasSubstr(warning)));
   EXPECT_THAT(told(", origin_altitude_m: 0, wind: {atmosphere: us76}"), Not(HasSubstr(warning)));

@@ -39,7 +39,7 @@ TEST(SurveyCommand, PlansAPolygonAndWritesMissionsWaypointsAndAPicture) {
   ASSERT_EQ(result.status, 0) << result.output;
   EXPECT_EQ(value_in(result.output, "lanes"), "10, 45.0 m apart, bearing 90.0 deg");
   EXPECT_EQ(value_in(result.output, "GSD"),
-            "104.2 mm at 150.0 m; 104.2 to 104.2 mm at the lanes' lowest and highest");
+            "104.2 mm at 150.0 m; 104.2 to 104.2 mm at the lowest and highest points of the lanes");
   EXPECT_EQ(value_in(result.output, "order"),
             "lanes 9, 8, 7, 6, 5, 4, 3, 2, 1, 0 (numbers as in waypoints.csv)");
 
@@ -108,7 +108,7 @@ TEST(SurveyCommand, PlansTheSurveyOfAScenarioAsARunDoes) {
   // The vehicle tells its stall speed.
   expect_refused("survey " + scenario + " --set plane.planner.height_m=59",
                  "at most 5.9 m/s at 59 m (below the stall speed of 8.");
-  expect_refused("survey " + scenario + " --polygon x.csv", "give a scenario or --polygon");
+  expect_refused("survey " + scenario + " --polygon x.csv", "give either a scenario or --polygon");
 }
 
 TEST(SurveyCommand, RefusesInOneSentence) {
@@ -122,9 +122,9 @@ TEST(SurveyCommand, RefusesInOneSentence) {
   expect_refused(start + "--side_overlap 1.2", "side_overlap = 1.2, must be");
   expect_refused(start + "--camera leica", "camera = 'leica'");
   expect_refused(start + "--out /proc/none/out", "folder '/proc/none/out' cannot be made");
-  expect_refused("survey --polygon " + field, "--origin latitude,longitude must say where");
+  expect_refused("survey --polygon " + field, "give the position of its (0, 0) with --origin");
   expect_refused("survey --polygon none.csv --origin 44,8", "'none.csv' does not exist");
-  expect_refused("survey", "give a scenario or --polygon, one of them");
+  expect_refused("survey", "give either a scenario or --polygon");
   expect_refused(
       "survey --origin 44,8 --polygon " + folder.file("bow.csv", "0,0\n100,100\n100,0\n0,100\n"),
       "its edge from point 1 (0.0, 0.0) to point 2 (100.0, 100.0) crosses its edge from "
@@ -156,7 +156,7 @@ TEST(SurveyCommand, SaysWhereLatitudeAndLongitudeAreSwapped) {
   expect_refused(
       start + field_of("swapped.geojson",
                        "[44.7,8.03],[44.7,8.033],[44.702,8.033],[44.702,8.03],[44.7,8.03]"),
-      "at latitude 8.030000 deg, longitude 44.700000 deg lies outside the terrain of '" +
+      "at latitude 8.030000 deg, longitude 44.700000 deg is outside the terrain of '" +
           dem.string() + "'; are latitude and longitude swapped?");
 }
 
@@ -177,7 +177,7 @@ TEST(SurveyCommand, SurveysMountainsAndRefusesWhatTheirModelDoesNotHold) {
   EXPECT_NE(result.output.find("100.00 % covered"), std::string::npos) << result.output;
   expect_refused(start + "--height_m 200 --polygon " +
                      folder.file("far.csv", "0,0\n40000,0\n40000,500\n0,500\n") + out,
-                 "point 2 of the polygon at (40000.0, 0.0) lies outside the terrain");
+                 "point 2 of the polygon at (40000.0, 0.0) is outside the terrain");
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ ALLOWED = {
     "controllers/estimation/row_localisation": BASE + [ESTIMATION_PARTS],
     SEARCH: BASE + [PATHS],
     SURVEY: BASE + [PATHS, GEO, "engine/io/missions"],  # parcels and missions of ground stations
-    ROUTES: BASE + [PATHS, SEARCH, SURVEY, "engine/io/missions"],
+    ROUTES: BASE + [PATHS, SEARCH, "engine/io/missions"],
     "controllers/planning/flight": BASE + [PATHS, SEARCH, ROUTES, SURVEY],
     # Tools: rooms may know whatever lies below them, in this order.
     "tools": ["engine", "vehicles", "worlds", "controllers", "tools", "vinerow"],
@@ -84,7 +84,7 @@ ALLOWED = {
     "tools/compare": BASE + ["tools/terminal"],
     "tools/pictures": ["engine", "worlds", "controllers"],
     "tools/replay": ["engine"],
-    "tools/report": ["engine", MODEL, "tools/export", "tools/pictures", "tools/replay"],
+    "tools/report": ["engine", MODEL, "tools/parts", "tools/export", "tools/pictures", "tools/replay"],
     "tools/study/plots": ["tools/export", "tools/pictures", "tools/report"],
     "tools/study": ["engine", "tools/parts", "tools/report", "tools/study/plots"],
     "tests": ["engine", "vehicles", "worlds", "controllers", "tools", "tests", "vinerow"],
@@ -144,18 +144,18 @@ def holds(room: str, path: str) -> bool:
     return path == room or path.startswith(room + "/")
 
 
-def room_of(path: str) -> str:
+def free_space_of(path: str) -> str:
     """The entry of ALLOWED that counts for a file."""
     rooms = [room for room in ALLOWED if holds(room, path)]
     return max(rooms, key=len) if rooms else ""
 
 
 def may_include(name: str, ours: str) -> bool:
-    room = room_of(name)
+    room = free_space_of(name)
     if REGISTERS.fullmatch(name) or any(holds(other, ours) for other in ALLOWED.get(room, [])):
         return True
     # A room that is one folder for each thing: each may include its own.
-    return room == room_of(ours) and (room != name.split("/")[0] or folder_of(name) == folder_of(ours))
+    return room == free_space_of(ours) and (room != name.split("/")[0] or folder_of(name) == folder_of(ours))
 
 
 def faults_of(file: pathlib.Path) -> list[str]:
@@ -166,8 +166,8 @@ def faults_of(file: pathlib.Path) -> list[str]:
         if ours:
             if not may_include(name, ours):
                 faults.append(f"{name} includes {ours}: {here} must not know {folder_of(ours)}")
-            if ours in WORLD_HEADERS and room_of(name) in WITHOUT_WORLD:
-                faults.append(f"{name} includes {ours}: {room_of(name)} works without a world")
+            if ours in WORLD_HEADERS and free_space_of(name) in WITHOUT_WORLD:
+                faults.append(f"{name} includes {ours}: {free_space_of(name)} works without a world")
         else:
             for pattern, folders in OUTSIDE.items():
                 if re.match(pattern, outside) and not any(holds(f, name) for f in folders):

@@ -33,7 +33,7 @@ def vinerow(*arguments, status=0, **environment):
 def commands() -> list[str]:
     """Of the help: indented names under headings that are no options."""
     listed = vinerow("--help").split("\n\n")
-    blocks = [b for b in listed if not b.startswith(("Vinerow", "Options", "Begin", "Exit"))]
+    blocks = [b for b in listed if not b.startswith(("Vinerow", "Options", "Start", "Exit"))]
     return [line.split()[0] for block in blocks for line in block.splitlines()[1:] if re.match(r"  \w", line)]
 
 

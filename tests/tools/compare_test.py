@@ -102,12 +102,12 @@ class Compare(unittest.TestCase):
         broken = self.run_folder("broken", SUMMARY)
         (self.folder / "broken" / "summary.json").write_text("{")
         cases = {
-            (a, m): "a is the folder of a run, m that of a map",
-            (a, "empty"): "empty: holds neither summary.json nor map.json",
+            (a, m): "a is the folder of a run, but m is the folder of a map",
+            (a, "empty"): "empty: contains neither summary.json nor map.json",
             (a, broken): "broken/summary.json: is not JSON",
-            (a, a, "--geojson", "x.geojson"): "for maps",
-            (m, m, m): "3 maps are given, must be two",
-            (m, m, "--fail-on", "regression"): "for runs",
+            (a, a, "--geojson", "x.geojson"): "need two maps",
+            (m, m, m): "3 maps given, must be 2",
+            (m, m, "--fail-on", "regression"): "need runs",
         }
         for arguments, words in cases.items():
             run = self.compare(*arguments, status=2)
@@ -124,7 +124,7 @@ class Compare(unittest.TestCase):
         self.assertAlmostEqual(told["rows"][2]["volume_change_share"], 0.25)
         self.assertAlmostEqual(told["rows"][1]["offset_m"], 0.1)
         self.assertEqual((told["volume_of_rows_in_both_a_m3"], told["volume_of_rows_in_both_b_m3"]), (23.0, 20.5))
-        self.assertIn("2 rows in both: 23.0 m3, then 20.5 m3 (-2.5 m3, -10.9 %); 2 in one alone", self.compare(a, b).stdout)
+        self.assertIn("2 rows in both: A 23.0 m3, B 20.5 m3 (-2.5 m3, -10.9 %); 2 in only one map", self.compare(a, b).stdout)
 
     def test_maps_of_other_origins_are_brought_together(self):
         # The second origin lies 10 m further north: meridian radius of curvature, WGS84.
@@ -147,9 +147,9 @@ class Compare(unittest.TestCase):
     def test_maps_without_an_origin_are_compared_in_their_own_metres(self):
         a, b = (self.map_folder(n, [row(0, 0, 0, 40, 0, 10.0)], None) for n in "ab")
         self.assertEqual(json.loads(self.compare(a, b, "--json").stdout)["rows"][0]["row_b"], 0)
-        self.assertIn("has no origin on the globe", self.compare(a, b, "--geojson", "x.geojson", status=2).stderr)
+        self.assertIn("has no geographic origin", self.compare(a, b, "--geojson", "x.geojson", status=2).stderr)
         c = self.map_folder("c", [])
-        self.assertIn("has none", self.compare(a, c, status=2).stderr)
+        self.assertIn("does not, so the relative position", self.compare(a, c, status=2).stderr)
 
     def test_reach_says_how_far_apart_one_row_may_lie(self):
         a = self.map_folder("a", [row(0, 0, 0, 40, 0, 10.0)])

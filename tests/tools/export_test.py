@@ -280,7 +280,7 @@ class Export(unittest.TestCase):
         log.message(named, 0, named_message(0, [("a", 1.0)]))
         log.write(self.log)
         run = self.run_export("--topic", "/x", "-o", "-")
-        self.assertIn(f"{len(range(0, len(whole), 7))} messages of topic '/x' do not hold", run.stderr)
+        self.assertIn(f"{len(range(0, len(whole), 7))} messages of topic '/x' are not of type", run.stderr)
         self.assertEqual(len(self.table("/y")), 1)
 
     def test_text_that_is_no_utf8_is_replaced(self):

@@ -176,7 +176,7 @@ TEST_F(ReplayBrowser, SaysSoWhereNothingCanBeDrawn) {
   const std::string dom = output_of(
       browser_call(browser_, folder_, "--disable-3d-apis --dump-dom 'file://" + page + "'"));
   EXPECT_NE(dom.find("data-state=\"failed\""), std::string::npos);
-  EXPECT_NE(dom.find("draws no 3D graphics"), std::string::npos);
+  EXPECT_NE(dom.find("cannot draw 3D graphics"), std::string::npos);
 }
 
 }  // namespace

@@ -82,14 +82,14 @@ TEST_F(ReplayRunPage, HoldsThePosesOfTheLog) {
   const auto rotations = page.numbers<std::int16_t>(vehicle["rotations"], 4 * n);
   // Half a millimetre in each of three axes; half a step of 1/32767 in each of four components
   // turns by at most twice their norm.
-  const double most_m = 0.5e-3 * std::sqrt(3.0) + 1e-9, most_rad = 2.0 * 2.0 * 0.5 / 32767.0;
+  const double max_m = 0.5e-3 * std::sqrt(3.0) + 1e-9, max_rad = 2.0 * 2.0 * 0.5 / 32767.0;
   std::set<std::uint32_t> known;
   for (std::size_t i = 0; i < n; ++i) {
     EXPECT_TRUE(known.insert(times[i]).second);
     const Odometry truth = trace.truth_at(run.trace.first + duration_from_s(1e-3 * times[i]));
     const Eigen::Vector3d p(positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]);
-    EXPECT_LE((1e-3 * p - truth.X_WB.p).norm(), most_m);
-    EXPECT_LE(rotation_at(rotations, i).angularDistance(truth.X_WB.q), most_rad);
+    EXPECT_LE((1e-3 * p - truth.X_WB.p).norm(), max_m);
+    EXPECT_LE(rotation_at(rotations, i).angularDistance(truth.X_WB.q), max_rad);
   }
   EXPECT_EQ(*known.begin(), 0u);
   EXPECT_NEAR(1e-3 * *known.rbegin(), page.index["duration_s"].get<double>(), 1e-3);
@@ -230,12 +230,12 @@ TEST_F(ReplaySection, TellsWhatItLeavesOut) {
     }
     return false;
   };
-  EXPECT_TRUE(tells("the ground is drawn with a point every")) << notes;
-  EXPECT_TRUE(tells("leaves near the eye are drawn fewer")) << notes;
-  EXPECT_TRUE(tells("meshes are simplified: what is smaller than")) << notes;
-  EXPECT_TRUE(tells("times a second and straight between")) << notes;
+  EXPECT_TRUE(tells("the ground has a point every")) << notes;
+  EXPECT_TRUE(tells("leaves near the camera are fewer")) << notes;
+  EXPECT_TRUE(tells("meshes are simplified: details smaller than")) << notes;
+  EXPECT_TRUE(tells("times a second, with straight motion between")) << notes;
   EXPECT_TRUE(tells("plans are not shown")) << notes;
-  EXPECT_TRUE(tells("around the parcel are in the pictures only")) << notes;
+  EXPECT_TRUE(tells("around the parcel are shown in the pictures only")) << notes;
   const std::size_t small_scene = ReplayPage(small).scene.size(),
                     whole_scene = ReplayPage(whole).scene.size();
   EXPECT_LT(2 * small_scene, whole_scene);
@@ -244,7 +244,7 @@ TEST_F(ReplaySection, TellsWhatItLeavesOut) {
   const ReplayPage without_truth(replay_section(run.input()));
   EXPECT_TRUE(without_truth.index["vehicles"].empty());
   EXPECT_EQ(without_truth.index["notes"].back(),
-            "'drone' is not shown: the log holds no true poses of it");
+            "'drone' is not shown: the log has no true poses of it");
 
   run.vehicles.clear();
   run.scenario.vehicles.clear();
@@ -299,7 +299,7 @@ TEST_F(ReplayCommand, RefusesWhatIsNoRun) {
     EXPECT_EQ(result.status, 2) << result.output;
     EXPECT_NE(result.output.find(sentence), std::string::npos) << result.output;
   };
-  refused(folder.path().string(), "holds no log.mcap, so there is nothing to replay");
+  refused(folder.path().string(), "contains no log.mcap, so there is nothing to replay");
   refused(folder.file("log.mcap", "no log"), "log.mcap: not an MCAP file");
   refused((folder.path() / "nowhere").string(), "nowhere");
 }

@@ -88,8 +88,8 @@ class Names(unittest.TestCase):
         schema = json.loads(call(VINEROW, "schema", "report.json"))
         errors = comparison_numbers(
             "against the truth\n  rows found     3 of 4\n  direction      +0.1 deg of 2 deg\n"
-            "  spacing        -0.2 m of 2.5 m\n  row ends       0.1 m off in the mean, 0.3 m at worst\n"
-            "  volume         -2.5 % of 9 m3; of the canopy seen -9.5 %\n")
+            "  spacing        -0.2 m of 2.5 m\n  row ends       0.1 m mean error, 0.3 m maximum\n"
+            "  volume         -2.5 % of 9 m3; canopy seen -9.5 %\n")
         self.assertEqual((errors["rows_found"], errors["rows"], errors["seen_volume_percent"]), (3.0, 4.0, -9.5))
         for name, paths in TABLE.asked().items():
             if TABLE.runs[name].kind != "map":

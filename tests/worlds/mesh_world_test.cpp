@@ -101,7 +101,7 @@ TEST(MeshWorld, SdfRowsStandWhereTheFileSays) {
   for (const std::string& note : world->notes) notes += note + "\n";
   EXPECT_NE(
       notes.find(
-          "model 'vine_t1' (included 18 times) is missing; a trellis row of our own stands in"),
+          "model 'vine_t1' (included 18 times) is missing; a generated trellis row replaces it"),
       std::string::npos)
       << notes;
   EXPECT_EQ(notes.find("sun"), std::string::npos) << "lights are no models to miss";
@@ -160,8 +160,7 @@ TEST(MeshWorld, AHillsideIsTheGroundWithoutAWordAndNoPlaneCutsIt) {
   EXPECT_EQ(world->meshes[1].surface, SurfaceClass::kTerrain);
   ASSERT_EQ(world->notes.size(), 1u);
   EXPECT_EQ(world->notes[0],
-            "mesh 'hillside' lies under the whole world and is taken for its ground; no plane is "
-            "laid");
+            "mesh 'hillside' is under the whole world and is used as its ground, without a plane");
   // Said to be an obstacle it is one, and a plane lies under it.
   const auto said = test::make_world(
       "mesh", with_items({{{"file", hill}, {"surface", std::string("obstacle")}}}));

@@ -71,7 +71,7 @@ TEST(Orchard, RefusesRowsThatDoNotFit) {
             "row_start_y_m + row_length_m = 105 m, must be <= field_length_m = 100 m");
   EXPECT_EQ(
       error("row_width_m", 12.0),
-      "row_width_m = 12 m, must be < field_width_m / (plant_rows + 1) = 10 m, or no way is free");
+      "row_width_m = 12 m, must be < field_width_m / (plant_rows + 1) = 10 m, or no alley is free");
   EXPECT_EQ(error("tree_spacing_m", 1e-6),
             "tree_spacing_m = 1e-06 m, must be >= 0.1 m and <= 100 m");
   EXPECT_EQ(error("plant_rows", -3.0), "plant_rows = -3, must be >= 1 and <= 1000");

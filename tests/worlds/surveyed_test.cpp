@@ -143,7 +143,7 @@ TEST(Surveyed, PointsFarFromEveryRowAreNoted) {
   parameters.set("survey_file", file);
   const auto world = test::make_world("surveyed", parameters);
   ASSERT_EQ(world->notes.size(), 1u);
-  EXPECT_NE(world->notes[0].find("1 vines stand farther than 1.00 m from every row"),
+  EXPECT_NE(world->notes[0].find("1 vines are farther than 1.00 m from every row"),
             std::string::npos)
       << world->notes[0];
 }

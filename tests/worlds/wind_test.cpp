@@ -115,8 +115,8 @@ TEST_P(WorldWind, RefusesValuesThatDoNotFitTogether) {
   wind_.set("random_gusts", Groups{random});
   EXPECT_EQ(
       error(),
-      "wind: random_gusts: interval_s = 2 s, must be > duration_s = 3 s, for random gusts do not "
-      "overlap");
+      "wind: random_gusts: interval_s = 2 s, must be > duration_s = 3 s, because random gusts do "
+      "not overlap");
 }
 
 TEST_P(WorldWind, RefusesValuesOutOfRange) {

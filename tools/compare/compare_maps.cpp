@@ -47,7 +47,7 @@ MapRows read_map_rows(const std::filesystem::path& folder) {
   const Json report = read_json_file(file);
   if (!report.contains("rows") || !report["rows"].is_array()) {
     throw ConfigError(
-        fmt::format("{}: has no list 'rows', so it is no report of a map", file.string()));
+        fmt::format("{}: has no list 'rows', so it is not the report of a map", file.string()));
   }
   MapRows map;
   for (const Json& json : report["rows"]) {
@@ -73,26 +73,26 @@ MapRows read_map_rows(const std::filesystem::path& folder) {
   return map;
 }
 
-/// Half the least distance between neighbours of a map; 1 m of a single row.
+/// Half the smallest distance between neighbouring rows of a map; 1 m if it has a single row.
 double half_spacing_m(const std::vector<MapRow>& rows) {
-  double least_m = 2.0;
+  double min_m = 2.0;
   bool any = false;
   for (const MapRow& a : rows) {
     const Eigen::Vector2d along = (a.last_W - a.first_W).head<2>().normalized();
     for (const MapRow& b : rows) {
       const Eigen::Vector2d apart = (0.5 * (b.first_W + b.last_W) - a.first_W).head<2>();
       const double distance_m = std::abs(along.x() * apart.y() - along.y() * apart.x());
-      // Pieces of one row are no neighbours.
+      // Closer rows are pieces of one row, not neighbours. Chosen.
       constexpr double kOneRow_m = 0.5;
-      if (distance_m < kOneRow_m || (any && distance_m >= least_m)) continue;
-      least_m = distance_m;
+      if (distance_m < kOneRow_m || (any && distance_m >= min_m)) continue;
+      min_m = distance_m;
       any = true;
     }
   }
-  return 0.5 * least_m;
+  return 0.5 * min_m;
 }
 
-/// How far b's middle lies from a's line; nullopt where they are not along each other.
+/// Distance of b's middle from a's line; nullopt if the rows do not run along each other.
 std::optional<double> offset_between(const MapRow& a, const MapRow& b) {
   const Eigen::Vector2d from = a.first_W.head<2>(), to = a.last_W.head<2>();
   const double length_m = (to - from).norm();
@@ -100,13 +100,13 @@ std::optional<double> offset_between(const MapRow& a, const MapRow& b) {
   const double length_b_m = course_b.norm();
   if (length_m <= 0.0 || length_b_m <= 0.0) return std::nullopt;
   const Eigen::Vector2d along = (to - from) / length_m;
-  const double kLeastCosine = std::cos(rad_from_deg(15.0));
-  if (std::abs(along.dot(course_b)) < kLeastCosine * length_b_m) return std::nullopt;
+  const double kMinCosine = std::cos(rad_from_deg(15.0));
+  if (std::abs(along.dot(course_b)) < kMinCosine * length_b_m) return std::nullopt;
   const double s0 = along.dot(b.first_W.head<2>() - from);
   const double s1 = along.dot(b.last_W.head<2>() - from);
   const double shared_m = std::min(length_m, std::max(s0, s1)) - std::max(0.0, std::min(s0, s1));
-  constexpr double kLeastShared = 0.5;
-  if (shared_m < kLeastShared * std::min(length_m, length_b_m)) return std::nullopt;
+  constexpr double kMinShared = 0.5;
+  if (shared_m < kMinShared * std::min(length_m, length_b_m)) return std::nullopt;
   const Eigen::Vector2d apart = 0.5 * (b.first_W + b.last_W).head<2>() - from;
   return std::abs(along.x() * apart.y() - along.y() * apart.x());
 }
@@ -149,7 +149,7 @@ std::string volume_change(double from_m3, double to_m3) {
 double total_m3(const MapComparison& comparison, bool of_a) {
   double sum_m3 = 0.0;
   for (const ComparedMapRow& row : comparison.rows) {
-    // Of rows that both maps have: what only one saw is no change of the canopy.
+    // Only rows that both maps have: a row in one map alone is not a change of the canopy.
     if (row.a && row.b) sum_m3 += of_a ? row.a->volume_m3 : row.b->volume_m3;
   }
   return sum_m3;
@@ -189,8 +189,8 @@ MapComparison compare_maps(const std::filesystem::path& a, const std::filesystem
     const auto& with = first.origin ? a : b;
     const auto& without = first.origin ? b : a;
     throw ConfigError(
-        fmt::format("{} has an origin on the globe and {} has none, so where their "
-                    "rows lie to each other is not known",
+        fmt::format("{} has a geographic origin and {} does not, so the relative position of their "
+                    "rows is unknown",
                     with.string(), without.string()));
   }
   if (first.origin) {
@@ -227,13 +227,13 @@ std::string comparison_text(const MapComparison& comparison) {
   }
   const double a_m3 = total_m3(comparison, true), b_m3 = total_m3(comparison, false);
   return fmt::format(
-             "A  {}\nB  {}\n\n{}\n{} rows in both: {:.1f} m3, then {:.1f} m3 ({:+.1f} m3, {})",
+             "A  {}\nB  {}\n\n{}\n{} rows in both: A {:.1f} m3, B {:.1f} m3 ({:+.1f} m3, {})",
              printable(comparison.folder_a), printable(comparison.folder_b), text_table(table),
              matched, a_m3, b_m3, b_m3 - a_m3,
              a_m3 > 0.0 ? volume_change(a_m3, b_m3) : "no volume") +
          (matched == comparison.rows.size()
               ? "\n"
-              : fmt::format("; {} in one alone\n", comparison.rows.size() - matched));
+              : fmt::format("; {} in only one map\n", comparison.rows.size() - matched));
 }
 
 nlohmann::ordered_json comparison_json(const MapComparison& comparison) {
@@ -248,14 +248,14 @@ nlohmann::ordered_json comparison_json(const MapComparison& comparison) {
 std::string comparison_geojson(const MapComparison& comparison) {
   if (!comparison.origin) {
     throw ConfigError(
-        fmt::format("{} has no origin on the globe, so its rows have no place in "
-                    "GeoJSON; --json gives the numbers",
+        fmt::format("{} has no geographic origin, so its rows cannot be written as "
+                    "GeoJSON; --json prints the numbers",
                     comparison.folder_a));
   }
   const LocalFrame frame(*comparison.origin);
   const auto position = [&](const Eigen::Vector3d& p_W) {
     const Geodetic place = frame.to_geodetic(p_W);
-    // 1e-9 deg is 0.1 mm. Divided by whole numbers: the double nearest to the decimal.
+    // 1e-9 deg is 0.1 mm. Division by a whole number gives the double nearest to the decimal.
     const auto rounded = [](double value, double parts) {
       return std::round(value * parts) / parts;
     };

@@ -1,5 +1,5 @@
 #pragma once
-/// Two maps of one vineyard side by side, row by row: what grew between two dates.
+/// Comparison of two maps of one vineyard, row by row, such as growth between two dates.
 
 #include <Eigen/Core>
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace vinerow::tools {
 
-/// A row as report.json of a map has it.
+/// Row of a map, from its report.json.
 struct MapRow {
   int row = 0;
   Eigen::Vector3d first_W = {0, 0, 0}, last_W = {0, 0, 0};  ///< in the first map's frame
@@ -20,8 +20,8 @@ struct MapRow {
 };
 
 struct ComparedMapRow {
-  std::optional<MapRow> a, b;  ///< one is absent where only one map has the row
-  double offset_m = 0.0;       ///< of the middle of b from the line of a
+  std::optional<MapRow> a, b;  ///< one is absent if only the other map has the row
+  double offset_m = 0.0;       ///< distance of the middle of b from the line of a
 };
 
 struct MapComparison {
@@ -30,17 +30,17 @@ struct MapComparison {
   std::vector<ComparedMapRow> rows;  ///< in the order of the first map
 };
 
-/// Rows are the same where they lie along each other: the middle of one within `reach_m` of the
-/// other's line, courses within 15 deg, half of the shorter beside the longer. The nearest first.
-/// @param reach_m  0: half the distance between the first map's rows
-/// @throws ConfigError "maps/x: holds no report.json, ..." | where one map has an origin and the
-/// other has none
+/// Compares two maps. Rows are the same if they run along each other: the middle of one is within
+/// `reach_m` of the other's line, the directions differ by at most 15 deg, and at least half of the
+/// shorter is alongside the longer. The nearest pairs are matched first.
+/// @param reach_m  0: half the row spacing of the first map
+/// @throws ConfigError if a report.json is missing or invalid, or only one map has an origin
 MapComparison compare_maps(const std::filesystem::path& a, const std::filesystem::path& b,
                            double reach_m);
 
 std::string comparison_text(const MapComparison& comparison);
 nlohmann::ordered_json comparison_json(const MapComparison& comparison);
-/// Lines of the rows in WGS84 with what changed. @throws ConfigError where the maps have no origin
+/// Lines of the rows in WGS84 with their changes. @throws ConfigError if the maps have no origin
 std::string comparison_geojson(const MapComparison& comparison);
 
 }  // namespace vinerow::tools

@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
-/// What one summary says, under names that are the same in every run.
+/// Numbers and criteria of a summary, under names that are the same in every run.
 struct SummaryNumbers {
   ComparedRun run;
   std::vector<std::pair<std::string, double>> metrics;
@@ -59,8 +59,8 @@ SummaryNumbers read_numbers(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "summary.json";
   const Json json = read_json_file(file);
   if (!json.contains("metrics") || !json["metrics"].is_object()) {
-    throw ConfigError(
-        fmt::format("{}: has no object 'metrics', so it is no summary of a run", file.string()));
+    throw ConfigError(fmt::format("{}: has no object 'metrics', so it is not the summary of a run",
+                                  file.string()));
   }
   SummaryNumbers summary;
   summary.run.folder = folder.string();
@@ -88,7 +88,8 @@ SummaryNumbers read_numbers(const std::filesystem::path& folder) {
   return summary;
 }
 
-/// Values of all runs under the names of the first, then those that later ones add.
+/// Values of all runs: first under the names of the first run, then under names that later runs
+/// add.
 template <class T>
 std::vector<std::pair<std::string, std::vector<T>>> side_by_side(
     const std::vector<std::vector<std::pair<std::string, T>>>& runs, T absent) {
@@ -106,7 +107,7 @@ std::vector<std::pair<std::string, std::vector<T>>> side_by_side(
 
 bool differ(double a, double b, double tolerance) {
   if (std::isnan(a) || std::isnan(b)) return std::isnan(a) != std::isnan(b);
-  if (a == b) return false;  // infinite ones too
+  if (a == b) return false;  // also if both are infinite
   return !(std::abs(a - b) <= tolerance * std::max(std::abs(a), std::abs(b)));
 }
 
@@ -124,7 +125,7 @@ std::string share_text(double from, double to) {
   return fmt::format("{:+.1f} %", 100.0 * (to - from) / std::abs(from));
 }
 
-/// "A", "B", ...: headings that are short and cannot be taken for each other.
+/// Short heading of a run: "A", "B", ...
 std::string letter_of(std::size_t run) {
   return run < 26 ? std::string(1, static_cast<char>('A' + run)) : fmt::format("run {}", run + 1);
 }
@@ -201,7 +202,7 @@ std::string comparison_text(const RunComparison& comparison, bool all) {
     const bool same_bits = r > 0 && run.digest == comparison.runs.front().digest;
     text +=
         printable(fmt::format("{}  {}: {}, seed {}, {}{}", letter_of(r), run.folder, run.scenario,
-                              run.seed, run.status, same_bits ? ", the same bits as A" : "")) +
+                              run.seed, run.status, same_bits ? ", bit-identical to A" : "")) +
         "\n";
   }
   std::vector<std::vector<std::string>> table = {{"metric"}};

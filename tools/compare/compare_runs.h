@@ -1,5 +1,5 @@
 #pragma once
-/// Runs side by side, by their summary.json.
+/// Comparison of runs by their summary.json.
 
 #include <cmath>
 #include <filesystem>
@@ -9,11 +9,11 @@
 
 namespace vinerow::tools {
 
-/// One number of every run; NaN where a run did not measure it.
+/// A metric in every run; NaN if a run did not measure it.
 struct ComparedMetric {
   std::string name;  ///< "rover.cross_track_rms_m"
   std::vector<double> values;
-  bool differs = false;  ///< by more than the tolerance, or measured in one run only
+  bool differs = false;  ///< differs by more than the tolerance, or is missing in a run
 };
 
 enum class CriterionState { kAbsent, kMet, kFailed };
@@ -29,19 +29,18 @@ struct ComparedRun {
   int exit_status = 0;
 };
 
-/// The first run is what the others are held against.
+/// Result of a comparison. The first run is the reference.
 struct RunComparison {
   std::vector<ComparedRun> runs;
   std::vector<ComparedMetric> metrics;
   std::vector<ComparedCriterion> criteria;
-  /// Sentences: a criterion or phase that the first run met and a later one did not, a run that
-  /// broke off.
+  /// Sentences on criteria and phases that the first run met and a later one did not, and on runs
+  /// that broke off.
   std::vector<std::string> regressions;
   std::size_t differences = 0;  ///< metrics that differ
 };
 
-/// @param tolerance  two numbers are the same where they differ by no more than this share of the
-/// larger one
+/// @param tolerance  two numbers are equal if they differ by at most this share of the larger one
 /// @throws ConfigError "runs/x/summary.json: has no object 'metrics', ..."
 RunComparison compare_runs(const std::vector<std::filesystem::path>& folders, double tolerance);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// JSON files of runs and maps, as the comparisons read them.
+/// Reader for JSON files of runs and maps.
 
 #include <filesystem>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Designs feedback gains for `trmpc` that hold a vehicle on wings whose derivatives are not well known.
+"""Designs feedback gains for `trmpc` for a fixed-wing vehicle with uncertain derivatives.
 
 usage: lmi_gain.py <vinerow> <vehicle.yaml> > gains.yaml
 
@@ -13,9 +13,9 @@ One gain K (u = K x) for all 8 vertices of each axis: longitudinal pitch_alpha a
     [ Q^1/2 X      0    I   * ]
     [ R^1/2 Y      0    0   I ]
 
-and the trace of P, a bound of the cost of random states, is the least. States and inputs are divided by what costs 1
-of each (the defaults of the controllers' group `weights`), without which the solver finds nothing. Needs numpy and
-cvxopt (GPL), which nothing of vinerow links: the gains are data.
+with minimum trace of P, a bound on the cost of random states. States and inputs are scaled by the values that cost 1
+each (the defaults of the controllers' group `weights`); without scaling the solver finds no solution. Needs numpy and
+cvxopt (GPL), to which nothing of vinerow links: the gains are data.
 """
 
 import itertools

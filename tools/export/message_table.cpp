@@ -17,7 +17,7 @@ using Shape = record::RosField::Shape;
 
 namespace {
 
-/// Columns that every table has.
+/// Whether a name is reserved for the columns that every table has.
 bool is_reserved(const std::string& name) {
   return name == "time_s" || name == "logged_s" || name == "element";
 }
@@ -27,7 +27,7 @@ bool is_header(const record::RosMessageType& type) {
          type.fields[0].name == "stamp" && type.fields[1].name == "frame_id";
 }
 
-/// An instant or a duration in two whole numbers, which a table shows as seconds.
+/// Whether a type is an instant or a duration in two integers, which a table shows as seconds.
 bool is_seconds(const record::RosMessageType& type) {
   return (type.name == "builtin_interfaces/Time" || type.name == "builtin_interfaces/Duration") &&
          type.fields.size() == 2;
@@ -61,17 +61,17 @@ void take_number(CdrReader& in, RosKind kind, std::string& numbers) {
   }
 }
 
-/// Least bytes of one value, so that a damaged count cannot ask for much memory.
-std::size_t least_bytes(RosKind kind) {
+/// Smallest size of a value, which bounds the memory that a damaged count can request.
+std::size_t min_bytes(RosKind kind) {
   if (kind == RosKind::kText) return sizeof(std::uint32_t);
   return kind == RosKind::kMessage ? 1 : record::size_of(kind);
 }
 
 std::uint32_t read_length(CdrReader& in, const RosField& field) {
   if (field.shape == Shape::kSequence) {
-    return static_cast<std::uint32_t>(in.read_count(least_bytes(field.kind)));
+    return static_cast<std::uint32_t>(in.read_count(min_bytes(field.kind)));
   }
-  // As many as the message can have bytes for: what is too long is found while reading.
+  // Limited by the remaining bytes: reading detects a count that is too large.
   return static_cast<std::uint32_t>(std::min(field.length, in.remaining() + 1));
 }
 
@@ -104,8 +104,8 @@ bool MessageTable::has_sequence(std::size_t type_index, bool of_numbers_too) con
   return false;
 }
 
-/// Columns in the order of the definition, so that a topic without messages has its columns too.
-/// Those with an index in their names, and of named values, come with the messages.
+/// Adds columns in the order of the definition, so that a topic without messages has columns too.
+/// Columns with an index in their name, and those of named values, are added with the messages.
 void MessageTable::announce(std::size_t type_index, const std::string& prefix, bool in_element) {
   const std::vector<RosField>& fields = type(type_index).fields;
   for (std::size_t i = 0; i < fields.size(); ++i) {
@@ -168,12 +168,12 @@ std::int64_t MessageTable::decode_header(CdrReader& in) {
 }
 
 void MessageTable::decode_named_values(CdrReader& in) {
-  std::vector<std::string> names(in.read_count(least_bytes(RosKind::kText)));
+  std::vector<std::string> names(in.read_count(min_bytes(RosKind::kText)));
   for (std::string& name : names) {
     in.read(name);
     name = valid_utf8(name);
   }
-  const std::size_t count = in.read_count(least_bytes(RosKind::kFloat64));
+  const std::size_t count = in.read_count(min_bytes(RosKind::kFloat64));
   for (std::size_t i = 0; i < count && in.ok(); ++i) {
     const std::string name = i < names.size() ? names[i] : fmt::format("value[{}]", i);
     const bool again = std::find(names.begin(), names.begin() + std::min(i, names.size()), name) !=
@@ -186,7 +186,7 @@ void MessageTable::decode_named_values(CdrReader& in) {
 void MessageTable::decode(CdrReader& in, std::size_t type_index, const std::string& prefix,
                           int row) {
   const std::vector<RosField>& fields = type(type_index).fields;
-  // What has no field takes a byte all the same.
+  // A message without fields takes one byte.
   if (fields.empty()) in.read<std::uint8_t>();
   const std::size_t first = type_index == 0 && has_header_ ? 1 : 0;
   for (std::size_t i = first; i < fields.size() && in.ok(); ++i) {
@@ -247,7 +247,7 @@ void MessageTable::take(CdrReader& in, std::size_t place, int row, std::uint32_t
 }
 
 void MessageTable::keep(std::uint32_t row_count) {
-  // Each row in turn, so that a column's values lie in the order of its rows.
+  // Sorted by row, so that a column's values are in the order of its rows.
   std::stable_sort(leaves_.begin(), leaves_.end(),
                    [](const Leaf& a, const Leaf& b) { return a.row < b.row; });
   const std::size_t first_row = rows_.size() - row_count;

@@ -1,12 +1,12 @@
 #pragma once
-/// The messages of one topic as rows and columns, decoded by the definition in the log.
+/// Table of the messages of one topic, decoded with the definition in the log.
 ///
-/// A field is a column, named by its way through the message: "pose.pose.position.x". Of an array
-/// (float64[36]) and of a sequence of numbers a column holds several values in each row. A message
-/// with a sequence of messages (a path, transforms) gives a row for each element, as pandas'
-/// explode() does: its sequences run along together, everything else stands in each of these rows.
-/// Instants and durations are seconds. Names and values in two sequences (NamedValues) give a
-/// column for each name.
+/// A field is a column, named by its path in the message: "pose.pose.position.x". The column of an
+/// array (float64[36]) or of a sequence of numbers has several values per row. A message with a
+/// sequence of messages (a path, transforms) gives one row per element, as pandas' explode() does:
+/// its sequences advance together, and all other values repeat in each of these rows. Instants and
+/// durations are in seconds. Names and values in two sequences (NamedValues) give one column per
+/// name.
 
 #include <cstdint>
 #include <map>
@@ -22,31 +22,31 @@ namespace vinerow::tools {
 struct TableColumn {
   std::string name;
   record::RosKind kind = record::RosKind::kFloat64;
-  bool list = false;                  ///< several values in a row
-  std::vector<std::uint32_t> counts;  ///< values in each row; 0: the row has none
-  std::string numbers;                ///< their bytes, one after the other; of text empty
-  std::vector<std::string> texts;     ///< likewise; valid UTF-8
+  bool list = false;                  ///< several values per row
+  std::vector<std::uint32_t> counts;  ///< values in each row; may be 0
+  std::string numbers;                ///< bytes of the numbers in sequence; empty for text
+  std::vector<std::string> texts;     ///< texts in sequence, valid UTF-8
 
-  /// Values in the row that has most.
+  /// Largest number of values in a row.
   std::size_t width() const;
 };
 
 struct TableRow {
-  std::int64_t stamp_ns = 0;   ///< the message's own stamp
-  std::int64_t logged_ns = 0;  ///< when it was recorded
-  std::uint32_t element = 0;   ///< of the message's sequences
+  std::int64_t stamp_ns = 0;   ///< stamp in the message
+  std::int64_t logged_ns = 0;  ///< time of recording
+  std::uint32_t element = 0;   ///< index in the message's sequences
 };
 
 class MessageTable {
  public:
-  /// @param long_form  a row for each element of any sequence, also of numbers
+  /// @param long_form  one row per element of every sequence, also of numbers
   MessageTable(record::RosSchema schema, bool long_form);
 
-  /// @param stamp_ns  where the message has no header
-  /// @returns false, and adds nothing, where the bytes hold no such message
+  /// @param stamp_ns  used if the message has no header
+  /// @returns false, and adds nothing, if the bytes are not such a message
   bool add(std::int64_t stamp_ns, std::int64_t logged_ns, std::span<const std::uint8_t> message);
 
-  /// Whether a message may give several rows.
+  /// Whether a message can give several rows.
   bool has_elements() const { return rows_of_elements_; }
   const std::vector<TableRow>& rows() const { return rows_; }
   const std::vector<TableColumn>& columns() const { return columns_; }
@@ -58,7 +58,7 @@ class MessageTable {
     std::size_t column = 0;
     int row = kEveryRow;
     std::uint32_t count = 0;
-    std::size_t from = 0;  ///< in the scratch numbers or texts
+    std::size_t from = 0;  ///< index in the scratch numbers or texts
   };
 
   const record::RosMessageType& type(std::size_t index) const { return schema_.messages[index]; }
@@ -82,9 +82,9 @@ class MessageTable {
   bool rows_of_elements_ = false;
   bool named_values_ = false;
   std::vector<TableColumn> columns_;
-  std::map<std::string, std::size_t> places_;  ///< of columns, by name
+  std::map<std::string, std::size_t> places_;  ///< indices of columns by name
   std::vector<TableRow> rows_;
-  // Of the message at hand.
+  // Scratch of the current message.
   std::vector<Leaf> leaves_;
   std::string numbers_;
   std::vector<std::string> texts_;

@@ -1,5 +1,5 @@
 #pragma once
-/// Where the values of a row lie in a table's columns, and the rows in the order of their stamps.
+/// Access to the values of a table by row, and the order of the rows by stamp.
 
 #include <algorithm>
 #include <cstddef>
@@ -28,13 +28,13 @@ class TableCells {
     }
   }
 
-  /// Rows by their stamps; of equal ones as they were logged.
+  /// Rows in order of their stamps; rows with equal stamps in order of recording.
   const std::vector<std::size_t>& order() const { return order_; }
   /// @pre i < columns()[column].counts[row]
   const std::string& text(std::size_t column, std::size_t row, std::size_t i) const {
     return table_.columns()[column].texts[from_[column][row] + i];
   }
-  /// The bytes of a number. @pre as text()
+  /// Bytes of a number. @pre as text()
   const char* number(std::size_t column, std::size_t row, std::size_t i) const {
     const TableColumn& of = table_.columns()[column];
     return of.numbers.data() + (from_[column][row] + i) * record::size_of(of.kind);

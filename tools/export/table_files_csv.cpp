@@ -29,7 +29,7 @@ void print_cell(const char* bytes, std::string& out) {
 void print_number(RosKind kind, const char* bytes, std::string& out) {
   switch (kind) {
     case RosKind::kBool:
-      out += *bytes != 0 ? "True" : "False";  // what pandas reads as booleans
+      out += *bytes != 0 ? "True" : "False";  // spelling that pandas reads as booleans
       return;
     case RosKind::kInt8:
       return print_cell<std::int8_t>(bytes, out);
@@ -57,7 +57,7 @@ void print_number(RosKind kind, const char* bytes, std::string& out) {
   }
 }
 
-/// Nanoseconds as seconds with every digit that counts: "12.05".
+/// Nanoseconds as seconds without trailing zeros: "12.05".
 void print_seconds(std::int64_t ns, std::string& out) {
   constexpr std::uint64_t kSecond_ns = 1'000'000'000;
   const auto size =
@@ -73,11 +73,11 @@ void print_seconds(std::int64_t ns, std::string& out) {
 std::string csv_of(const MessageTable& table, const std::string& what) {
   std::size_t count = 3;
   for (const TableColumn& column : table.columns()) count += column.width();
-  if (count > kMostColumns) {
+  if (count > kMaxColumns) {
     throw TableTooLarge(
-        fmt::format("{}: has {} columns, must be at most {}; --npz takes sequences as arrays, "
-                    "--long gives a row for each element",
-                    what, count, kMostColumns));
+        fmt::format("{}: has {} columns, must be at most {}; --npz writes sequences as arrays, "
+                    "--long writes one row per element",
+                    what, count, kMaxColumns));
   }
   std::string out = "time_s,logged_s";
   if (table.has_elements()) out += ",element";

@@ -16,7 +16,7 @@ namespace {
 
 using record::RosKind;
 
-constexpr std::uint64_t kMostBytes = 0xFFFFFFFFu;  // beyond it zip needs other records
+constexpr std::uint64_t kMaxBytes = 0xFFFFFFFFu;  // zip needs other records beyond it
 
 template <class T>
 void append_little(std::string& out, T value) {
@@ -25,7 +25,7 @@ void append_little(std::string& out, T value) {
   }
 }
 
-/// numpy's name of a number.
+/// NumPy type code of a number.
 const char* type_code(RosKind kind) {
   switch (kind) {
     case RosKind::kBool:
@@ -93,7 +93,8 @@ std::string npy_head(const std::string& type, const std::string& shape) {
   return bytes + head;
 }
 
-/// A zip file of stored members. No date: the same table gives the same bytes.
+/// Zip file of stored (uncompressed) members with a fixed date: the same table gives the same
+/// bytes.
 class StoredZip {
  public:
   explicit StoredZip(const std::string& what) : what_(what) {}
@@ -139,10 +140,10 @@ class StoredZip {
   }
 
   void check(std::uint64_t size) const {
-    if (size < kMostBytes) return;
+    if (size < kMaxBytes) return;
     throw ConfigError(
-        fmt::format("{}: its arrays take more than 4 GiB, use --csv or a shorter "
-                    "time (--from, --to)",
+        fmt::format("{}: the arrays take more than 4 GiB, use --csv or a shorter "
+                    "time span (--from, --to)",
                     what_));
   }
 
@@ -203,7 +204,7 @@ std::string number_array(const MessageTable& table, const TableCells& cells, std
   return data;
 }
 
-/// A name that does not lead out of a folder where somebody unpacks the file.
+/// Member name that stays inside the folder into which the file is unpacked.
 std::string member_name(const std::string& column) {
   std::string name = column;
   for (char& c : name) {
@@ -216,9 +217,9 @@ std::string member_name(const std::string& column) {
 }  // namespace
 
 std::string npz_of(const MessageTable& table, const std::string& what) {
-  if (table.columns().size() + 3 > kMostColumns) {
+  if (table.columns().size() + 3 > kMaxColumns) {
     throw TableTooLarge(fmt::format("{}: has {} columns, must be at most {}", what,
-                                    table.columns().size() + 3, kMostColumns));
+                                    table.columns().size() + 3, kMaxColumns));
   }
   StoredZip zip(what);
   const TableCells cells(table);
@@ -226,7 +227,7 @@ std::string npz_of(const MessageTable& table, const std::string& what) {
   const auto add_seconds = [&](const char* name, std::int64_t TableRow::*ns) {
     std::string data = npy_head("<f8", rows);
     for (const std::size_t row : cells.order()) {
-      // Divided, not multiplied by 1e-9: the double next to the decimal number.
+      // Division gives the double nearest to the decimal number; multiplication by 1e-9 does not.
       const double seconds = static_cast<double>(table.rows()[row].*ns) / 1e9;
       data.append(reinterpret_cast<const char*>(&seconds), sizeof seconds);
     }

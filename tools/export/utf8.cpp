@@ -12,7 +12,7 @@ std::uint32_t byte_at(std::string_view text, std::size_t i) {
   return i < text.size() ? static_cast<unsigned char>(text[i]) : 0;
 }
 
-/// One code point from the front, which is cut off. Shortest forms only, no surrogates (RFC 3629).
+/// Removes one code point from the front. Accepts shortest forms only, no surrogates (RFC 3629).
 char32_t take_code_point(std::string_view& text) {
   const std::uint32_t first = byte_at(text, 0);
   const int more = first < 0x80 ? 0 : first < 0xC2 ? -1 : first < 0xE0 ? 1 : first < 0xF0 ? 2 : 3;

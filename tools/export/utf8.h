@@ -1,15 +1,15 @@
 #pragma once
-/// Text of unknown origin as UTF-8.
+/// Conversion of text of unknown origin to valid UTF-8.
 
 #include <string>
 #include <string_view>
 
 namespace vinerow::tools {
 
-/// The code points of a text; bytes that are no UTF-8 become U+FFFD, one for each.
+/// Code points of a text; each byte that is not UTF-8 becomes one U+FFFD.
 std::u32string code_points_of(std::string_view text);
 
-/// The text with those bytes replaced.
+/// The text as UTF-8 with such bytes replaced.
 std::string valid_utf8(std::string_view text);
 
 }  // namespace vinerow::tools

@@ -11,7 +11,7 @@ NUMBER = re.compile(rb"(?<![\w.])[-+]?\d+(?:\.\d*)?(?:[eE][-+]?\d+)?(?![\w.])")
 
 
 def damage_bytes(data: bytes, rng: random.Random) -> bytes:
-    """Flips, cuts, repeats, inserts and overwrites; often near the beginning, where headers are."""
+    """Flips, cuts, repeats, inserts and overwrites bytes, often near the start, where headers are."""
     out = bytearray(data)
     for _ in range(rng.choice([1, 1, 1, 2, 4, 16])):
         size = len(out)

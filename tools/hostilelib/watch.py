@@ -1,4 +1,4 @@
-"""Runs a program under a limit of time and memory and says what is wrong with how it ended."""
+"""Runs a program with limits on time and memory and classifies how it ended."""
 
 import os
 import resource
@@ -45,7 +45,7 @@ def fault_of(status: int, out_of_time: bool, peak_kb: int, error: str) -> str:
 
 
 def limit_bytes(sanitized: bool) -> int:
-    """Of addresses; 0: none, because a sanitizer's shadow memory takes terabytes of them."""
+    """Limit on the address space; 0: none, because a sanitizer's shadow memory takes terabytes of it."""
     return 0 if sanitized else 3 * MOST_KB * 512
 
 
@@ -70,7 +70,7 @@ class Alarm:
 
 
 def watch(command: list[str], folder: Path, sanitized: bool) -> Outcome:
-    """A process of its own; `folder` is where it runs."""
+    """Runs the program as a new process in `folder`."""
 
     def limit() -> None:
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))

@@ -3,7 +3,7 @@
 
 namespace vinerow {
 
-/// Every built-in part, from every folder.
+/// Registers the built-in parts of all folders.
 void register_all(Registry& registry);
 
 }  // namespace vinerow

@@ -54,7 +54,7 @@ void CloudView::put(int x, int y, float depth_m, const Rgb& colour) {
 void CloudView::splat(const Vector3d& p_W, float size_m, const Rgb& colour) {
   Projected p;
   if (!project(p_W, p)) return;
-  // Far outside: also keeps the numbers small enough for int.
+  // Reject points far outside; this also keeps the numbers small enough for int.
   if (!(p.x > -64 && p.y > -64 && p.x < width_ + 64 && p.y < height_ + 64)) return;
   constexpr float kLargest_px = 40.0f;
   const float size_px = std::min(kLargest_px, size_m * static_cast<float>(px_per_rad_) / p.depth_m);
@@ -62,7 +62,7 @@ void CloudView::splat(const Vector3d& p_W, float size_m, const Rgb& colour) {
   const int left = static_cast<int>(std::floor(p.x - 0.5f * static_cast<float>(side - 1)));
   const int top = static_cast<int>(std::floor(p.y - 0.5f * static_cast<float>(side - 1)));
   const int right = std::min(width_, left + side), bottom = std::min(height_, top + side);
-  constexpr int kRound_px = 4;  // smaller ones are squares
+  constexpr int kRound_px = 4;  // smaller splats are squares
   const float reach2 = side >= kRound_px ? 0.25f * static_cast<float>(side * side) : 1e9f;
   for (int y = std::max(0, top); y < bottom; ++y) {
     for (int x = std::max(0, left); x < right; ++x) {
@@ -102,7 +102,7 @@ void CloudView::triangle(const Vector3d& a_W, const Vector3d& b_W, const Vector3
       const double wc = ((b.x - a.x) * (py - a.y) - (b.y - a.y) * (px - a.x)) / area;
       const double wa = 1.0 - wb - wc;
       if (wa < 0.0 || wb < 0.0 || wc < 0.0) continue;
-      // 1 / depth is straight on the picture, depth is not.
+      // 1 / depth is linear on the picture, depth is not.
       const double inverse = wa / a.depth_m + wb / b.depth_m + wc / c.depth_m;
       put(x, y, static_cast<float>(1.0 / inverse), lit);
     }
@@ -174,7 +174,7 @@ render::Image CloudView::finish(const Rgb& background, float edges) const {
 
 render::Camera camera_around(const std::vector<Vector3d>& points_W, double azimuth_rad,
                              double elevation_rad, double aspect, double margin) {
-  constexpr double kFov_rad = 0.42;  // a long lens: far rows stay as large as near ones
+  constexpr double kFov_rad = 0.42;  // a long lens shows far rows nearly as large as near ones
   Eigen::AlignedBox3d box;
   for (const Vector3d& p : points_W) box.extend(p);
   const Vector3d ahead(std::cos(elevation_rad) * std::cos(azimuth_rad),
@@ -182,7 +182,7 @@ render::Camera camera_around(const std::vector<Vector3d>& points_W, double azimu
   const double half_y = (1.0 - 2.0 * margin) * std::tan(0.5 * kFov_rad), half_x = aspect * half_y;
   Vector3d target = box.center();
   double distance_m = std::max(1.0, box.diagonal().norm());
-  // The frame around the points is centred and closed in turn; both settle within a few rounds.
+  // Alternate centring and fitting of the frame around the points; both converge in a few rounds.
   for (int round = 0; round < 12; ++round) {
     const render::Camera camera = render::look_at(target - distance_m * ahead, target, kFov_rad);
     const Eigen::Matrix3d R_CW = camera.X_WC.q.toRotationMatrix().transpose();

@@ -27,7 +27,7 @@ constexpr Rgb kShot = {20, 24, 26}, kParcelEdge = {20, 24, 26};
 constexpr int kPanelMargin = 32, kPanelGap = 36, kTitle = 34, kScales = 86, kNumbers = 198;
 constexpr int kTallestPanel = 900;
 
-/// What both maps show of the world: the parcel. Where the plane turns is of no interest.
+/// Extent of both maps: the parcel, without the area in which the plane turns.
 Eigen::AlignedBox2d extent_of(const playback::SurveyCoverage& coverage) {
   Eigen::AlignedBox2d box;
   for (const Vector2d& p : coverage.options.parcel_W) box.extend(p);
@@ -38,7 +38,7 @@ Eigen::AlignedBox2d extent_of(const playback::SurveyCoverage& coverage) {
 /// One map on the canvas.
 struct Panel {
   double left = 0.0, top = 0.0, width = 0.0, height = 0.0, px_per_m = 1.0;
-  Vector2d corner_W = {0, 0};  ///< at the panel's lower left
+  Vector2d corner_W = {0, 0};  ///< world position of the panel's lower left corner
 
   Vector2d operator()(const Vector2d& p_W) const {
     return {left + (p_W.x() - corner_W.x()) * px_per_m,
@@ -58,7 +58,7 @@ struct Panel {
   }
 };
 
-/// Two maps beside each other, or one above the other where they are wide.
+/// Layout of two maps: side by side, or one above the other if they are wide.
 struct Layout {
   std::array<Panel, 2> panels;
   int height = 0;
@@ -75,7 +75,7 @@ struct Layout {
     panel.height = std::ceil(h * panel.px_per_m);
     panel.left = kPanelMargin;
     panel.top = kPanelMargin + kTitle;
-    // What is narrower than its panel comes into the middle.
+    // Centre a map that is narrower than its panel.
     panel.corner_W = extent_W.center() - 0.5 * Vector2d(room, panel.height) / panel.px_per_m;
     panels = {panel, panel};
     const double block = kTitle + panel.height + kScales;
@@ -89,11 +89,11 @@ struct Layout {
   }
 };
 
-/// A value's colour; nothing where the ground shows through.
+/// Colour of a cell; nullopt where the ground shows through.
 using Paint = std::function<std::optional<Rgb>(std::size_t cell)>;
 
-/// The cell's colour; of a cell outside the parcel that of a neighbour inside it, so that colours
-/// reach the parcel's edge.
+/// Colour of a cell. A cell outside the parcel takes the colour of a neighbour inside, so that
+/// colours reach the parcel's edge.
 std::optional<Rgb> colour_near(const metrics::CoverageMap& map, const Paint& paint, int i, int j) {
   if (i >= 0 && j >= 0 && i < map.columns && j < map.rows) {
     if (const auto colour = paint(map.cell(i, j))) return colour;
@@ -107,7 +107,7 @@ std::optional<Rgb> colour_near(const metrics::CoverageMap& map, const Paint& pai
   return std::nullopt;
 }
 
-/// Cells with all their neighbours inside the parcel: no need to look where its edge is.
+/// Cells whose neighbours are all inside the parcel, for which the edge need not be checked.
 std::vector<char> inner_cells(const metrics::CoverageMap& map) {
   std::vector<char> inner(map.pictures.size(), 0);
   for (int j = 1; j + 1 < map.rows; ++j) {
@@ -179,7 +179,7 @@ void draw_world(Canvas& canvas, const Panel& panel, const playback::SurveyCovera
   }
 }
 
-/// A bar from one value to the other, with ticks. @returns its right end
+/// Draws a colour bar with ticks. @returns its right end
 double draw_bar(Canvas& canvas, double left, double top, double width,
                 const std::function<Rgb(double share)>& colour) {
   for (int x = 0; x < width; ++x) {
@@ -210,7 +210,7 @@ void draw_patch(Canvas& canvas, double right, double top, const Rgb& colour,
 void draw_counts(Canvas& canvas, const Panel& panel, const playback::SurveyCoverage& coverage) {
   const metrics::CoverageMap& map = coverage.map;
   const int most = std::max(1, *std::max_element(map.pictures.begin(), map.pictures.end()));
-  // As many colours as counts: each step of the scale is one picture more.
+  // One colour per count: each step of the scale is one more picture.
   const auto colour_of = [most](int count) {
     return viridis(most > 1 ? (count - 1.0) / (most - 1.0) : 1.0);
   };
@@ -220,7 +220,7 @@ void draw_counts(Canvas& canvas, const Panel& panel, const playback::SurveyCover
     return count == 0 ? kNone : colour_of(count);
   });
   draw_world(canvas, panel, coverage);
-  canvas.text("Pictures that see each place", 20, {panel.left, panel.top - 12}, kInk);
+  canvas.text("Number of pictures that see each point", 20, {panel.left, panel.top - 12}, kInk);
   const double top = panel.top + panel.height + 14, width = panel.width - 190;
   draw_bar(canvas, panel.left, top, width, [&](double share) {
     return colour_of(1 + std::min(most - 1, static_cast<int>(share * most)));
@@ -246,9 +246,8 @@ void draw_overlaps(Canvas& canvas, const Panel& panel, const playback::SurveyCov
     return overlap == 0.0 ? kNone : viridis((overlap - from) / (1.0 - from));
   });
   draw_world(canvas, panel, coverage);
-  canvas.text(
-      "Forward overlap that every pair of consecutive pictures keeps there, on the best lane", 20,
-      {panel.left, panel.top - 12}, kInk);
+  canvas.text("Smallest forward overlap of consecutive pictures at each point, on its best lane",
+              20, {panel.left, panel.top - 12}, kInk);
   const double top = panel.top + panel.height + 14, width = panel.width - 190;
   draw_bar(canvas, panel.left, top, width, viridis);
   const auto x_of = [&](double value) { return panel.left + (value - from) / (1 - from) * width; };
@@ -257,7 +256,7 @@ void draw_overlaps(Canvas& canvas, const Panel& panel, const playback::SurveyCov
     draw_tick(canvas, x_of(value), top, fmt::format("{:.0f} %", 100 * value));
   }
   canvas.line({x_of(wanted), top - 5}, {x_of(wanted), top + 16}, 2.5, kInk);
-  draw_tick(canvas, x_of(wanted), top, fmt::format("{:g} % wanted", 100 * wanted), true);
+  draw_tick(canvas, x_of(wanted), top, fmt::format("{:g} % requested", 100 * wanted), true);
   draw_patch(canvas, panel.left + panel.width, top, kNone, "no overlap");
 }
 
@@ -265,7 +264,7 @@ std::string percent(double share) {
   return std::isfinite(share) ? fmt::format("{:.1f} %", 100.0 * share) : "not measured";
 }
 
-/// The overlap that every pair keeps on half of the parcel or more of it.
+/// Overlap that every pair of pictures keeps on at least half of the parcel.
 double held_on_half(const metrics::CoverageMap& map) {
   std::vector<float> held;
   std::copy_if(map.forward_overlap.begin(), map.forward_overlap.end(), std::back_inserter(held),
@@ -285,30 +284,30 @@ void draw_numbers(Canvas& canvas, const Layout& layout, const playback::SurveyCo
   const double area_ha = 1e-4 * std::abs(signed_area_m2(coverage.options.parcel_W));
   std::vector<std::string> lines;
   lines.push_back(fmt::format(
-      "{:.0f} pictures, parcel of {:.2f} ha: seen {}, by two {}, by three {}", number("shots"),
-      area_ha, percent(number("covered_share")), percent(number("covered_twice_share")),
-      percent(number("covered_three_times_share"))));
+      "{:.0f} pictures, parcel of {:.2f} ha: seen once {}, twice {}, three times {}",
+      number("shots"), area_ha, percent(number("covered_share")),
+      percent(number("covered_twice_share")), percent(number("covered_three_times_share"))));
   if (number("shots_off_ground") > 0) {
     lines.back() += fmt::format("; {:.0f} look beyond the ground", number("shots_off_ground"));
   }
   lines.push_back(fmt::format(
-      "forward overlap: mean {}, least {}; the wanted {:g} % is reached by at least one pair on {} "
-      "of the parcel, and kept by every pair on {}",
+      "forward overlap: mean {}, minimum {}; at least one pair reaches the requested {:g} % on {} "
+      "of the parcel, every pair on {}",
       percent(number("forward_overlap_mean")), percent(number("forward_overlap_min")),
       100 * coverage.options.wanted_overlap, percent(number("overlap_covered_share")),
       percent(number("overlap_held_share"))));
-  // A parcel that keeps a little less than wanted is not one that keeps nothing.
+  // Distinguish slightly too little overlap from none.
   const double half = held_on_half(coverage.map);
   if (half > 0.0 && half < coverage.options.wanted_overlap) {
     lines.push_back(
         fmt::format("every pair keeps at least {} on half of the parcel", percent(half)));
   }
-  lines.push_back(fmt::format("side overlap: mean {}, least {}",
+  lines.push_back(fmt::format("side overlap: mean {}, minimum {}",
                               percent(number("side_overlap_mean")),
                               percent(number("side_overlap_min"))));
   if (std::isfinite(number("gsd_mean_m"))) {
     lines.push_back(fmt::format(
-        "GSD {:.1f} mm, from {:.1f} to {:.1f} mm; {:.2f} % above that of a picture straight down",
+        "GSD: mean {:.1f} mm, {:.1f} to {:.1f} mm; {:.2f} % above that of a vertical picture",
         1e3 * number("gsd_mean_m"), 1e3 * number("gsd_min_m"), 1e3 * number("gsd_max_m"),
         100 * number("gsd_formula_error_mean")));
   }
@@ -320,8 +319,8 @@ void draw_numbers(Canvas& canvas, const Layout& layout, const playback::SurveyCo
         return !layout.panels[0].contains(taken.shot.X_WS.p.head<2>());
       });
   std::string key =
-      "thin lines: plant rows; white and grey: track; dots: pictures, red off the lanes";
-  if (outside > 0) key += fmt::format("; {} pictures were taken outside this frame", outside);
+      "thin lines: plant rows; white and grey: track; dots: pictures, red if not on a lane";
+  if (outside > 0) key += fmt::format("; {} pictures are outside this frame", outside);
   canvas.text(key, 14, {left, top + 34 + 24 * static_cast<double>(lines.size())}, kFaint);
 }
 

@@ -8,6 +8,7 @@
 #include "engine/api/map.h"
 #include "engine/api/mesh.h"
 #include "engine/api/world_model.h"
+#include "engine/math/polygon.h"
 #include "engine/render/scale_bar.h"
 #include "tools/pictures/legend.h"
 #include "tools/pictures/picture_style.h"
@@ -22,7 +23,7 @@ constexpr Rgb kFree = {240, 233, 217}, kOutside = {92, 98, 100}, kTaken = {52, 5
 constexpr Rgb kPlants = {74, 134, 62}, kWall = {28, 92, 214}, kTurning = {252, 204, 60};
 constexpr Rgb kObstacle = {214, 84, 26};
 
-/// -1 beyond the grid, else 0 or 1.
+/// State of a cell: -1 beyond the grid, otherwise 0 or 1.
 int state_at(const OccupancyGrid& grid, const Vector2d& p_W) {
   const Vector2d cell = (p_W - grid.corner_W) / grid.cell_m;
   const int i = static_cast<int>(std::floor(cell.x())), j = static_cast<int>(std::floor(cell.y()));
@@ -30,24 +31,24 @@ int state_at(const OccupancyGrid& grid, const Vector2d& p_W) {
   return grid.occupied(i, j) ? 1 : 0;
 }
 
-/// Free ground, to draw on.
+/// Draws the free ground.
 void draw_free_ground(Canvas& canvas, const PlanView& view, const OccupancyGrid& grid) {
   const Vector2d size = grid.cell_m * Vector2d(grid.columns, grid.rows), &low = grid.corner_W;
   canvas.fill(view({low, low + Vector2d(size.x(), 0), low + size, low + Vector2d(0, size.y())}),
               kFree);
 }
 
-/// Taken cells as they are, 3 x 3 samples a pixel.
+/// Draws the occupied cells, with 3 x 3 samples per pixel.
 void draw_taken_cells(Canvas& canvas, const PlanView& view, const WorldModel& world) {
   constexpr int kSamples = 3;
   const OccupancyGrid& grid = world.rows->occupancy;
   const std::vector<Vector2d>& boundary = world.rows->boundary_W;
-  // What of the taken cells is a row.
+  // Occupied cells that belong to a row.
   OccupancyGrid rows;
   if (boundary.size() >= 3) {
     mapping::OccupancyOptions options;
     options.cell_m = grid.cell_m;
-    options.row_end_margin_m = 0.5;  // only cells that the map has anyway are coloured
+    options.row_end_margin_m = 0.5;  // only occupied cells are coloured
     options.virtual_walls = false;
     rows = mapping::make_occupancy_grid(world.rows, options);
   }
@@ -61,7 +62,7 @@ void draw_taken_cells(Canvas& canvas, const PlanView& view, const WorldModel& wo
         if (state_at(grid, p) != 1) continue;
         ++taken;
         const bool row = !rows.empty() && state_at(rows, p) == 1;
-        const bool inside = boundary.empty() || mapping::is_inside(p, boundary);
+        const bool inside = boundary.empty() || contains(boundary, p);
         const Rgb& colour = !inside ? kOutside : row ? kPlants : kTaken;
         for (std::size_t c = 0; c < 3; ++c) sum[c] += colour[c];
       }
@@ -72,7 +73,7 @@ void draw_taken_cells(Canvas& canvas, const PlanView& view, const WorldModel& wo
   }
 }
 
-/// Boxes that stand in the world; those on the map are dark already.
+/// Draws boxes of the world; those on the map are dark already.
 int draw_obstacles(Canvas& canvas, const PlanView& view, const WorldModel& world) {
   int unknown = 0;
   for (const MeshInstance& instance : world.meshes) {
@@ -92,11 +93,11 @@ int draw_obstacles(Canvas& canvas, const PlanView& view, const WorldModel& world
   return unknown;
 }
 
-/// The number of each alley, at its first point.
+/// Draws the number of each alley at its first point.
 void draw_alley_numbers(Canvas& canvas, const PlanView& view, const RowMap& map) {
   for (const Alley& alley : map.alleys) {
-    const double room_px = (alley.width_m - 0.6) * view.px_per_m;
-    const int size_px = static_cast<int>(std::clamp(0.8 * room_px, 0.0, 20.0));
+    const double space_px = (alley.width_m - 0.6) * view.px_per_m;
+    const int size_px = static_cast<int>(std::clamp(0.8 * space_px, 0.0, 20.0));
     if (size_px < 8) continue;
     const Vector2d a = alley.line_W[0].head<2>(), b = alley.line_W[1].head<2>();
     const Vector2d at =
@@ -143,7 +144,7 @@ render::Image draw_grid(const WorldModel& world, const mapping::OccupancyReport&
   legend(kWall, "virtual wall", !report.walls.empty());
   legend({246, 219, 139}, "turning area", !report.turning_areas.empty());
   legend(kOutside, "outside the parcel", true);
-  legend(kObstacle, "box that the map does not have", unknown > 0);
+  legend(kObstacle, "box missing on the map", unknown > 0);
   draw_scale_bar(canvas, {kPictureWidth - view.margin, top + 44.0},
                  0.125 * kPictureWidth / view.px_per_m, view.px_per_m, kInk);
   return canvas.image();

@@ -1,5 +1,5 @@
 #pragma once
-/// The top view of a world's occupancy grid, as in figures 15 and 18 of paper A.
+/// Top view of a world's occupancy grid, as in figures 15 and 18 of paper A.
 
 #include <string>
 
@@ -10,8 +10,8 @@
 namespace vinerow::tools {
 
 /// North is up. Free ground is light, rows green, virtual walls blue, turning areas yellow, other
-/// taken cells dark; alleys carry their numbers, boxes that the map does not have are outlined.
-/// @param world  with an occupancy grid
+/// occupied cells dark. Alleys are numbered, and boxes missing on the map are outlined.
+/// @param world  has an occupancy grid
 /// @param title  first line below the map
 render::Image draw_grid(const WorldModel& world, const mapping::OccupancyReport& report,
                         const std::string& title);

@@ -1,5 +1,5 @@
 #pragma once
-/// An entry of a picture's legend.
+/// Legend entries of pictures.
 
 #include <cstdint>
 #include <string>
@@ -8,12 +8,12 @@
 
 namespace vinerow::tools {
 
-/// A patch of colour with its words to the right of it.
+/// Draws a patch of colour with its text to the right.
 /// @param x, y  upper left corner of the patch
 void draw_legend_patch(Canvas& canvas, double x, double y, const Rgb& colour,
                        const std::string& words);
 
-/// "15 %". What is there and is less than half a percent is "< 1 %": pictures show it.
+/// "15 %". A share above 0 but below 0.5 % is "< 1 %".
 std::string share_text(std::int64_t part, std::int64_t all);
 
 }  // namespace vinerow::tools

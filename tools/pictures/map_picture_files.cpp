@@ -25,7 +25,7 @@ const PhaseReport* find_phase(const run::RunResult& result, const std::string& n
   return at == result.phases.end() ? nullptr : &*at;
 }
 
-/// Of the product that the phase took. @returns nothing where it never was
+/// Point cloud that the phase took as input. @returns nullopt if it was never made
 std::optional<fs::path> cloud_of(const scenario::PhaseConfig& phase, const run::RunResult& result) {
   for (const scenario::ProductSource& source : phase.takes) {
     const PhaseReport* giver = find_phase(result, source.phase);

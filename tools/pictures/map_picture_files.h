@@ -1,5 +1,5 @@
 #pragma once
-/// The pictures of a map as files, of `vinerow map` and of the jobs of a run.
+/// Picture files of maps, for `vinerow map` and for the jobs of a run.
 
 #include <filesystem>
 #include <string>
@@ -13,18 +13,18 @@
 
 namespace vinerow::tools {
 
-/// top.png, classes.png, mesh.png and, where the map has a grid, grid.png.
-/// @param cloud  with classes  @param folder  made where it is not there
-/// @returns the files, in this order. @throws ConfigError where they cannot be written
+/// Writes top.png, classes.png, mesh.png and, if the map has a grid, grid.png.
+/// @param cloud  has classes  @param folder  created if missing
+/// @returns the files, in this order. @throws ConfigError if they cannot be written
 std::vector<std::filesystem::path> write_map_pictures(const mapping::CloudMap& map,
                                                       const mapping::ParcelCloud& cloud,
                                                       const mapping::OccupancyOptions& options,
                                                       const std::string& title,
                                                       const std::filesystem::path& folder);
 
-/// The same of every map that a job made of a cloud in a run, into the folder of its product, from
-/// what that folder keeps (map_points.h) and the cloud that the job took. A map without points has
-/// no pictures. @throws ConfigError where files of a product are not as they were written
+/// Writes the same for every map that a job of a run made from a cloud, into the folder of its
+/// product, from the points kept there (map_points.h) and the cloud that the job took. A map
+/// without points has no pictures. @throws ConfigError if files of a product have changed
 std::vector<std::filesystem::path> write_job_pictures(const scenario::Scenario& scenario,
                                                       const run::RunResult& result);
 

@@ -24,14 +24,14 @@ using mapping::PointClass;
 constexpr Rgb kGroundPoints = {172, 144, 112}, kLow = {196, 192, 88}, kOther = {142, 146, 150};
 constexpr Rgb kRows[2] = {{46, 122, 52}, {104, 172, 62}};
 constexpr int kStrip = 74;
-constexpr std::size_t kMostSplats = 6'000'000;
+constexpr std::size_t kMaxSplats = 6'000'000;
 
-/// Every n-th point, few enough to draw.
+/// Stride n for drawing every n-th point, at most `most` points.
 std::size_t stride_of(const mapping::ParcelCloud& cloud, std::size_t most) {
   return std::max<std::size_t>(1, (cloud.points.size() + most - 1) / most);
 }
 
-/// The map as pictures need it: heights above the ground, and rows by place.
+/// Map prepared for drawing: heights above the ground, and rows by position.
 class Scene {
  public:
   Scene(const mapping::CloudMap& map, const mapping::ParcelCloud& cloud)
@@ -42,10 +42,10 @@ class Scene {
   double above_m(const Vector3d& p) const {
     return map_.map.terrain ? p.z() - map_.map.terrain->height_m(p.x(), p.y()) : p.z();
   }
-  /// Index of the row there, or -1.
+  /// Index of the row at a point, or -1.
   int row_at(const Vector3d& p) const { return rows_.row_at(p.x(), p.y()); }
 
-  /// By class; higher is lighter, and no two neighbours are quite the same.
+  /// Colour by class; higher points are lighter, and neighbouring points vary slightly.
   Rgb colour_of(std::size_t k, const Vector3d& p) const {
     Rgb colour = kOther;
     double light = 1.0;
@@ -68,14 +68,14 @@ class Scene {
     return colour;
   }
 
-  /// As the camera saw it, else by class.
+  /// Colour from the cloud, or by class if the cloud is uncoloured.
   Rgb natural_colour_of(std::size_t k, const Vector3d& p) const {
     if (cloud_.colours.empty()) return colour_of(k, p);
     const auto& rgb = cloud_.colours[k];
     return {rgb[0], rgb[1], rgb[2]};
   }
 
-  /// So large that splats of every `stride`-th point cover the ground.
+  /// Splat size at which every `stride`-th point covers the ground.
   float splat_m(std::size_t stride) const {
     const double per_m2 = std::max(1.0, map_.report.density_per_m2) / static_cast<double>(stride);
     return static_cast<float>(std::clamp(1.7 / std::sqrt(per_m2), 0.015, 0.6));
@@ -96,7 +96,7 @@ Vector2d mean_direction(const RowMap& map) {
   return (line.back() - line.front()).head<2>().normalized();
 }
 
-/// Everything that should be seen of the parcel.
+/// Points of the parcel that must be in the picture.
 std::vector<Vector3d> frame_points(const RowMap& map) {
   std::vector<Vector3d> points;
   for (const PlantRow& row : map.rows) {
@@ -108,12 +108,12 @@ std::vector<Vector3d> frame_points(const RowMap& map) {
   return points;
 }
 
-/// Looks across the rows from the lower side, a third turned towards their end.
+/// Camera that looks across the rows from the lower side, turned by a third towards their end.
 render::Camera parcel_camera(const RowMap& map, double aspect) {
   const Vector2d along = mean_direction(map), across(-along.y(), along.x());
   const auto& first = map.rows.front().line_W;
   const auto& last = map.rows.back().line_W;
-  // The downhill side is in front, so that rows behind stand above those before them.
+  // The downhill side is in front, so that the rear rows appear above the front rows.
   const double rise =
       map.terrain ? (last[last.size() / 2].z() - first[first.size() / 2].z()) *
                         (last[last.size() / 2] - first[first.size() / 2]).head<2>().dot(across)
@@ -123,14 +123,14 @@ render::Camera parcel_camera(const RowMap& map, double aspect) {
   return camera_around(frame_points(map), std::atan2(ahead.y(), ahead.x()), kElevation_rad, aspect);
 }
 
-/// The map's ground under the rows, where leaves hid it from the cloud; a little lower than the
-/// points, so that those are seen.
+/// Draws the map's ground under the rows, where leaves hid it from the cloud; slightly lower than
+/// the points, so that they stay visible.
 void draw_ground_below_rows(const Scene& scene, CloudView& view) {
-  constexpr double kLower_m = 0.06, kBeside_m = 0.35, kStep_m = 0.5;
+  constexpr double kLower_m = 0.06, kLateralOffset_m = 0.35, kStep_m = 0.5;
   if (!scene.map().map.terrain) return;
   const HeightField& terrain = *scene.map().map.terrain;
   for (const PlantRow& row : scene.map().map.rows) {
-    const double half_m = 0.5 * row.canopy_width_m + kBeside_m;
+    const double half_m = 0.5 * row.canopy_width_m + kLateralOffset_m;
     for (std::size_t k = 0; k + 1 < row.line_W.size(); ++k) {
       const Vector2d a = row.line_W[k].head<2>(), d = row.line_W[k + 1].head<2>() - a;
       const Vector2d side = half_m * Vector2d(-d.y(), d.x()).normalized();
@@ -173,7 +173,7 @@ void draw_row_meshes(const RowMap& map, CloudView& view, bool with_edges) {
       view.triangle(corners[0], corners[1], corners[2], colour);
       if (!with_edges) continue;
       for (int k = 0; k < 3; ++k) {
-        // Each edge belongs to two triangles and is drawn by one of them.
+        // Each edge belongs to two triangles; draw it once.
         if (t[k] > t[(k + 1) % 3]) continue;
         view.line(corners[k], corners[(k + 1) % 3], 0.6, {18, 48, 26});
       }
@@ -181,7 +181,7 @@ void draw_row_meshes(const RowMap& map, CloudView& view, bool with_edges) {
   }
 }
 
-/// A picture on a canvas with a strip below.
+/// Canvas with a picture and a strip below it.
 Canvas framed(const render::Image& picture, int strip_px) {
   Canvas canvas(picture.width, picture.height + strip_px, kPaper);
   canvas.paste(picture, 0, 0);
@@ -202,13 +202,13 @@ std::string millions(std::int64_t count) {
                          : fmt::format("{:.1f} million", 1e-6 * static_cast<double>(count));
 }
 
-/// On the canopy at the ends that are nearer to the eye: before them, on a slope, a number would
-/// stand beside the next row.
+/// Draws the row numbers on the canopy at the nearer row ends. In front of the ends, on a slope, a
+/// number would be next to another row.
 void draw_row_numbers(Canvas& canvas, const CloudView& view, const RowMap& map,
                       const render::Camera& camera) {
   constexpr int kSize_px = 17;
   constexpr double kRadius_px = 13.0;
-  constexpr double kHeight = 0.75;  // of the canopy's top
+  constexpr double kHeight = 0.75;  // share of the canopy's top
   std::optional<Vector2d> drawn;
   const auto& middle = map.rows[map.rows.size() / 2].line_W;
   const auto way_m = [&](const Vector3d& p) { return (p - camera.X_WC.p).norm(); };
@@ -216,7 +216,7 @@ void draw_row_numbers(Canvas& canvas, const CloudView& view, const RowMap& map,
   for (const PlantRow& row : map.rows) {
     const Vector3d& end = last ? row.line_W.back() : row.line_W.front();
     const auto at = view.pixel_of(end + Vector3d(0.0, 0.0, kHeight * row.canopy_top_m));
-    // Nearer ones are left out: they could not be read.
+    // Leave out numbers that would overlap.
     if (!at || (drawn && (*at - *drawn).norm() < 2.0 * kRadius_px)) continue;
     drawn = at;
     std::vector<Vector2d> disc;
@@ -230,7 +230,7 @@ void draw_row_numbers(Canvas& canvas, const CloudView& view, const RowMap& map,
   }
 }
 
-/// Middle of the row that is nearest to the middle of the block and has canopy there.
+/// Middle of the row nearest to the middle of the block that has canopy there.
 Vector3d stretch_middle(const RowMap& map) {
   const PlantRow& row = map.rows[map.rows.size() / 2];
   Vector3d wanted = row.line_W[row.line_W.size() / 2];
@@ -257,16 +257,17 @@ render::Image draw_classes(const mapping::CloudMap& map, const mapping::ParcelCl
       parcel_camera(map.map, static_cast<double>(kPictureWidth) / kHeight);
   CloudView view(camera, kPictureWidth, kHeight);
   draw_ground_below_rows(scene, view);
-  splat_cloud(scene, view, true, kMostSplats);
+  splat_cloud(scene, view, true, kMaxSplats);
   Canvas canvas = framed(view.finish(kPaper), kStrip);
   draw_row_numbers(canvas, view, map.map, camera);
   const mapping::CloudMapReport& r = map.report;
   canvas.text(title, 22, {kNarrowMargin, kHeight + 26.0}, kInk);
-  draw_class_legend(canvas, kHeight + 44.0,
-                    {{kRows[0], "canopy, rows in turn: " + share_text(r.canopy_points, r.points)},
-                     {kGroundPoints, "ground: " + share_text(r.ground_points, r.points)},
-                     {kLow, "low vegetation: " + share_text(r.low_points, r.points)},
-                     {kOther, "other: " + share_text(r.other_points, r.points)}});
+  draw_class_legend(
+      canvas, kHeight + 44.0,
+      {{kRows[0], "canopy, rows alternating: " + share_text(r.canopy_points, r.points)},
+       {kGroundPoints, "ground: " + share_text(r.ground_points, r.points)},
+       {kLow, "low vegetation: " + share_text(r.low_points, r.points)},
+       {kOther, "other: " + share_text(r.other_points, r.points)}});
   const std::string size =
       fmt::format("{} points, {:.0f} per m²", millions(r.points), r.density_per_m2);
   canvas.text(size, 16,
@@ -283,10 +284,10 @@ render::Image draw_meshes(const mapping::CloudMap& map, const mapping::ParcelClo
       parcel_camera(map.map, static_cast<double>(kPictureWidth) / kHeight);
   CloudView whole(whole_camera, kPictureWidth, kHeight);
   draw_ground_below_rows(scene, whole);
-  splat_cloud(scene, whole, false, kMostSplats / 2);
+  splat_cloud(scene, whole, false, kMaxSplats / 2);
   draw_row_meshes(map.map, whole, false);
 
-  // A few metres of three rows, seen from their side.
+  // A few metres of three rows, seen from the side.
   const Vector2d along = mean_direction(map.map);
   const Vector3d middle = stretch_middle(map.map);
   constexpr double kReach_m = 3.2, kDetailReach_m = 12.0;
@@ -305,7 +306,7 @@ render::Image draw_meshes(const mapping::CloudMap& map, const mapping::ParcelClo
                                               static_cast<double>(kHalf) / kDetailHeight, 0.02);
   constexpr float kSoft = 0.25f;
   CloudView points(camera, kHalf, kDetailHeight), meshes(camera, kHalf, kDetailHeight);
-  // Near by every point counts, and few are there.
+  // Near the camera draw every point: there are few.
   const float size_m = std::max(0.02f, scene.splat_m(1));
   for (std::size_t k = 0; k < cloud.points.size(); ++k) {
     const Vector3d p = cloud.point_W(k);
@@ -326,7 +327,7 @@ render::Image draw_meshes(const mapping::CloudMap& map, const mapping::ParcelClo
   const mapping::CloudMapReport& r = map.report;
   canvas.text(title, 22, {kNarrowMargin, top + 26.0}, kInk);
   canvas.text(
-      fmt::format("Above: the parcel with its row meshes. Below: the points of a stretch of "
+      fmt::format("Above: the parcel with its row meshes. Below: the points of a section of "
                   "row {}, and its mesh.",
                   map.map.rows[map.map.rows.size() / 2].id),
       16, {kNarrowMargin, top + 54.0}, kFaint);

@@ -23,7 +23,7 @@ using mapping::PointClass;
 constexpr Rgb kRowLine = {255, 255, 255}, kRowEnd = {196, 40, 40}, kNoCanopy = {236, 112, 20};
 constexpr Rgb kMapContour = {170, 150, 116}, kUnseenGround = {240, 236, 226};
 constexpr int kTallestTop = 1300, kTopLegend = 110;
-constexpr std::size_t kMostPoints = 12'000'000;
+constexpr std::size_t kMaxPoints = 12'000'000;
 
 PlanView plan_of(const RowMap& map) {
   Eigen::AlignedBox2d box;
@@ -34,17 +34,17 @@ PlanView plan_of(const RowMap& map) {
   return {box.min(), box.sizes().cwiseMax(1.0), kNumberedMargin, kTallestTop, kTopLegend};
 }
 
-/// What of the cloud falls on each pixel.
+/// Content of the cloud per pixel.
 struct CanopyPixels {
   std::vector<float> canopy_m;       ///< highest canopy above the ground; 0: none
-  std::vector<std::uint8_t> others;  ///< a point of no row that is as high as canopy
+  std::vector<std::uint8_t> others;  ///< 1: a point as high as canopy that belongs to no row
 
   CanopyPixels(const PlanView& view, const mapping::CloudMap& map,
                const mapping::ParcelCloud& cloud)
       : canopy_m(static_cast<std::size_t>(kPictureWidth) * view.map_height, 0.0f),
         others(canopy_m.size(), 0) {
     const std::size_t stride =
-        std::max<std::size_t>(1, (cloud.points.size() + kMostPoints - 1) / kMostPoints);
+        std::max<std::size_t>(1, (cloud.points.size() + kMaxPoints - 1) / kMaxPoints);
     for (std::size_t k = 0; k < cloud.points.size(); k += stride) {
       const mapping::PointClass is = cloud.classes[k];
       if (is != mapping::PointClass::kCanopy && is != mapping::PointClass::kOther) continue;
@@ -63,7 +63,7 @@ struct CanopyPixels {
   }
 };
 
-/// Whole metres between contour lines, so that there are a dozen of them.
+/// Contour interval in whole metres that gives about a dozen lines.
 double contour_step_m(const HeightField& terrain) {
   const auto [low, high] = std::minmax_element(terrain.heights_m.begin(), terrain.heights_m.end());
   const double wanted_m = (*high - *low) / 12.0;
@@ -73,7 +73,8 @@ double contour_step_m(const HeightField& terrain) {
   return 50.0;
 }
 
-/// Light from the north-west on a pale ground, and lines of equal height. @returns their step
+/// Draws hill shading with light from the north-west, and contour lines. @returns the contour
+/// interval
 double draw_shaded_ground(Canvas& canvas, const PlanView& view, const HeightField& terrain) {
   const Vector3d light = Vector3d(-1.0, 1.0, 2.2).normalized();
   const double step_m = contour_step_m(terrain), pixel_m = 1.0 / view.px_per_m;
@@ -103,7 +104,7 @@ double draw_shaded_ground(Canvas& canvas, const PlanView& view, const HeightFiel
   return step_m;
 }
 
-/// Heights from the lowest leaves to the highest, dark to light.
+/// Colour of a canopy height, from dark (lowest) to light (highest).
 Rgb canopy_colour(double height_m, double low_m, double high_m) {
   return viridis(0.12 + 0.85 * std::clamp((height_m - low_m) / (high_m - low_m), 0.0, 1.0));
 }
@@ -130,8 +131,8 @@ void draw_disc(Canvas& canvas, const Vector2d& at, double radius_px, const Rgb& 
 }
 
 void draw_rows(Canvas& canvas, const PlanView& view, const mapping::CloudMap& map) {
-  constexpr double kApart_px = 15.0;  // numbers nearer than that could not be read
-  std::optional<Vector2d> drawn[2];   // of either end
+  constexpr double kApart_px = 15.0;  // closer numbers would overlap
+  std::optional<Vector2d> drawn[2];   // for each end
   for (std::size_t k = 0; k < map.map.rows.size(); ++k) {
     const PlantRow& row = map.map.rows[k];
     std::vector<Vector2d> line_W;
@@ -155,7 +156,7 @@ void draw_rows(Canvas& canvas, const PlanView& view, const mapping::CloudMap& ma
       std::optional<Vector2d>& before = drawn[last ? 1 : 0];
       if (before && (at - *before).norm() < kApart_px) continue;
       before = at;
-      // End posts lean out under the number.
+      // Leave space for end posts, which lean outwards.
       const Vector2d middle = at + 19.0 * out;
       draw_disc(canvas, middle, 9.5, kPaper);
       canvas.text(std::to_string(row.id), 15, middle + Vector2d(0.0, 5.4), kInk, 0.5);
@@ -208,7 +209,7 @@ render::Image draw_top(const mapping::CloudMap& map, const mapping::ParcelCloud&
                        const std::string& title) {
   const PlanView view = plan_of(map.map);
   Canvas canvas(kPictureWidth, view.height, kPaper);
-  // The parcel may be larger than the ground that the cloud shows.
+  // The parcel may be larger than the ground in the cloud.
   canvas.fill(view(map.map.boundary_W), kUnseenGround);
   const double contour_m =
       map.map.terrain ? draw_shaded_ground(canvas, view, *map.map.terrain) : 0.0;
@@ -231,7 +232,7 @@ render::Image draw_top(const mapping::CloudMap& map, const mapping::ParcelCloud&
       kPaper);
   canvas.text(title, 22, {kNumberedMargin, top + 26.0}, kInk);
   const mapping::CloudMapReport& r = map.report;
-  canvas.text(fmt::format("{} rows, {:.0f} m of them, {:.2f} m apart, bearing {:.1f}°",
+  canvas.text(fmt::format("{} rows, total length {:.0f} m, {:.2f} m apart, bearing {:.1f}°",
                           r.rows.size(), length_m, r.spacing_m, r.bearing_deg),
               16, {kNumberedMargin, top + 52.0}, kFaint);
   draw_top_legend(canvas, top + 82.0, low_m, high_m, has_gaps, contour_m);

@@ -8,17 +8,17 @@ namespace vinerow::tools {
 std::string comparison_text(const mapping::MapComparison& c, const mapping::CloudMap& map,
                             const mapping::CloudTruth& truth) {
   std::string out = "against the truth\n";
-  out += fmt::format("  rows found     {} of {}{}\n", c.found(), c.rows.size(),
-                     c.extra_rows.empty()
-                         ? ""
-                         : fmt::format(", and {} where there are none: {}", c.extra_rows.size(),
-                                       fmt::join(c.extra_rows, ", ")));
+  out +=
+      fmt::format("  rows found     {} of {}{}\n", c.found(), c.rows.size(),
+                  c.extra_rows.empty() ? ""
+                                       : fmt::format(", and {} false rows: {}", c.extra_rows.size(),
+                                                     fmt::join(c.extra_rows, ", ")));
   out +=
       fmt::format("  direction      {:+.4f} deg of {:.4f} deg\n", c.bearing_deg, truth.bearing_deg);
   out += fmt::format("  spacing        {:+.4f} m of {:.4f} m\n", c.spacing_m, truth.spacing_m);
-  out += fmt::format("  row ends       {:.3f} m off in the mean, {:.3f} m at worst\n",
-                     c.mean_end_m(), c.worst_end_m());
-  out += fmt::format("  volume         {:+.2f} % of {:.2f} m3; of the canopy seen {:+.2f} %\n",
+  out += fmt::format("  row ends       {:.3f} m mean error, {:.3f} m maximum\n", c.mean_end_m(),
+                     c.worst_end_m());
+  out += fmt::format("  volume         {:+.2f} % of {:.2f} m3; canopy seen {:+.2f} %\n",
                      100.0 * c.volume_share, truth.volume_m3, 100.0 * c.seen_volume_share);
   out += fmt::format("  containment    {:.2f} % within 1 cm\n", 100.0 * map.report.containment);
   out += fmt::format("  {:>4} {:>6} {:>9} {:>8} {:>8} {:>8} {:>7} {:>7} {:>7} {:>8} {:>9}\n", "row",

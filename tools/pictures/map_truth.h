@@ -1,5 +1,5 @@
 #pragma once
-/// How far a map is from what is true of its parcel, for a terminal.
+/// Comparison of a map with the truth of its parcel, as text for a terminal.
 
 #include <string>
 
@@ -7,7 +7,7 @@
 
 namespace vinerow::tools {
 
-/// A table: all rows together, then row by row.
+/// Table: all rows together, then row by row.
 std::string comparison_text(const mapping::MapComparison& comparison, const mapping::CloudMap& map,
                             const mapping::CloudTruth& truth);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The commands' pictures are drawn with what the renderer writes over its own.
+/// Canvas of the commands' pictures: that of the renderer's overlays.
 
 #include "engine/render/canvas.h"
 

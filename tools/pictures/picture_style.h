@@ -1,5 +1,5 @@
 #pragma once
-/// Colours and sizes that the command's pictures share.
+/// Colours and sizes shared by the command's pictures.
 
 #include "tools/pictures/picture_canvas.h"
 
@@ -10,8 +10,8 @@ inline constexpr Rgb kBoundary = {30, 34, 36};  ///< a parcel's edge on maps of 
 
 // All in pixels.
 inline constexpr int kPictureWidth = 1600;
-inline constexpr int kTallestPlan = 1500;   ///< of one that is drawn from above
-inline constexpr int kNarrowMargin = 28;    ///< around what ends at the ground that it shows
-inline constexpr int kNumberedMargin = 44;  ///< around what has numbers at its ends
+inline constexpr int kTallestPlan = 1500;   ///< largest height of a top view
+inline constexpr int kNarrowMargin = 28;    ///< margin without numbers
+inline constexpr int kNumberedMargin = 44;  ///< margin with numbers at the row ends
 
 }  // namespace vinerow::tools

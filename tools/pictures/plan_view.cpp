@@ -16,7 +16,7 @@ PlanView::PlanView(const Vector2d& corner, const Vector2d& size_m, int margin_px
   px_per_m = std::min(room / size_m.x(), (tallest - 2.0 * margin) / size_m.y());
   map_height = static_cast<int>(std::ceil(size_m.y() * px_per_m)) + 2 * margin;
   height = map_height + strip;
-  // What is tall is narrower than the picture: it comes into the middle.
+  // Centre a map that is narrower than the picture.
   corner_W.x() -= 0.5 * (room / px_per_m - size_m.x());
 }
 

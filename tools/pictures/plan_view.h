@@ -1,23 +1,23 @@
 #pragma once
-/// Where places of the world lie on a picture from above.
+/// Projection of the world to a top view.
 
 #include <Eigen/Core>
 #include <vector>
 
 namespace vinerow::tools {
 
-/// World to pixels: north up, all that is shown with a margin, a strip below for the legend.
+/// World to pixels: north up, a margin around the content, a strip below for the legend.
 struct PlanView {
-  Eigen::Vector2d corner_W;  ///< at the margin, lower left
+  Eigen::Vector2d corner_W;  ///< lower left corner inside the margin
   double px_per_m;
-  int margin, map_height, height;  ///< px; the map with its margin, and with the strip
+  int margin, map_height, height;  ///< px; height of the map with margin, and with the strip
 
-  /// @param corner_W, size_m  box that is shown, as large as it fits  @param tallest  of the map
-  /// with its margin, px  @param strip  below the map, px
+  /// @param corner_W, size_m  box to show, as large as it fits  @param tallest  maximum height of
+  /// the map with its margin, px  @param strip  height of the strip below the map, px
   PlanView(const Eigen::Vector2d& corner_W, const Eigen::Vector2d& size_m, int margin, int tallest,
            int strip);
 
-  /// In pixels.
+  /// Position in pixels.
   Eigen::Vector2d operator()(const Eigen::Vector2d& p_W) const {
     return {margin + (p_W.x() - corner_W.x()) * px_per_m,
             map_height - margin - (p_W.y() - corner_W.y()) * px_per_m};
@@ -27,7 +27,7 @@ struct PlanView {
   }
   std::vector<Eigen::Vector2d> operator()(const std::vector<Eigen::Vector2d>& polygon_W) const;
 
-  /// The place of a pixel.
+  /// World position of a pixel.
   Eigen::Vector2d world(double x, double y) const {
     return corner_W + Eigen::Vector2d(x - margin, map_height - margin - y) / px_per_m;
   }

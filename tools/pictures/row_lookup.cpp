@@ -12,9 +12,9 @@ RowLookup::RowLookup(const std::vector<PlantRow>& rows, double reach_m) {
     for (const Eigen::Vector3d& p : row.line_W) box.extend(Eigen::Vector2d(p.head<2>()));
   }
   if (box.isEmpty()) return;
-  constexpr double kMostCells = 2e7;
+  constexpr double kMaxCells = 2e7;
   const Eigen::Vector2d size = box.sizes() + Eigen::Vector2d::Constant(2.0 * reach_m);
-  cell_m_ = std::max(cell_m_, std::sqrt(size.prod() / kMostCells));
+  cell_m_ = std::max(cell_m_, std::sqrt(size.prod() / kMaxCells));
   corner_W_ = box.min() - Eigen::Vector2d::Constant(reach_m);
   columns_ = static_cast<int>(std::ceil(size.x() / cell_m_)) + 1;
   rows_ = static_cast<int>(std::ceil(size.y() / cell_m_)) + 1;

@@ -1,5 +1,5 @@
 #pragma once
-/// Which plant row stands at a place, for pictures.
+/// Lookup of plant rows by position, for pictures.
 
 #include <Eigen/Geometry>
 #include <cstdint>
@@ -9,10 +9,10 @@
 
 namespace vinerow::tools {
 
-/// Index of the nearest row for every square of a grid over the block.
+/// Grid over the block with the index of the nearest row in each cell.
 class RowLookup {
  public:
-  /// @param reach_m  farther from every row's line there is none
+  /// @param reach_m  maximum distance from a row's line
   RowLookup(const std::vector<PlantRow>& rows, double reach_m);
   /// Index into the rows, or -1.
   int row_at(double x, double y) const;

@@ -19,7 +19,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr Rgb kNoGround = {214, 212, 206}, kArea = {20, 24, 26}, kWay = {92, 98, 100};
+constexpr Rgb kNoGround = {214, 212, 206}, kArea = {20, 24, 26}, kPath = {92, 98, 100};
 constexpr Rgb kSurveyContour = {150, 140, 116}, kFootprint = {214, 84, 26}, kStart = {196, 40, 40};
 constexpr int kSurveyLegend = 122;
 
@@ -34,7 +34,7 @@ std::vector<Vector2d> footprint_of(const SurveyCamera& camera,
           middle + along - across};
 }
 
-/// Heights at every second pixel, for shading and contour lines.
+/// Relief: heights at every second pixel, for shading and contour lines.
 class Relief {
  public:
   Relief(const PlanView& view, const controllers::GroundHeight& ground)
@@ -49,7 +49,8 @@ class Relief {
     }
   }
 
-  /// Light from the north-west, and lines of equal height. @returns the step of the lines
+  /// Draws hill shading with light from the north-west, and contour lines. @returns the contour
+  /// interval
   double draw(Canvas& canvas, const PlanView& view) const {
     const double step_m = contour_step_m(), relief = exaggeration(view);
     for (int j = 0; j + 1 < rows_; ++j) {
@@ -90,7 +91,8 @@ class Relief {
   std::optional<double> at(int i, int j) const {
     return heights_m_[static_cast<std::size_t>(j) * kColumns + i];
   }
-  /// Mountains are shaded as if they were hills, so that what is drawn on them can be seen.
+  /// Factor on slopes for shading: mountains are shaded like hills, so that drawings on them stay
+  /// visible.
   double exaggeration(const PlanView& view) const {
     double sum = 0.0;
     int count = 0;
@@ -102,7 +104,7 @@ class Relief {
         ++count;
       }
     }
-    constexpr double kPleasant = 0.16;  // mean slope
+    constexpr double kPleasant = 0.16;  // mean slope after scaling
     return std::min(1.5, kPleasant / std::max(0.01, count > 0 ? sum / count : 0.0));
   }
   double contour_step_m() const {
@@ -118,7 +120,8 @@ class Relief {
   double low_m_ = 1e9, high_m_ = -1e9;
 };
 
-/// The lane's place in the order, as a colour; the bright end is left out, it is lost on paper.
+/// Colour of a lane by its position in the order, without the bright end of the scale, which is not
+/// visible on paper.
 Rgb colour_of(const controllers::SurveyPlan& plan, int lane) {
   const auto at = std::find(plan.order.begin(), plan.order.end(), lane);
   const double count = std::max(1.0, static_cast<double>(plan.order.size()) - 1.0);
@@ -133,7 +136,7 @@ void draw_arrow(Canvas& canvas, const Vector2d& tip, const Vector2d& way, double
               colour);
 }
 
-void draw_way(Canvas& canvas, const PlanView& view, const controllers::SurveyPlan& plan) {
+void draw_path(Canvas& canvas, const PlanView& view, const controllers::SurveyPlan& plan) {
   const auto& points = plan.path.points;
   for (const bool lanes : {false, true}) {
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
@@ -145,8 +148,8 @@ void draw_way(Canvas& canvas, const PlanView& view, const controllers::SurveyPla
         continue;
       }
       const bool is_turn = points[i].kind == PathKind::kTurn;
-      canvas.line(a, b, is_turn ? 2.0 : 1.4, kWay, is_turn ? 0.95 : 0.7);
-      if ((b - a).norm() > 70.0) draw_arrow(canvas, 0.5 * (a + b), b - a, 6.0, kWay);
+      canvas.line(a, b, is_turn ? 2.0 : 1.4, kPath, is_turn ? 0.95 : 0.7);
+      if ((b - a).norm() > 70.0) draw_arrow(canvas, 0.5 * (a + b), b - a, 6.0, kPath);
     }
   }
 }
@@ -157,14 +160,14 @@ void draw_waypoints(Canvas& canvas, const PlanView& view, const controllers::Sur
   for (std::size_t i = 0; i < plan.path.points.size(); ++i) {
     const PathPoint& point = plan.path.points[i];
     const Vector2d at = view(point.p_W);
-    const Rgb colour = point.alley >= 0 ? colour_of(plan, point.alley) : kWay;
+    const Rgb colour = point.alley >= 0 ? colour_of(plan, point.alley) : kPath;
     canvas.fill({at + Vector2d(0, -4.5), at + Vector2d(4.5, 0), at + Vector2d(0, 4.5),
                  at + Vector2d(-4.5, 0)},
                 kPaper);
     canvas.outline({at + Vector2d(0, -4.5), at + Vector2d(4.5, 0), at + Vector2d(0, 4.5),
                     at + Vector2d(-4.5, 0)},
                    1.6, colour);
-    // Beside the way, where no other number is.
+    // Next to the path, where no other number is.
     const Vector2d way = controllers::direction(point.yaw_rad);
     const Vector2d beside(-way.y(), -way.x());
     for (const double side : {1.0, -1.0}) {
@@ -192,7 +195,7 @@ void draw_survey_legend(Canvas& canvas, double y, const controllers::SurveyPlan&
   }
   x += 98.0;
   words(fmt::format("lanes, first to last ({})", plan.order.size()));
-  canvas.line({x, y}, {x + 30, y}, 2.0, kWay);
+  canvas.line({x, y}, {x + 30, y}, 2.0, kPath);
   x += 38.0;
   words("turns and transit legs");
   canvas.outline({{x, y - 7}, {x + 24, y - 7}, {x + 24, y + 7}, {x, y + 7}}, 2.0, kFootprint);
@@ -228,7 +231,7 @@ render::Image draw_survey(const controllers::SurveyRequest& request,
   canvas.fill(area, kPaper, 0.35);
   canvas.outline(area, 2.5, kArea);
   canvas.fill(footprint, kFootprint, 0.16);
-  draw_way(canvas, view, plan);
+  draw_path(canvas, view, plan);
   canvas.outline(footprint, 2.0, kFootprint);
   const Vector2d middle = view(shown.p_W);
   canvas.line(middle - Vector2d(6, 0), middle + Vector2d(6, 0), 2.0, kFootprint);
@@ -247,13 +250,12 @@ render::Image draw_survey(const controllers::SurveyRequest& request,
               kPaper);
   canvas.text(title, 22, {kNumberedMargin, top + 30.0}, kInk);
   canvas.text(
-      fmt::format(
-          "{} at {:.0f} m: {:.1f} mm a pixel; {:.0f} lanes {:.1f} m apart; {} waypoints; "
-          "{} pictures, overlap {:.0f} % forward, {:.0f} % sideways; {:.1f} km in {:.0f} min",
-          request.camera.name, request.height_m, number("gsd_mm"), number("lanes"),
-          number("lane_spacing_m"), plan.path.points.size(), plan.shots.size(),
-          100.0 * number("forward_overlap_min"), 100.0 * number("side_overlap_min"),
-          1e-3 * number("length_m"), number("flight_time_s") / 60.0),
+      fmt::format("{} at {:.0f} m: {:.1f} mm per pixel; {:.0f} lanes {:.1f} m apart; {} waypoints; "
+                  "{} pictures, overlap {:.0f} % forward, {:.0f} % side; {:.1f} km in {:.0f} min",
+                  request.camera.name, request.height_m, number("gsd_mm"), number("lanes"),
+                  number("lane_spacing_m"), plan.path.points.size(), plan.shots.size(),
+                  100.0 * number("forward_overlap_min"), 100.0 * number("side_overlap_min"),
+                  1e-3 * number("length_m"), number("flight_time_s") / 60.0),
       16, {kNumberedMargin, top + 57.0}, kFaint);
   draw_survey_legend(canvas, top + 90.0, plan, contour_m, relief.is_flat());
   draw_scale_bar(canvas, {kPictureWidth - kNumberedMargin, top + 96.0},

@@ -1,5 +1,5 @@
 #pragma once
-/// The top view of a planned survey, as in figure 6 of paper A.
+/// Top view of a planned survey, as in figure 6 of paper A.
 
 #include <string>
 
@@ -9,8 +9,8 @@
 
 namespace vinerow::tools {
 
-/// North is up. Terrain shaded with contour lines, the area, lanes coloured in the order flown,
-/// waypoints numbered, turns and the ways there and home thin, the footprint of one picture.
+/// North is up. Shows shaded terrain with contour lines, the area, lanes coloured in flight order,
+/// numbered waypoints, turns and transits as thin lines, and the footprint of one picture.
 /// @param title  first line below the map
 render::Image draw_survey(const controllers::SurveyRequest& request,
                           const controllers::SurveyPlan& plan,

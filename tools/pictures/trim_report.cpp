@@ -26,7 +26,8 @@ std::vector<controllers::FlightMode> without_integrators(const controllers::Line
   return modes;
 }
 
-/// Of two oscillations the slow one is the phugoid, the fast one the short period.
+/// Longitudinal modes: of two oscillations the slow one is the phugoid, the fast one the short
+/// period.
 std::vector<NamedMode> name_lon(const controllers::LinearAxis& axis) {
   std::vector<NamedMode> named;
   const std::vector<controllers::FlightMode> modes = without_integrators(axis);
@@ -37,7 +38,8 @@ std::vector<NamedMode> name_lon(const controllers::LinearAxis& axis) {
   return named;
 }
 
-/// One oscillation, the dutch roll; the slow real root is the spiral, the fast one the roll.
+/// Lateral modes: the oscillation is the dutch roll, the slow real root the spiral, the fast one
+/// the roll.
 std::vector<NamedMode> name_lat(const controllers::LinearAxis& axis) {
   std::vector<NamedMode> named;
   const std::vector<controllers::FlightMode> modes = without_integrators(axis);
@@ -118,7 +120,7 @@ TrimReport make_trim_report(const controllers::Aircraft& aircraft,
 
 std::string to_text(const TrimReport& report) {
   const controllers::Trim& t = report.trim;
-  // Rounding shall not show as "-0.000".
+  // Avoid "-0.000" from rounding.
   const auto deg = [](double angle_rad) {
     return std::round(deg_from_rad(angle_rad) * 1e6) * 1e-6 + 0.0;
   };
@@ -146,11 +148,11 @@ std::string to_text(const TrimReport& report) {
   const auto climb = [&](const std::optional<double>& angle_rad) {
     return angle_rad ? fmt::format("{:.2f} deg", deg(*angle_rad)) : std::string("none");
   };
-  line("climb", fmt::format("{} without power to {} at full throttle", climb(report.climb_min_rad),
-                            climb(report.climb_max_rad)));
+  line("climb", fmt::format("{} at zero throttle to {} at full throttle",
+                            climb(report.climb_min_rad), climb(report.climb_max_rad)));
   const double V = t.request.airspeed_mps;
   line("level turn",
-       fmt::format("bank {:.2f} deg at most, radius {:.2f} m", deg(report.bank_max_rad),
+       fmt::format("bank at most {:.2f} deg, radius {:.2f} m", deg(report.bank_max_rad),
                    V * V / (report.aircraft.gravity_mps2 * std::tan(report.bank_max_rad))));
   const auto axis = [&](const char* title, const std::vector<NamedMode>& modes,
                         const controllers::AxisLaw& law) {

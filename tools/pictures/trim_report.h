@@ -1,6 +1,6 @@
 #pragma once
-/// What `vinerow trim` tells of a vehicle on wings: steady flight, modes, sampled linear models
-/// with their LQR gains, and how slow, fast, steep and banked it can fly.
+/// Report of `vinerow trim` on a fixed-wing vehicle: steady flight, modes, sampled linear models
+/// with their LQR gains, and limits of speed, climb and bank.
 
 #include <optional>
 #include <string>
@@ -22,9 +22,9 @@ struct TrimReport {
   double period_s = 0.05;
   std::vector<NamedMode> lon_modes, lat_modes;  ///< without the integrators of height and heading
   controllers::AircraftLaws laws;
-  controllers::SpeedRange level;  ///< straight and level
-  /// At the trim's speed with wings level: full throttle and none. Absent where the elevons do not
-  /// hold it.
+  controllers::SpeedRange level;  ///< speeds of straight and level flight
+  /// Climb angles at the trim's speed with wings level, at full and zero throttle. Absent if the
+  /// elevons cannot hold them.
   std::optional<double> climb_max_rad, climb_min_rad;
   double bank_max_rad = 0.0;  ///< steepest level turn at the trim's speed
 };
@@ -34,9 +34,9 @@ TrimReport make_trim_report(const controllers::Aircraft& aircraft,
                             const controllers::TrimRequest& request, double period_s,
                             const std::string& who);
 
-/// Several lines, angles in deg.
+/// Report as text, angles in deg.
 std::string to_text(const TrimReport& report);
-/// SI and rad, keys with units; matrices as lists of rows.
+/// Report as JSON in SI units and rad, keys with units; matrices are lists of rows.
 std::string to_json(const TrimReport& report);
 
 }  // namespace vinerow::tools

@@ -1,6 +1,6 @@
 #pragma once
-/// Bytes as text inside a page. Source: RFC 4648, "The Base16, Base32, and Base64 Data Encodings",
-/// section 4.
+/// Base64 encoding of bytes embedded in a page. Source: RFC 4648, "The Base16, Base32, and Base64
+/// Data Encodings", section 4.
 
 #include <string>
 #include <string_view>

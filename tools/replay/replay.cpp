@@ -19,7 +19,7 @@ namespace {
 
 using nlohmann::json;
 
-/// What stands in a page's text, where < and & would begin markup.
+/// Text for a page, with < > & escaped.
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -28,7 +28,7 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-/// JSON inside a script element: no text may end the element or look like a comment.
+/// JSON for a script element: no text in it ends the element or looks like a comment.
 std::string script_json(const json& value) {
   std::string out;
   for (const char c : value.dump(-1, ' ', false, json::error_handler_t::replace)) {

@@ -1,6 +1,6 @@
 #pragma once
-/// A run as a scene in three dimensions that a browser plays without a network: world, vehicles,
-/// their plans and trails, to orbit, scrub and follow.
+/// Replay of a run as a 3D scene that a browser plays without a network: world, vehicles, their
+/// plans and trails, with a time slider, and free and following cameras.
 
 #include <memory>
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace vinerow::tools {
 
-/// A stretch of the run with a name, marked on the time slider.
+/// Named time span of the run, marked on the time slider.
 struct ReplayPhase {
   std::string name;
   double begin_s = 0.0;
@@ -21,7 +21,7 @@ struct ReplayPhase {
   std::string state;  ///< "succeeded", "failed", "blocked", "stopped"
 };
 
-/// What a replay shows. Pointers are read while the section is made, and not kept.
+/// Data of a replay. Pointers are used while the section is made and not kept.
 struct ReplayInput {
   const scenario::Scenario* scenario = nullptr;
   const WorldModel* world = nullptr;
@@ -30,26 +30,26 @@ struct ReplayInput {
   std::vector<ReplayPhase> phases;
 };
 
-/// Limits that keep a page quick to open. What goes beyond them is made coarser, and a note says
-/// so.
+/// Limits that keep a page quick to open. Content beyond them is made coarser, and a note reports
+/// it.
 struct ReplayLimits {
   std::size_t leaf_bytes = 1'900'000;   ///< meshes of leaves
-  std::size_t solid_bytes = 3'000'000;  ///< all other meshes but the terrain
+  std::size_t solid_bytes = 3'000'000;  ///< all other meshes except the terrain
   int terrain_samples = 40'000;
   std::size_t track_bytes = 1'600'000;  ///< poses over time
   std::size_t plan_points = 60'000;     ///< of all plans
 };
 
-/// Whether this program was built with the library that draws replays; if not, why.
+/// Whether this program was built with the library that draws replays, and the reason if not.
 bool has_replay();
 std::string replay_absence();
 
-/// A piece of HTML (style, canvas, data and scripts; a few megabytes) for the body of a page, once
-/// per page. It refers to nothing outside itself. The same input gives the same bytes. Without
-/// has_replay() it is a paragraph that says why there is none.
+/// HTML (style, canvas, data and scripts; a few megabytes) for the body of a page, once per page.
+/// It refers to nothing outside itself. The same input gives the same bytes. Without has_replay()
+/// it is a paragraph that gives the reason.
 std::string replay_section(const ReplayInput& input, const ReplayLimits& limits = {});
 
-/// A page of its own that is nothing but the replay.
+/// Complete page that contains only the replay.
 std::string replay_page(const ReplayInput& input, const ReplayLimits& limits = {});
 
 }  // namespace vinerow::tools

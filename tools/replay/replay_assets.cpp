@@ -1,6 +1,6 @@
 #include "tools/replay/replay_assets.h"
 
-// Symbols of the assembly file that replay.cmake writes: where each file begins and ends.
+// Symbols of the assembly file that replay.cmake writes: start and end of each file.
 #define VINEROW_ASSET(name)                     \
   extern "C" const char vinerow_asset_##name[]; \
   extern "C" const char vinerow_asset_##name##_end[]

@@ -30,7 +30,7 @@ TriangleMesh cluster_vertices(const TriangleMesh& mesh, double cell_m) {
       members.push_back(0.0f);
     }
     cluster[i] = place->second;
-    // Means are taken as they grow: sums of far coordinates would lose digits.
+    // Running mean: sums of large coordinates would lose digits.
     const float share = 1.0f / (members[place->second] += 1.0f);
     Eigen::Vector3f& mean = out.vertices[place->second];
     mean += share * (mesh.vertices[i] - mean);
@@ -57,7 +57,7 @@ TriangleMesh thin_cards(const TriangleMesh& mesh, int keep_every) {
   TriangleMesh out;
   std::size_t card = 0;
   for (std::size_t begin = 0; begin < mesh.triangles.size(); ++card) {
-    // A card's triangles lie in one range of vertices that no other card has.
+    // The vertices of a card's triangles are one range that no other card uses.
     auto [first, last] =
         std::minmax({mesh.triangles[begin][0], mesh.triangles[begin][1], mesh.triangles[begin][2]});
     std::size_t end = begin + 1;
@@ -102,12 +102,12 @@ float sample(const HeightField& field, int i, int j) {
 
 }  // namespace
 
-int stride_for(const HeightField& field, int most_samples) {
-  VINEROW_DEMAND(most_samples >= 9);
+int stride_for(const HeightField& field, int max_samples) {
+  VINEROW_DEMAND(max_samples >= 9);
   int stride = 1;
   while (static_cast<std::int64_t>(samples_with(field.columns, stride)) *
              samples_with(field.rows, stride) >
-         most_samples) {
+         max_samples) {
     ++stride;
   }
   return stride;

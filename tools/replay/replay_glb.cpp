@@ -17,11 +17,11 @@ using nlohmann::json;
 static_assert(std::endian::native == std::endian::little,
               "the glTF writer copies memory as little-endian");
 
-// Of the specification: types of components, of primitives, of buffer views.
+// Constants of the specification: component types, primitive modes, buffer view targets.
 constexpr int kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123,
               kUnsignedInt = 5125, kTriangles = 4;
 constexpr int kVertices = 34962, kIndices = 34963;
-constexpr double kMostShort = 32767.0;
+constexpr double kMaxShort = 32767.0;
 
 template <class T>
 void append_values(std::string& bytes, std::initializer_list<T> values) {
@@ -34,7 +34,7 @@ void append_word(std::string& bytes, std::size_t number) {
   append_values(bytes, {static_cast<std::uint32_t>(number)});
 }
 
-/// To a micrometre: longer numbers are half of a scene's text.
+/// Value rounded to a micrometre: longer numbers would double a scene's text.
 double rounded(double value) {
   return 1e-6 * std::round(1e6 * value);
 }
@@ -43,7 +43,7 @@ json rounded_array_of(const Eigen::Vector3d& v) {
   return {rounded(v.x()), rounded(v.y()), rounded(v.z())};
 }
 
-/// Floats hold no more.
+/// Rotation rounded to the precision of float.
 json rotation_of(const Eigen::Quaterniond& q) {
   json out = json::array();
   for (const double c : {q.x(), q.y(), q.z(), q.w()}) out.push_back(1e-8 * std::round(1e8 * c));
@@ -54,7 +54,7 @@ json uniform_scale(double factor) {
   return {factor, factor, factor};
 }
 
-/// GpuVertex holds roots of linear colours, so that dark ones keep their steps.
+/// Linear 16-bit colour. GpuVertex stores square roots of linear colours to keep steps in the dark.
 std::uint16_t linear_short(std::uint8_t root) {
   const double share = root / 255.0;
   return static_cast<std::uint16_t>(std::lround(65535.0 * share * share));
@@ -76,7 +76,7 @@ GlbScene::GlbScene() {
   root_["extensionsRequired"] = {"KHR_mesh_quantization"};
   root_["scene"] = 0;
   root_["scenes"] = json::array({{{"nodes", {0}}}});
-  // Around x by -90 degrees: z up becomes y up.
+  // Rotation by -90 degrees about x: z up becomes y up.
   constexpr double kHalf = 0.70710678118654752;
   root_["nodes"] = json::array({{{"name", "z_up"}, {"rotation", {-kHalf, 0.0, 0.0, kHalf}}}});
   for (const char* list : {"materials", "meshes", "accessors", "bufferViews"}) {
@@ -129,10 +129,10 @@ int GlbScene::add_mesh(const std::string& name, const render::PreparedMesh& mesh
     box.extend(p);
   }
   const double half_m = std::max(0.5 * box.sizes().maxCoeff(), 1e-6);
-  const Placement placement{box.center(), half_m / kMostShort};
+  const Placement placement{box.center(), half_m / kMaxShort};
   placements_.push_back(placement);
 
-  // The specification wants attributes to begin at multiples of four bytes.
+  // The specification requires attributes to start at multiples of four bytes.
   std::string positions, normals, colours, uvs;
   Eigen::Vector3i low = Eigen::Vector3i::Constant(std::numeric_limits<int>::max()), high = -low;
   for (const render::GpuVertex& v : mesh.vertices) {
@@ -146,7 +146,7 @@ int GlbScene::add_mesh(const std::string& name, const render::PreparedMesh& mesh
                    static_cast<std::int16_t>(steps.z()), std::int16_t{0}});
     append_values(normals, {v.normal[0], v.normal[1], v.normal[2], std::int8_t{0}});
     if (coloured && cards) {
-      // Leaves are many, and the steps of dark colours do not show in their pattern.
+      // 8 bits for leaves: they are many, and their pattern hides the steps of dark colours.
       append_values(colours, {linear_byte(v.colour[0]), linear_byte(v.colour[1]),
                               linear_byte(v.colour[2]), std::uint8_t{0}});
     } else if (coloured) {
@@ -174,7 +174,7 @@ int GlbScene::add_mesh(const std::string& name, const render::PreparedMesh& mesh
     attributes["TEXCOORD_0"] = add_accessor(uvs, 4, kUnsignedByte, "VEC2", count, true, kVertices);
   }
 
-  // The highest number of 16 bits means a new strip and is no index.
+  // 0xFFFF restarts a strip and is not a valid index.
   const bool fits = count <= std::numeric_limits<std::uint16_t>::max();
   std::string corners;
   for (const std::uint32_t i : mesh.indices) {
@@ -222,7 +222,7 @@ int GlbScene::add_frame(const std::string& name, const Pose& X_PF, json extras) 
 std::string GlbScene::bytes() const {
   json root = root_;
   for (const char* list : {"materials", "meshes", "accessors", "bufferViews"}) {
-    if (root[list].empty()) root.erase(list);  // lists are never empty
+    if (root[list].empty()) root.erase(list);  // the specification forbids empty lists
   }
   if (!data_.empty()) root["buffers"] = json::array({{{"byteLength", data_.size()}}});
   std::string text = root.dump();

@@ -10,8 +10,8 @@
 namespace vinerow::tools {
 namespace {
 
-/// Cells along a side of one mesh.
-constexpr int kMostCells = 200;
+/// Cells along a side of one mesh: (200 + 1)^2 vertices fit 16-bit indices.
+constexpr int kMaxCells = 200;
 
 double height_at(const HeightField& field, int i, int j) {
   i = std::clamp(i, 0, field.columns - 1);
@@ -41,7 +41,7 @@ bool inside(const CellRange& range, int i, int j) {
   return i >= range.first.x() && j >= range.first.y() && i < range.last.x() && j < range.last.y();
 }
 
-/// A curtain below one edge of the triangles hides the crack between them and what lies beyond.
+/// Adds a curtain below one edge of the triangles; it hides the gap to the neighbouring mesh.
 void add_curtain(render::PreparedMesh& mesh, std::uint32_t from, std::uint32_t to, double depth_m) {
   const auto below = static_cast<std::uint32_t>(mesh.vertices.size());
   for (const std::uint32_t top : {from, to}) {
@@ -56,10 +56,10 @@ void add_curtain(render::PreparedMesh& mesh, std::uint32_t from, std::uint32_t t
 
 std::vector<render::PreparedMesh> terrain_meshes(const HeightField& field, const CellRange& hole) {
   std::vector<render::PreparedMesh> meshes;
-  for (int j0 = 0; j0 < field.rows - 1; j0 += kMostCells) {
-    for (int i0 = 0; i0 < field.columns - 1; i0 += kMostCells) {
-      const int columns = std::min(kMostCells, field.columns - 1 - i0);
-      const int rows = std::min(kMostCells, field.rows - 1 - j0);
+  for (int j0 = 0; j0 < field.rows - 1; j0 += kMaxCells) {
+    for (int i0 = 0; i0 < field.columns - 1; i0 += kMaxCells) {
+      const int columns = std::min(kMaxCells, field.columns - 1 - i0);
+      const int rows = std::min(kMaxCells, field.rows - 1 - j0);
       render::PreparedMesh mesh;
       for (int j = 0; j <= rows; ++j) {
         for (int i = 0; i <= columns; ++i) {
@@ -81,7 +81,7 @@ std::vector<render::PreparedMesh> terrain_meshes(const HeightField& field, const
           const std::uint32_t corners[] = {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
           mesh.indices.insert(mesh.indices.end(), {corners[0], corners[1], corners[2], corners[0],
                                                    corners[2], corners[3]});
-          // South, east, north, west: counter-clockwise, so that curtains face outward.
+          // South, east, north, west: counter-clockwise order makes curtains face outward.
           constexpr int kBeyond[4][2] = {{0, -1}, {1, 0}, {0, 1}, {-1, 0}};
           for (int side = 0; side < 4; ++side) {
             if (is_there(i0 + i + kBeyond[side][0], j0 + j + kBeyond[side][1])) continue;
@@ -119,19 +119,19 @@ std::vector<render::PreparedMesh> surroundings_meshes(const HeightField& field) 
 }
 
 ReplayTerrain thin_terrain(const HeightField& field, const Eigen::AlignedBox2d& focus_W,
-                           int most_samples) {
+                           int max_samples) {
   ReplayTerrain terrain;
-  if (stride_for(field, most_samples) == 1) {
+  if (stride_for(field, max_samples) == 1) {
     terrain.coarse = field;
     return terrain;
   }
-  // A third for the country, two thirds for the focus; a power of two, for the fine stride divides
-  // it.
+  // A third of the samples for the country, two thirds for the focus. The stride is a power of two,
+  // so that the fine stride divides it.
   const int stride = static_cast<int>(
-      std::bit_ceil(static_cast<unsigned>(stride_for(field, std::max(most_samples / 3, 9)))));
+      std::bit_ceil(static_cast<unsigned>(stride_for(field, std::max(max_samples / 3, 9)))));
   terrain.coarse = thin_height_field(field, stride);
   if (focus_W.isEmpty()) return terrain;
-  // The fine field begins and ends at samples of the coarse one, so that no cells overlap.
+  // The fine field starts and ends at samples of the coarse one, so that no cells overlap.
   const auto cell_of = [&](const Eigen::Vector2d& p_W, bool up) {
     const Eigen::Array2d share = (p_W - field.corner_W).array() / terrain.coarse.cell_m;
     const Eigen::Array2d whole = up ? Eigen::Array2d(share.ceil()) : Eigen::Array2d(share.floor());
@@ -146,7 +146,7 @@ ReplayTerrain thin_terrain(const HeightField& field, const Eigen::AlignedBox2d& 
   const HeightField whole =
       crop_height_field(field, stride * terrain.hole.first, stride * terrain.hole.last);
   const int fine = static_cast<int>(
-      std::bit_ceil(static_cast<unsigned>(stride_for(whole, std::max(2 * most_samples / 3, 9)))));
+      std::bit_ceil(static_cast<unsigned>(stride_for(whole, std::max(2 * max_samples / 3, 9)))));
   if (fine >= stride) {
     terrain.hole = {};
     return terrain;

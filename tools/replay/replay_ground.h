@@ -1,5 +1,5 @@
 #pragma once
-/// The ground of a replay: terrain as meshes, and the country around it.
+/// Ground of a replay: meshes of the terrain and of the country around it.
 
 #include <Eigen/Geometry>
 #include <optional>
@@ -10,30 +10,31 @@
 
 namespace vinerow::tools {
 
-/// Cells of a field: from the first to before the last of each direction.
+/// Range of cells of a field; the last of each direction is excluded.
 struct CellRange {
   Eigen::Vector2i first = {0, 0};
   Eigen::Vector2i last = {0, 0};
 };
 
-/// The triangles of a height field as meshes of at most 65 535 vertices, neighbours sharing their
-/// border; a curtain hangs below its outer edges. Split as HeightField splits its cells.
-/// @param hole  cells that are left out
+/// Triangles of a height field as meshes of at most 65 535 vertices. Neighbouring meshes share
+/// their border, and a curtain hangs below the outer edges. Cells are split as in HeightField.
+/// @param hole  cells to leave out
 std::vector<render::PreparedMesh> terrain_meshes(const HeightField& field,
                                                  const CellRange& hole = {});
 
-/// The country around a field, as the renderer has it, with a curtain below where it meets it.
+/// Country around a field, as in the renderer, with a curtain below its border with the field.
 std::vector<render::PreparedMesh> surroundings_meshes(const HeightField& field);
 
-/// A field drawn by about `most_samples`: fine around what matters and coarse elsewhere.
+/// Terrain with about `max_samples`: fine around the focus and coarse elsewhere.
 struct ReplayTerrain {
   HeightField coarse;
-  CellRange hole;                   ///< of the coarse field, where the fine one lies
-  std::optional<HeightField> fine;  ///< absent where the coarse one has all samples, or no focus
+  CellRange hole;  ///< cells of the coarse field that the fine one covers
+  std::optional<HeightField>
+      fine;  ///< absent if the coarse one has all samples or there is no focus
 };
 
-/// @param focus_W  where vehicles work; may be empty
+/// @param focus_W  area in which vehicles work; may be empty
 ReplayTerrain thin_terrain(const HeightField& field, const Eigen::AlignedBox2d& focus_W,
-                           int most_samples);
+                           int max_samples);
 
 }  // namespace vinerow::tools

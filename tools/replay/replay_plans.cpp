@@ -40,7 +40,7 @@ std::vector<Eigen::Vector3d> simplify_line(const std::vector<Eigen::Vector3d>& p
   if (points.size() < 3) return points;
   std::vector<bool> stays(points.size(), false);
   stays.front() = stays.back() = true;
-  // A list of stretches instead of recursion: plans may have a hundred thousand points.
+  // A list of stretches replaces recursion: plans may have a hundred thousand points.
   std::vector<std::pair<std::size_t, std::size_t>> stretches = {{0, points.size() - 1}};
   while (!stretches.empty()) {
     const auto [begin, end] = stretches.back();
@@ -95,7 +95,7 @@ void add_plans(const ReplayInput& input, const ReplayLimits& limits, ReplayTrack
   }
   if (left_out > 0) {
     tracks.notes.push_back(
-        fmt::format("{} plans are not shown: there are more than a page holds", left_out));
+        fmt::format("{} plans are not shown: the page has a limit on plan points", left_out));
   }
 }
 

@@ -18,7 +18,7 @@ std::filesystem::path log_to_replay(const std::filesystem::path& run) {
   const std::filesystem::path log = run / "log.mcap";
   if (!std::filesystem::exists(log)) {
     throw ConfigError(
-        fmt::format("{}: holds no log.mcap, so there is nothing to replay", run.string()));
+        fmt::format("{}: contains no log.mcap, so there is nothing to replay", run.string()));
   }
   return log;
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// All that a replay shows of a run, from its folder.
+/// Data of a run for a replay, read from its folder.
 
 #include <filesystem>
 #include <memory>
@@ -21,13 +21,13 @@ struct ReplayRun {
   ReplayInput input() const { return {&scenario, world.get(), &vehicles, &trace, phases}; }
 };
 
-/// Reads log.mcap and, where it is there, summary.json (phases).
+/// Reads log.mcap and, if it exists, summary.json (phases).
 /// @param run  a run's folder, or its log
-/// @throws ConfigError "x: holds no log.mcap", or as render_log(); "x/summary.json: ..." where that
-/// is no JSON
+/// @throws ConfigError "x: contains no log.mcap, ...", or as render_log(); "x/summary.json: ..." if
+/// that is not JSON
 ReplayRun read_replay_run(const std::filesystem::path& run, const Registry& registry);
 
-/// Phases with a beginning of a summary's "phases". One that did not end lasts until `last_s`.
+/// Phases of a summary's "phases" that have started. One that did not end lasts until `last_s`.
 /// @param summary  text of summary.json @param file  for messages
 /// @throws ConfigError naming the file
 std::vector<ReplayPhase> phases_of_summary(const std::string& summary,

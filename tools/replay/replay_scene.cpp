@@ -20,13 +20,13 @@ namespace {
 
 using nlohmann::json;
 
-/// Of the nearest leaves no fewer than every so many are kept; then their next level is.
-constexpr int kMostThinning = 6;
+/// Largest thinning factor of the nearest leaves; beyond it the next coarser level is used. Chosen.
+constexpr int kMaxThinning = 6;
 
-/// Meshes of one instance or of its alternatives, the nearest first.
+/// Meshes of one instance or of its levels of detail, the nearest first.
 using Group = std::vector<const MeshInstance*>;
 
-/// In the world's order, as the renderer groups them.
+/// Visible groups in the world's order, grouped as in the renderer.
 std::vector<Group> visible_groups(const WorldModel& world) {
   std::vector<Group> groups;
   std::map<std::string, std::size_t> by_name;
@@ -51,7 +51,7 @@ bool shows_leaves(const MeshInstance& instance) {
          instance.mesh->uvs.size() == instance.mesh->vertices.size();
 }
 
-/// As the glTF scene will hold it, about.
+/// Approximate size of a mesh in the glTF scene.
 std::size_t estimated_bytes(const TriangleMesh& mesh, bool cards) {
   // Positions and normals, colours, texture coordinates; creases of solids double some vertices.
   const std::size_t vertex = cards ? 20 : mesh.colours.empty() ? 12 : 20;
@@ -60,7 +60,7 @@ std::size_t estimated_bytes(const TriangleMesh& mesh, bool cards) {
   return vertices * vertex + mesh.triangles.size() * (vertices < 65'536 ? 6 : 12);
 }
 
-/// The picture that suits most cards of a mesh.
+/// Leaf picture that suits most cards of a mesh.
 const char* picture_of(const render::PreparedMesh& mesh) {
   int counts[3] = {};
   for (const render::GpuVertex& v : mesh.vertices) {
@@ -81,7 +81,7 @@ class SceneMaker {
     add_world();
     add_vehicles();
     if (!input_.world->scenery.empty()) {
-      notes_.push_back("fields, tracks and trees around the parcel are in the pictures only");
+      notes_.push_back("fields, tracks and trees around the parcel are shown in the pictures only");
     }
     return {scene_.bytes(), std::move(notes_)};
   }
@@ -109,8 +109,7 @@ class SceneMaker {
           terrain.fine
               ? fmt::format(" around the rows and every {:.2g} m elsewhere", terrain.coarse.cell_m)
               : "";
-      notes_.push_back(
-          fmt::format("the ground is drawn with a point every {:.2g} m{}", near_m, elsewhere));
+      notes_.push_back(fmt::format("the ground has a point every {:.2g} m{}", near_m, elsewhere));
     }
     GlbMaterial material;
     material.name = "ground";
@@ -137,7 +136,7 @@ class SceneMaker {
     }
   }
 
-  /// Rows and a headland around them; what is driven or flown low over where there are none.
+  /// Area of the rows with a headland; without rows, the area that vehicles drive or fly low over.
   Eigen::AlignedBox2d focus() const {
     constexpr double kHeadland_m = 14.0;
     Eigen::AlignedBox2d box;
@@ -161,7 +160,7 @@ class SceneMaker {
     int number = 0;
     for (const Group& group : groups) {
       const bool cards = shows_leaves(*group.front());
-      // What is no foliage is shown at its coarsest: thin posts and stems look the same.
+      // Anything but foliage uses its coarsest level: thin posts and stems look the same.
       const std::size_t first =
           cards ? std::min(leaves.finest, group.size() - 1) : group.size() - 1;
       for (std::size_t level = first; level < group.size(); ++level) {
@@ -172,7 +171,7 @@ class SceneMaker {
     }
   }
 
-  /// How fine leaves are drawn: their finest level, and that of its cards every so many are kept.
+  /// Detail of leaves: their finest level, and the thinning factor of its cards.
   struct LeafDetail {
     std::size_t finest = 0;
     int keep_every = 1;
@@ -181,11 +180,11 @@ class SceneMaker {
   LeafDetail leaf_detail(const std::vector<Group>& groups) {
     LeafDetail detail;
     while (leaf_bytes(groups, detail) > limits_.leaf_bytes && detail.finest < 8) {
-      if (++detail.keep_every <= kMostThinning) continue;
+      if (++detail.keep_every <= kMaxThinning) continue;
       detail = {detail.finest + 1, 1};
     }
     if (detail.finest > 0 || detail.keep_every > 1) {
-      notes_.push_back("leaves near the eye are drawn fewer and larger than they are");
+      notes_.push_back("leaves near the camera are fewer and larger than in the world");
     }
     return detail;
   }
@@ -206,7 +205,7 @@ class SceneMaker {
     return sum;
   }
 
-  /// Cell that meshes other than leaves are simplified to, 0: not at all.
+  /// Grid cell for simplifying meshes other than leaves, m; 0: no simplification.
   double solid_cell(const std::vector<Group>& groups) {
     std::map<const TriangleMesh*, std::size_t> bytes;
     for (const Group& group : groups) {
@@ -225,8 +224,8 @@ class SceneMaker {
     }
     if (cell_m > 0.0) {
       notes_.push_back(
-          fmt::format("meshes are simplified: what is smaller than {:.2g} m is "
-                      "joined",
+          fmt::format("meshes are simplified: details smaller than {:.2g} m are "
+                      "merged",
                       cell_m));
     }
     return cell_m;

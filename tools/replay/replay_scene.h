@@ -1,11 +1,11 @@
 #pragma once
-/// The world and the vehicles' links as one glTF scene. Nodes tell in their extras what they are:
+/// glTF scene of the world and the vehicles' links. The extras of a node give its role:
 ///   ground   "part": "terrain" | "surroundings"
-///   world    "part": "world", "surface": "canopy" | "post" | ..., and of alternatives by distance
-///            "group" (the same for all of one thing) and "level" (0: nearest; the finest may be
-///            left out)
-///   leaves   beside these "cards": "leaf" | "spray" | "clump", the picture that suits their size
-///   vehicles "part": "link", "vehicle": index, "link": index; their poses come with the tracks
+///   world    "part": "world", "surface": "canopy" | "post" | ..., and for levels of detail
+///            "group" (the same for all levels of a thing) and "level" (0: nearest; the finest may
+///            be left out)
+///   leaves   additionally "cards": "leaf" | "spray" | "clump", the picture that suits their size
+///   vehicles "part": "link", "vehicle": index, "link": index; their poses are in the tracks
 
 #include <string>
 #include <vector>
@@ -16,10 +16,10 @@ namespace vinerow::tools {
 
 struct ReplayScene {
   std::string glb;
-  std::vector<std::string> notes;  ///< what is coarser than in the world, a sentence each
+  std::vector<std::string> notes;  ///< one sentence for each simplification of the world
 };
 
-/// @pre world, vehicles and trace are there
+/// @pre world, vehicles and trace are not null
 ReplayScene make_replay_scene(const ReplayInput& input, const ReplayLimits& limits);
 
 }  // namespace vinerow::tools

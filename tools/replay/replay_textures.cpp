@@ -15,7 +15,7 @@ using render::Pixels;
 constexpr int kCardSize = 128;
 constexpr int kTileSize = 256;
 
-/// From the first level that is at most so large on.
+/// Levels from the first that is at most `size` wide.
 std::vector<Pixels> levels_from(std::vector<Pixels> levels, int size) {
   const auto found = std::find_if(levels.begin(), levels.end(),
                                   [&](const Pixels& level) { return level.width <= size; });

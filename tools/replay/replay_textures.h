@@ -1,5 +1,5 @@
 #pragma once
-/// Pictures of leaves and ground, as the renderer has them, for a replay's own drawing.
+/// Textures of leaves and ground from the renderer, for drawing in a replay.
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -11,7 +11,7 @@ namespace vinerow::tools {
 struct ReplayTextures {
   /// By name {"offset", "size", "channels", "levels"}, square, row 0 first; further levels, each
   /// half the size, follow:
-  ///   leaf, spray, clump  brightness (128: the leaf's own green) and coverage; the stem is at the
+  ///   leaf, spray, clump  brightness (128: unchanged leaf colour) and coverage; the stem is at the
   ///                       last row of v
   ///   ground              grass, dryness, soil, height of a tile of 2.1 m
   ///   noise               four noises that tile
@@ -23,8 +23,8 @@ struct ReplayTextures {
 
 ReplayTextures make_replay_textures(const Daylight& daylight);
 
-/// Light of the renderer at that hour: "sun_W" (unit, towards it), "sun", "sky", "ground" (linear
-/// RGB of a white surface that faces each), "haze_to_sun", "haze_from_sun".
+/// Light of the renderer for this daylight: "sun_W" (unit vector towards the sun), "sun", "sky",
+/// "ground" (linear RGB of a white surface that faces each), "haze_to_sun", "haze_from_sun".
 nlohmann::json replay_light(const Daylight& daylight);
 
 }  // namespace vinerow::tools

@@ -21,11 +21,10 @@ using nlohmann::json;
 
 static_assert(std::endian::native == std::endian::little, "tracks copy memory as little-endian");
 
-constexpr double kMostRate_Hz = 10.0, kLeastRate_Hz = 0.1;
-/// A link that moves less than this against its vehicle is fixed to it.
+constexpr double kMaxRate_Hz = 10.0, kMinRate_Hz = 0.1;
+/// A link that moves less than this relative to its vehicle counts as fixed. Chosen.
 constexpr double kFixed_m = 5e-4, kFixed_rad = 2e-3;
-/// A link whose samples are farther apart than this, three times out of four, turns too fast to be
-/// told from them.
+/// A link turns too fast for its samples if three quarters of the angles between them exceed this.
 constexpr double kSpin_rad = 1.0;
 template <class T>
 std::size_t append_block(std::string& bytes, const std::vector<T>& values) {
@@ -41,7 +40,7 @@ T steps_of(double value, double step) {
       std::round(value / step), std::numeric_limits<T>::lowest(), std::numeric_limits<T>::max()));
 }
 
-/// Quaternions of one rotation have two signs: neighbours get the same.
+/// Makes the signs of successive quaternions consistent (q and -q are the same rotation).
 template <class T>
 void append_rotations(const std::vector<Eigen::Quaterniond>& rotations, std::vector<T>& values) {
   Eigen::Quaterniond last = Eigen::Quaterniond::Identity();
@@ -55,19 +54,19 @@ void append_rotations(const std::vector<Eigen::Quaterniond>& rotations, std::vec
   }
 }
 
-/// One vehicle at its samples.
+/// Samples of one vehicle.
 struct Samples {
   std::vector<Time> times;
   std::vector<Pose> X_WB;
-  std::vector<std::vector<Pose>> X_BL;  ///< by link, then by sample
+  std::vector<std::vector<Pose>> X_BL;  ///< [link][sample]
 };
 
 bool same(const Pose& a, const Pose& b) {
   return (a.p - b.p).norm() < kFixed_m && a.q.angularDistance(b.q) < kFixed_rad;
 }
 
-/// Every 1 / rate_Hz, or where the log holds poses if those are fewer: few poses lie far apart
-/// where they were written seldom, or with false stamps centuries apart.
+/// Sample times: every 1 / rate_Hz, or the times of the logged poses if those are fewer. Logged
+/// poses may be sparse, and false stamps may be centuries apart.
 std::vector<Time> sample_times(const playback::VehicleTrace& trace, double rate_Hz) {
   const std::vector<Time>& poses = trace.truth.times;
   const Time first = poses.front(), last = poses.back();
@@ -96,7 +95,7 @@ Samples take_samples(const playback::VehicleTrace& trace, std::size_t links, dou
       all.X_BL[l].push_back(l < X_WL.size() ? all.X_WB.back().inverse() * X_WL[l] : Pose{});
     }
   }
-  // What equals its neighbours on both sides says nothing.
+  // A sample that equals both neighbours is redundant.
   const auto still = [&](std::size_t a, std::size_t b) {
     if (!same(all.X_WB[a], all.X_WB[b])) return false;
     return std::all_of(all.X_BL.begin(), all.X_BL.end(),
@@ -106,7 +105,7 @@ Samples take_samples(const playback::VehicleTrace& trace, std::size_t links, dou
   kept.X_BL.resize(links);
   std::size_t last_kept = 0;
   for (std::size_t i = 0; i < all.times.size(); ++i) {
-    // Against the last one kept: slow creeping is no standstill.
+    // Compare with the last kept sample, so that slow creeping is not dropped.
     const bool inside = i > 0 && i + 1 < all.times.size();
     if (inside && still(i, i + 1) && still(i, last_kept)) continue;
     last_kept = i;
@@ -117,7 +116,7 @@ Samples take_samples(const playback::VehicleTrace& trace, std::size_t links, dou
   return kept;
 }
 
-/// Axis in the link that it spins about; nothing where its samples show how it turns.
+/// Axis, in the link, about which it spins; nullopt if the samples resolve its rotation.
 std::optional<Eigen::Vector3d> spin_axis(const playback::Trace<LinkPoses>& links, std::size_t link,
                                          const playback::Trace<Odometry>& truth) {
   std::vector<double> turns_rad;
@@ -244,14 +243,14 @@ ReplayTracks make_replay_tracks(const ReplayInput& input, const ReplayLimits& li
     const auto trace = input.trace->vehicles.find(name);
     if (trace == input.trace->vehicles.end() || trace->second.truth.empty()) {
       tracks.notes.push_back(
-          fmt::format("'{}' is not shown: the log holds no true poses of it", name));
+          fmt::format("'{}' is not shown: the log has no true poses of it", name));
       continue;
     }
     shown.push_back(v);
   }
   if (input.vehicles->empty()) tracks.notes.push_back("the run has no vehicles");
 
-  double rate_Hz = kMostRate_Hz;
+  double rate_Hz = kMaxRate_Hz;
   const auto sample_all = [&] {
     tracks.bytes.clear();
     tracks.index["vehicles"] = json::array();
@@ -260,13 +259,13 @@ ReplayTracks make_replay_tracks(const ReplayInput& input, const ReplayLimits& li
     }
   };
   sample_all();
-  while (tracks.bytes.size() > limits.track_bytes && rate_Hz > kLeastRate_Hz) {
+  while (tracks.bytes.size() > limits.track_bytes && rate_Hz > kMinRate_Hz) {
     rate_Hz *= 0.5;
     sample_all();
   }
-  if (rate_Hz < kMostRate_Hz) {
-    tracks.notes.push_back(
-        fmt::format("poses are shown {:.2g} times a second and straight between", rate_Hz));
+  if (rate_Hz < kMaxRate_Hz) {
+    tracks.notes.push_back(fmt::format(
+        "poses are sampled {:.2g} times a second, with straight motion between", rate_Hz));
   }
   add_plans(input, limits, tracks);
   return tracks;

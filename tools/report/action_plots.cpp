@@ -11,16 +11,16 @@
 namespace vinerow::tools::report {
 namespace {
 
-/// A vehicle slower than this has no slip worth a line (docs/contributing/architecture.md, slip_rms).
+/// Below this speed slip is not plotted (docs/contributing/architecture.md, slip_rms).
 constexpr double kSlips_mps = 0.05;
 
-/// Angles are shown in degrees.
+/// Value as plotted: angles in degrees.
 double shown(double value, const std::string& unit) {
   return unit == "rad" ? deg_from_rad(value) : value;
 }
 
 std::string shown_unit(const std::string& unit) {
-  return unit == "rad" ? "°" : unit.empty() ? "share of the full" : unit;
+  return unit == "rad" ? "°" : unit.empty() ? "share of full scale" : unit;
 }
 
 /// A column while the vehicle is at work.
@@ -46,7 +46,7 @@ std::string colour(std::size_t k) {
   return fmt::format("s{}", k % 8);
 }
 
-/// What the actuators of one unit are called together.
+/// Title of the plot that shows the actuators of one unit.
 std::string group_title(const VehicleLog& vehicle, const std::string& name,
                         const std::string& unit) {
   if (name.starts_with("rotor_")) return "Control actions: rotor speeds";
@@ -81,23 +81,23 @@ std::vector<LinePlot> actuator_plots(const VehicleLog& vehicle, const Track& tra
     add_column(*columns, name, words_of(name), colour(plot.lines.size()), track, plot);
     for (const ActuatorSpec& actuator : vehicle.actuators) {
       if (actuator.name != name) continue;
-      plot.limits.push_back({shown(actuator.max, unit), "limit of the actuator"});
-      plot.limits.push_back({shown(actuator.min, unit), "limit of the actuator"});
+      plot.limits.push_back({shown(actuator.max, unit), "actuator limit"});
+      plot.limits.push_back({shown(actuator.min, unit), "actuator limit"});
     }
   }
   return plots;
 }
 
 LinePlot steering_plot(const VehicleLog& vehicle, const Track& track) {
-  LinePlot plot = plot_of(track, "Steering δ: wanted and reached", "axle angle, left positive, °",
-                          "Angles that the steering law wants (dashed) and those of the axles "
-                          "(lines). As paper A, figure 19 b.");
+  LinePlot plot = plot_of(track, "Steering δ: commanded and actual", "axle angle, left positive, °",
+                          "Angles commanded by the steering law (dashed) and actual angles of the "
+                          "axles (lines). As paper A, figure 19 b.");
   const Columns* columns = vehicle.find("steering");
   if (columns == nullptr) return plot;
-  add_column(*columns, "front_act_rad", "front, reached", "s0", track, plot);
-  add_column(*columns, "rear_act_rad", "rear, reached", "s1", track, plot);
-  add_column(*columns, "front_des_rad", "front, wanted", "s0 dash", track, plot);
-  add_column(*columns, "rear_des_rad", "rear, wanted", "s1 dash", track, plot);
+  add_column(*columns, "front_act_rad", "front, actual", "s0", track, plot);
+  add_column(*columns, "rear_act_rad", "rear, actual", "s1", track, plot);
+  add_column(*columns, "front_des_rad", "front, commanded", "s0 dash", track, plot);
+  add_column(*columns, "rear_des_rad", "rear, commanded", "s1 dash", track, plot);
   return plot;
 }
 
@@ -105,14 +105,14 @@ std::vector<LinePlot> wrench_plots(const VehicleLog& vehicle, const Track& track
   const Columns* columns = vehicle.find("wrench");
   if (columns == nullptr) return {};
   const std::string caption =
-      "What the controller wants (dashed) and what the rotors can give (lines). As paper A, figure "
+      "Commanded by the controller (dashed), achievable by the rotors (lines). As paper A, figure "
       "21 b.";
   LinePlot thrust = plot_of(track, "Control actions: thrust", "total thrust, N", caption);
   add_column(*columns, "reachable_thrust_N", "reachable", "s0", track, thrust);
-  add_column(*columns, "wanted_thrust_N", "wanted", "ref", track, thrust);
+  add_column(*columns, "wanted_thrust_N", "commanded", "ref", track, thrust);
   LinePlot torque = plot_of(
       track, "Control actions: torques", "torque about body axes, N·m",
-      "Torques of what the controller wants that the rotors can give. As paper A, figure 21 b.");
+      "Commanded torques, limited to what the rotors can produce. As paper A, figure 21 b.");
   const char* axes[] = {"x", "y", "z"};
   const char* labels[] = {"τφ, roll", "τθ, pitch", "τψ, yaw"};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -122,7 +122,7 @@ std::vector<LinePlot> wrench_plots(const VehicleLog& vehicle, const Track& track
   return {thrust, torque};
 }
 
-/// Inputs of a fixed wing less those of trim, as its controllers' limits count them.
+/// Inputs of a fixed wing minus their trim values, the quantities that its controllers limit.
 std::vector<LinePlot> trim_input_plots(const VehicleLog& vehicle, const Track& track) {
   const Columns* columns = vehicle.find("deviation");
   if (columns == nullptr) return {};
@@ -141,9 +141,9 @@ std::vector<LinePlot> trim_input_plots(const VehicleLog& vehicle, const Track& t
 LinePlot slip_plot(const VehicleLog& vehicle, const Track& track) {
   LinePlot plot =
       plot_of(track, "Wheel slip", "slip along the wheel, %",
-              "Rim speed less ground speed, over the larger of both: 0 rolls, 100 spins. "
-              "As paper A, figure 19, where no slip may occur.");
-  plot.least_span = 1.0;
+              "Difference of rim speed and ground speed, divided by the larger: 0 rolls, 100 "
+              "spins. Paper A, figure 19, allows no slip.");
+  plot.min_span = 1.0;
   const Columns* columns = vehicle.find("wheels");
   if (columns == nullptr) return plot;
   for (const std::string& name : columns->names) {
@@ -160,7 +160,7 @@ LinePlot slip_plot(const VehicleLog& vehicle, const Track& track) {
   return plot;
 }
 
-/// Largest share that any actuator takes of its limit.
+/// Largest ratio of an actuator's value to its limit.
 Samples actuator_share(const VehicleLog& vehicle, const Track& track) {
   Samples share;
   const Columns* columns = vehicle.find("actuators");
@@ -186,9 +186,8 @@ bool is_judged(const AirReference& reference) {
 
 LinePlot limit_plot(const VehicleLog& vehicle, const Track& track) {
   LinePlot plot = plot_of(track, "Use of limits", "share of the limit, %",
-                          "100 % is at a limit: the largest share that any actuator takes of its "
-                          "range");
-  plot.least_span = 10.0;
+                          "100 % is at a limit. Shown is the actuator nearest to its limit");
+  plot.min_span = 10.0;
   Samples actuators = actuator_share(vehicle, track);
   if (actuators.size() == 0) return plot;
   plot.lines.push_back({"actuators", std::move(actuators), "s0"});
@@ -198,13 +197,13 @@ LinePlot limit_plot(const VehicleLog& vehicle, const Track& track) {
     const auto& times = vehicle.air_reference.times;
     for (std::size_t i = 0; i < share.size(); ++i) {
       while (told + 1 < times.size() && times[told + 1].s() <= share.x[i]) ++told;
-      // Launch and landing are not judged, nor by the metrics.
+      // Launch and landing are not judged, as in the metrics.
       const bool judged = told < times.size() && is_judged(vehicle.air_reference.values[told]);
       share.y[i] = judged ? 100.0 * share.y[i] : kNone;
     }
     plot.lines.push_back({"controller's limits", std::move(share), "s1"});
     plot.caption +=
-        ", and any state or input deviation of the limits that the controller watches (paper A, "
+        ", and the state or input deviation nearest to the limits of the controller (paper A, "
         "section 2.2: ±10 % of the states, 20 % of the inputs)";
   }
   plot.caption += ".";
@@ -217,7 +216,7 @@ std::vector<LinePlot> energy_plots(const VehicleLog& vehicle, const Track& track
   LinePlot charge =
       plot_of(track, "Battery charge", "% of the capacity", "Battery charge remaining.");
   LinePlot power = plot_of(track, "Power drawn", "W", "Electric power drawn from the battery.");
-  charge.least_span = 1.0;
+  charge.min_span = 1.0;
   Samples left, drawn;
   for (std::size_t i = 0; i < vehicle.battery.times.size(); ++i) {
     const double t_s = vehicle.battery.times[i].s();
@@ -228,7 +227,7 @@ std::vector<LinePlot> energy_plots(const VehicleLog& vehicle, const Track& track
   if (left.size() < 2) return {};
   charge.most = std::max(100.0, *std::max_element(left.y.begin(), left.y.end()));
   if (*std::min_element(drawn.y.begin(), drawn.y.end()) < 0.0) {
-    power.caption += " Negative: the motors brake and charge it.";
+    power.caption += " Negative: the motors brake and charge the battery.";
   }
   charge.lines = {{"charge", std::move(left), vehicle.style}};
   power.lines = {{"power", std::move(drawn), vehicle.style}};

@@ -1,6 +1,5 @@
 #pragma once
-/// Plots of what a vehicle's controller asked for: control actions, steering, wheel slip, the use
-/// of limits, energy.
+/// Plots of a vehicle's control actions, steering, wheel slip, use of limits and energy.
 
 #include <vector>
 
@@ -9,7 +8,7 @@
 
 namespace vinerow::tools::report {
 
-/// Those whose signals exist, over the time of the track.
+/// Plots whose signals exist, over the time of the track.
 std::vector<LinePlot> action_plots(const VehicleLog& vehicle, const Track& track);
 
 }  // namespace vinerow::tools::report

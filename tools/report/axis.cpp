@@ -13,8 +13,8 @@
 namespace vinerow::tools::report {
 namespace {
 
-/// A logarithmic axis that spans less has the ticks of a linear one.
-constexpr double kLeastRatio = 5.0;
+/// A logarithmic axis with a smaller ratio of its ends has linear ticks. Chosen.
+constexpr double kMinRatio = 5.0;
 
 std::string raised(int exponent) {
   constexpr std::array<const char*, 10> kDigits = {"⁰", "¹", "²", "³", "⁴",
@@ -24,7 +24,7 @@ std::string raised(int exponent) {
   return text;
 }
 
-/// Multiples of powers of ten, all of them or those of every `stride`-th power.
+/// Multiples of every `stride`-th power of ten.
 std::vector<double> ticks_of_powers(const Range& range, std::initializer_list<int> multiples,
                                     int stride) {
   std::vector<double> ticks;
@@ -42,7 +42,7 @@ std::vector<double> ticks_of_powers(const Range& range, std::initializer_list<in
 }
 
 std::vector<double> logarithmic_ticks(const Range& range, int most) {
-  if (range.high < kLeastRatio * range.low) return tools::ticks(range.low, range.high, most);
+  if (range.high < kMinRatio * range.low) return tools::ticks(range.low, range.high, most);
   const auto fits = [&](const std::vector<double>& ticks) {
     return static_cast<int>(ticks.size()) <= most;
   };
@@ -72,7 +72,7 @@ Range Range::padded(double share, double least) const {
 }
 
 std::string tick_text(double value, double step) {
-  // A step of 1, 2 or 5 times a power of ten needs no digit behind its first.
+  // A step of 1, 2 or 5 times a power of ten has one significant digit.
   const int digits = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
   std::string text = fmt::format("{:.{}f}", std::abs(value), digits);
   const bool is_zero = text.find_first_not_of("0.") == std::string::npos;
@@ -90,27 +90,27 @@ std::string power_text(double value, double step) {
   return (value < 0.0 ? "−" : "") + (mantissa == "1" ? "" : mantissa + "·") + "10" + power;
 }
 
-Axis::Axis(const Range& range, double from_px, double to_px, int most_ticks, AxisScale scale)
+Axis::Axis(const Range& range, double from_px, double to_px, int max_ticks, AxisScale scale)
     : range_(range),
       from_px_(from_px),
       to_px_(to_px),
       scale_(scale),
-      ticks_(scale == AxisScale::kLinear ? tools::ticks(range.low, range.high, most_ticks)
-                                         : logarithmic_ticks(range, most_ticks)) {
-  // One tick alone says nothing of a step: it gets the digits of the range.
+      ticks_(scale == AxisScale::kLinear ? tools::ticks(range.low, range.high, max_ticks)
+                                         : logarithmic_ticks(range, max_ticks)) {
+  // A single tick has no step: its digits follow the range.
   step_ = ticks_.size() > 1 ? ticks_[1] - ticks_[0]
                             : std::pow(10.0, std::floor(std::log10(range.span())) - 1.0);
 }
 
 std::string Axis::short_text(double tick) const {
   constexpr double kLargest = 1e7, kSmallest = 1e-4;
-  if (scale_ == AxisScale::kLogarithmic && range_.high >= kLeastRatio * range_.low) {
+  if (scale_ == AxisScale::kLogarithmic && range_.high >= kMinRatio * range_.low) {
     const bool plain = range_.low >= kSmallest && range_.high < kLargest;
     return plain ? fmt::format("{:.10g}", tick) : power_text(tick, tick);
   }
   const double largest = std::max(std::abs(range_.low), std::abs(range_.high));
   if (step_ >= kSmallest && largest < kLargest) return text(tick);
-  // A tick at zero is off by rounding.
+  // A tick at zero has a rounding error.
   return power_text(std::abs(tick) < 1e-6 * step_ ? 0.0 : tick, step_);
 }
 

@@ -23,13 +23,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kStripLeft = 120, kStripRight = 10, kStrip = 26, kStripGap = 4, kStripBottom = 44;
-/// More strips make a page of their own; those that nothing reached are left out first.
-constexpr std::size_t kMostStrips = 80;
+/// Limit on the number of strips; strips that nothing reached are left out first. Chosen: more
+/// would fill a page.
+constexpr std::size_t kMaxStrips = 80;
 
 using StripKey = std::pair<int, int>;  ///< row, and 0 for its left side, 1 for its right
 using Strips = std::map<StripKey, std::vector<const CanopyPatchAmount*>>;
 
-/// "ml/m²" of "ml/m2".
+/// Printed form of a unit: "ml/m²" for "ml/m2".
 std::string spelled(std::string unit) {
   const std::size_t at = unit.rfind("m2");
   return at == std::string::npos ? unit : unit.replace(at, 2, "m²");
@@ -40,16 +41,16 @@ Strips strips_of(const CanopyFile& canopy) {
   for (const CanopyPatchAmount& patch : canopy.patches) {
     strips[{patch.row, patch.side > 0 ? 0 : 1}].push_back(&patch);
   }
-  if (strips.size() <= kMostStrips) return strips;
+  if (strips.size() <= kMaxStrips) return strips;
   std::erase_if(strips, [](const auto& strip) {
     return std::none_of(strip.second.begin(), strip.second.end(),
                         [](const CanopyPatchAmount* patch) { return patch->amount > 0.0; });
   });
-  while (strips.size() > kMostStrips) strips.erase(std::prev(strips.end()));
+  while (strips.size() > kMaxStrips) strips.erase(std::prev(strips.end()));
   return strips;
 }
 
-/// One pixel a patch; clear where the row has no canopy.
+/// One pixel per patch, transparent where the row has no canopy.
 render::Pixels strip_pixels(const std::vector<const CanopyPatchAmount*>& patches, int columns,
                             int bands, double full) {
   render::Pixels pixels(columns, bands);
@@ -83,7 +84,7 @@ std::string strips_svg(const CanopyFile& canopy, double full) {
     svg.line(x.px(tick), 0, x.px(tick), bottom + 4, "grid");
     svg.text(x.px(tick), bottom + 19, x.text(tick), "tick mid");
   }
-  svg.text(0.5 * (x.from_px() + x.to_px()), bottom + 38, "along the row, m", "label mid");
+  svg.text(0.5 * (x.from_px() + x.to_px()), bottom + 38, "distance along the row, m", "label mid");
   double y = 0.0;
   for (const auto& [key, patches] : strips) {
     svg.text(kStripLeft - 8, y + 17,
@@ -102,18 +103,18 @@ std::string colour_legend(const CanopyFile& canopy, double full) {
     for (std::size_t c = 0; c < 3; ++c) bar.at(i, 0)[c] = static_cast<std::uint8_t>(colour[c]);
     bar.at(i, 0)[3] = 255;
   }
-  Svg svg(kWideChart, 34, "canopy", "scale of colours");
+  Svg svg(kWideChart, 34, "canopy", "colour scale");
   svg.text(kStripLeft, 22, "0", "tick end");
   svg.image(kStripLeft + 8, 8, 260, 18, render::encode_png(bar));
   const bool is_wanted = canopy.wanted > 0.0;
   svg.text(kStripLeft + 276, 22,
            fmt::format("{} {}", amount_text(full, canopy.unit),
-                       is_wanted ? "or more: target reached" : "(the most)"),
+                       is_wanted ? "or more: target reached" : "(maximum)"),
            "tick");
   return svg.finish();
 }
 
-/// What a side of a row gets of a payload, in words.
+/// Texts for the effect of a payload on the canopy.
 struct CanopyWords {
   const char* reached;  ///< "of the canopy surface received the target dose"
   const char* target;
@@ -123,7 +124,7 @@ CanopyWords words_for(const CanopyFile& canopy) {
   if (canopy.quantity == "deposit") {
     return {"of the canopy surface received the target dose", "target dose"};
   }
-  if (canopy.quantity == "seen") return {"of the canopy surface was seen", "wanted"};
+  if (canopy.quantity == "seen") return {"of the canopy surface was seen", "target"};
   return {"of the canopy surface reached the target", "target"};
 }
 
@@ -162,23 +163,22 @@ std::string payload_section(const CanopyFile& canopy, const std::vector<RowFace>
                                 escaped(canopy.quantity));
   out += card(percent(canopy.covered_share()), words.reached);
   if (!left_out.empty()) {
-    out +=
-        card(percent(passed_share(canopy, faces)), "on the row sides along which the vehicle went");
+    out += card(percent(passed_share(canopy, faces)), "on the row sides that the vehicle passed");
   }
   out += card(escaped(amount_text(canopy.mean_amount(), canopy.unit)), "mean over the canopy");
   if (canopy.wanted > 0.0) {
     out += card(escaped(amount_text(canopy.wanted, canopy.unit)), words.target);
   }
-  out += card(fmt::format("{} m²", number_text(canopy.area_m2())), "canopy surface in all");
+  out += card(fmt::format("{} m²", number_text(canopy.area_m2())), "total canopy surface");
   out += "</div>\n";
   if (!left_out.empty()) out += fmt::format("<p>{}.</p>\n", escaped(left_out));
   out += "<figure class=\"plot wide-chart\">\n<h4>Both sides of every row, unrolled</h4>\n";
   out += colour_legend(canopy, full) + strips_svg(canopy, full);
   return out +
-         "<figcaption>Each strip is one side of a row as it is seen from its alley, bottom of "
-         "the canopy below; left and right are those of someone who looks along the row from its "
-         "first point. Rows have the world's numbers; a map that was made may number them "
-         "otherwise. Heights are stretched. Clear: no canopy there.</figcaption>\n</figure>\n";
+         "<figcaption>Each strip is one side of a row as seen from its alley, with the bottom of "
+         "the canopy below. Left and right are as seen looking along the row from its first point. "
+         "Rows have the numbers of the world; a map made from a point cloud may number them "
+         "differently. Heights are stretched. Blank: no canopy.</figcaption>\n</figure>\n";
 }
 
 }  // namespace
@@ -221,13 +221,14 @@ CanopyFile read_canopy(const fs::path& file) {
       canopy.patches.push_back({p.at(0), p.at(1), p.at(2), p.at(3), p.at(7), p.at(8)});
       if (canopy.patches.back().along < 0 || canopy.patches.back().band < 0) {
         throw ConfigError(
-            fmt::format("{}: is no canopy coverage: patch {} lies before its row's "
+            fmt::format("{}: is not a canopy coverage file: patch {} is before its row's "
                         "first point or below the ground",
                         file.string(), canopy.patches.size() - 1));
       }
     }
   } catch (const Json::exception& error) {
-    throw ConfigError(fmt::format("{}: is no canopy coverage: {}", file.string(), error.what()));
+    throw ConfigError(
+        fmt::format("{}: is not a canopy coverage file: {}", file.string(), error.what()));
   }
   return canopy;
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// What payloads did to the canopy: both sides of every row unrolled, along x height, coloured by
-/// amount.
+/// Report chapter on the effect of payloads on the canopy: both sides of every row, unrolled
+/// (distance along the row x height) and coloured by amount.
 
 #include <filesystem>
 #include <functional>
@@ -17,31 +17,31 @@ struct CanopyPatchAmount {
   double area_m2 = 0.0, amount = 0.0;
 };
 
-/// One file of canopy/ in a run's folder.
+/// Content of one file of canopy/ in a run's folder.
 struct CanopyFile {
   std::string vehicle, payload, quantity, unit;
   double wanted = 0.0, step_m = 0.0, band_m = 0.0;
   std::vector<CanopyPatchAmount> patches;
 
   double area_m2() const;
-  /// Of the area with at least the wanted amount; of the sides of rows that are asked for.
+  /// Share of the area with at least the wanted amount. @param counts  selects row sides; null: all
   double covered_share(const std::function<bool(int row, int side)>& counts = nullptr) const;
-  /// Mean over the area.
+  /// Mean amount over the area.
   double mean_amount() const;
 };
 
-/// @throws ConfigError "x/canopy/y.json: is no canopy coverage: ..."
+/// @throws ConfigError "x/canopy/y.json: is not a canopy coverage file: ..."
 CanopyFile read_canopy(const std::filesystem::path& file);
 
-/// Every payload's file of a run, by name; none where canopy/ is absent.
+/// Files of all payloads of a run, by name; empty if canopy/ is absent.
 std::vector<CanopyFile> read_canopies(const RunFolder& run);
 
-/// The chapter; nothing where no payload worked on the canopy.
+/// The chapter; empty if no payload worked on the canopy.
 std::string canopy_section(const RunFolder& run, const std::vector<CanopyFile>& canopies,
                            const std::vector<VehicleLog>& vehicles);
 
-/// How much of the canopy each payload reached, and which sides of the rows its vehicle left out,
-/// in a sentence each for the verdict; "" where every side was passed.
+/// Remark for the verdict, one sentence per payload: share of the canopy that it reached and row
+/// sides that its vehicle left out; "" if every side was passed.
 std::string canopy_remark(const RunFolder& run, const std::vector<CanopyFile>& canopies,
                           const std::vector<VehicleLog>& vehicles);
 

@@ -7,7 +7,7 @@
 namespace vinerow::tools::report {
 namespace {
 
-/// Points [begin, end) of one stretch without gaps.
+/// Decimates the points [begin, end) of one stretch without gaps.
 void add_stretch(const Samples& line, std::size_t begin, std::size_t end, std::size_t buckets,
                  Samples& out) {
   const std::size_t count = end - begin;
@@ -17,7 +17,7 @@ void add_stretch(const Samples& line, std::size_t begin, std::size_t end, std::s
   }
   out.add(line.x[begin], line.y[begin]);
   for (std::size_t bucket = 0; bucket < buckets; ++bucket) {
-    // The two ends are there already.
+    // The two end points are kept separately.
     const std::size_t from = begin + 1 + (count - 2) * bucket / buckets;
     const std::size_t to = begin + 1 + (count - 2) * (bucket + 1) / buckets;
     if (from == to) continue;

@@ -1,12 +1,12 @@
 #pragma once
-/// Fewer points of a line that look the same: no peak is lost.
+/// Decimation of a line that keeps every visible peak.
 
 #include <cstddef>
 #include <vector>
 
 namespace vinerow::tools::report {
 
-/// Points of a line in rising x. A y that is not finite is a gap.
+/// Points of a line with increasing x. A y that is not finite is a gap.
 struct Samples {
   std::vector<double> x, y;
 
@@ -17,9 +17,9 @@ struct Samples {
   }
 };
 
-/// At most about `most` points: of each of most / 2 buckets of as many points the lowest and the
-/// highest, in their order; the first and the last point of the line; every gap that separates
-/// points as one point that is not finite.
+/// Line with at most about `most` points. Keeps the lowest and the highest point of each of most /
+/// 2 equal buckets, in their order; the first and the last point; and each gap between points as
+/// one point that is not finite.
 Samples decimate(const Samples& line, std::size_t most = 1500);
 
 }  // namespace vinerow::tools::report

@@ -14,9 +14,10 @@ namespace vinerow::tools::report {
 namespace {
 
 constexpr double kRowReach_m = 5.0;
-/// More bands hide each other.
-constexpr std::size_t kMostBands = 2;
-/// A band of more than so many times the largest error would be the plot's ground.
+/// Maximum number of bands drawn; more would hide each other.
+constexpr std::size_t kMaxBands = 2;
+/// A band wider than this multiple of the largest error would fill the plot and is not drawn.
+/// Chosen.
 constexpr double kWidestBand = 1.2;
 
 std::vector<PolylineDistance> rows_of(const WorldModel* world) {
@@ -30,8 +31,8 @@ std::vector<PolylineDistance> rows_of(const WorldModel* world) {
   return rows;
 }
 
-/// Unit vector along the nearest row, towards where the vehicle looks; the heading's where no row
-/// is near.
+/// Unit vector along the nearest row, pointing in the vehicle's forward direction; the heading if
+/// no row is within kRowReach_m.
 Eigen::Vector2d along(const std::vector<PolylineDistance>& rows, const Pose& X_WB) {
   const double yaw_rad = yaw_from_quaternion(X_WB.q);
   const Eigen::Vector2d heading(std::cos(yaw_rad), std::sin(yaw_rad));
@@ -51,7 +52,7 @@ Eigen::Vector2d along(const std::vector<PolylineDistance>& rows, const Pose& X_W
 
 struct Errors {
   Samples lateral, longitudinal;
-  std::vector<double> lateral_2s, longitudinal_2s;  ///< two stated sigma
+  std::vector<double> lateral_2s, longitudinal_2s;  ///< two stated standard deviations, m
   bool states_any = false;
 };
 
@@ -81,7 +82,7 @@ PlotBand band_of(const std::string& name, const std::vector<double>& t_s,
 }
 
 double largest_error_m(const LinePlot& plot) {
-  double largest_m = plot.least_span;
+  double largest_m = plot.min_span;
   for (const PlotLine& line : plot.lines) {
     for (const double error_m : line.samples.y) largest_m = std::max(largest_m, std::abs(error_m));
   }
@@ -94,13 +95,13 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// Bands that would fill the plot go into its caption in words.
+/// Moves bands that would fill the plot into its caption.
 void put_far_bands_in_words(LinePlot& plot) {
   const double widest_m = kWidestBand * largest_error_m(plot);
   std::erase_if(plot.bands, [&](const PlotBand& band) {
     const double half_width_m = median(band.high);
     if (half_width_m <= widest_m) return false;
-    plot.caption += fmt::format(" Not drawn, as it would fill the plot: {} (±{:.2g} m).",
+    plot.caption += fmt::format(" Not drawn because it would fill the plot: {} (±{:.2g} m).",
                                 escaped(band.label), half_width_m);
     return true;
   });
@@ -116,14 +117,14 @@ std::vector<LinePlot> estimate_plots(const VehicleLog& vehicle, const WorldModel
   longitudinal.title = "Estimation error along the rows";
   lateral.y_label = longitudinal.y_label = "estimate minus truth, m";
   lateral.caption = longitudinal.caption =
-      "Error of the estimated position, and the band of two standard deviations that the estimator "
-      "states of itself: about 95 % of the line should lie inside. As paper C, figure 8.";
-  lateral.least_span = longitudinal.least_span = 0.01;
+      "Error of the estimated position, with a band of two standard deviations as stated by the "
+      "estimator: about 95 % of the line should be inside. As paper C, figure 8.";
+  lateral.min_span = longitudinal.min_span = 0.01;
   std::size_t colour = 0;
   for (const auto& [name, estimate] : vehicle.estimates) {
     const std::string style = fmt::format("s{}", colour % 8);
     Errors errors = errors_of(estimate, vehicle.truth, rows);
-    if (errors.states_any && colour < kMostBands) {
+    if (errors.states_any && colour < kMaxBands) {
       lateral.bands.push_back(band_of(name, errors.lateral.x, errors.lateral_2s, style));
       longitudinal.bands.push_back(
           band_of(name, errors.longitudinal.x, errors.longitudinal_2s, style));

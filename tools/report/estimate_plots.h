@@ -1,6 +1,5 @@
 #pragma once
-/// Plots of what estimators made of the sensors: error across and along the rows with what they
-/// state of it.
+/// Plots of estimation errors across and along the rows, with the stated uncertainty.
 
 #include <vector>
 
@@ -10,9 +9,9 @@
 
 namespace vinerow::tools::report {
 
-/// Estimate less truth across and along the nearest row (within 5 m, else the heading), with the
-/// band of +-2 sigma that the estimator states; none where the estimate is the truth. As the metric
-/// `estimation` judges it. @param world  null: the heading everywhere
+/// Plots of estimate minus truth across and along the nearest row (the heading if none is within
+/// 5 m), as in the metric `estimation`, with the band of +-2 sigma that the estimator states. Empty
+/// if the estimate is the truth. @param world  null: the heading everywhere
 std::vector<LinePlot> estimate_plots(const VehicleLog& vehicle, const WorldModel* world);
 
 }  // namespace vinerow::tools::report

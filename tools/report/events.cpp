@@ -11,10 +11,10 @@
 namespace vinerow::tools::report {
 namespace {
 
-/// Of the first screen.
-constexpr std::size_t kMostLines = 4, kMostLetters = 160;
-/// A chapter with more is slow to open; warnings and errors stay.
-constexpr std::size_t kMostRows = 1000;
+/// Limits of the notice on the first screen. Chosen.
+constexpr std::size_t kMaxLines = 4, kMaxLetters = 160;
+/// Limit on the rows of the chapter, so that it opens quickly; warnings and errors always stay.
+constexpr std::size_t kMaxRows = 1000;
 
 bool is_grave(const RunEvent& event) {
   return event.level != "info";
@@ -62,7 +62,7 @@ std::string badge(const std::string& level) {
   return fmt::format("<span class=\"badge{}\">{}</span>", style, level);
 }
 
-/// After a whole word, or where there is none, not in the middle of a letter of several bytes.
+/// Text cut after a whole word if possible, and never inside a multi-byte character.
 std::string shortened(const std::string& text, std::size_t most) {
   if (text.size() <= most) return text;
   std::size_t end = text.rfind(' ', most);
@@ -71,12 +71,12 @@ std::string shortened(const std::string& text, std::size_t most) {
   return text.substr(0, end) + " …";
 }
 
-/// A planner's numbers fill a screen: long texts open.
+/// Text that unfolds on a click if it is long: the numbers of a planner can fill a screen.
 std::string folded(const std::string& text) {
   constexpr std::size_t kFolds = 240;
   if (text.size() <= kFolds) return escaped(text);
   return fmt::format("<details><summary>{}</summary>{}</details>",
-                     escaped(shortened(text, kMostLetters)), escaped(text));
+                     escaped(shortened(text, kMaxLetters)), escaped(text));
 }
 
 std::string time_text(double t_s) {
@@ -117,12 +117,12 @@ std::string event_notice(const std::vector<RunEvent>& events) {
       "<div class=\"notice{}\"><p><strong>{} during the run</strong> <a href=\"#events\">all "
       "events</a></p>\n<ul>\n",
       errors > 0 ? " grave" : "", count);
-  for (std::size_t i = 0; i < grave.size() && i < kMostLines; ++i) {
+  for (std::size_t i = 0; i < grave.size() && i < kMaxLines; ++i) {
     out += fmt::format("<li><b>{} s</b> <code>{}</code> {}</li>\n", time_text(grave[i]->t_s),
-                       escaped(grave[i]->source), escaped(shortened(grave[i]->text, kMostLetters)));
+                       escaped(grave[i]->source), escaped(shortened(grave[i]->text, kMaxLetters)));
   }
-  if (grave.size() > kMostLines) {
-    out += fmt::format("<li>and {} more</li>\n", grave.size() - kMostLines);
+  if (grave.size() > kMaxLines) {
+    out += fmt::format("<li>and {} more</li>\n", grave.size() - kMaxLines);
   }
   return out + "</ul></div>\n";
 }
@@ -133,7 +133,7 @@ std::string event_table(const std::vector<RunEvent>& events) {
   std::string rows;
   std::size_t shown = 0;
   for (const RunEvent& event : events) {
-    if (!is_grave(event) && shown >= kMostRows) continue;
+    if (!is_grave(event) && shown >= kMaxRows) continue;
     rows += row_of(event);
     ++shown;
   }
@@ -145,10 +145,10 @@ std::string event_table(const std::vector<RunEvent>& events) {
   }
   out +=
       "<div class=\"scroll tall\"><table class=\"events\">\n<thead><tr><th class=\"num\">time, "
-      "s</th><th>level</th><th>source</th><th>what happened</th></tr></thead>\n<tbody>\n" +
+      "s</th><th>level</th><th>source</th><th>event</th></tr></thead>\n<tbody>\n" +
       rows + "</tbody></table></div>\n";
   if (shown < events.size()) {
-    out += fmt::format("<p>{} of {} events; the others are in the run's events.jsonl.</p>\n", shown,
+    out += fmt::format("<p>Showing {} of {} events; all are in events.jsonl.</p>\n", shown,
                        events.size());
   }
   return out;

@@ -1,6 +1,5 @@
 #pragma once
-/// What happened in the run, as its parts told it: warnings and errors on the first screen, all of
-/// it in a chapter.
+/// Events of a run: warnings and errors on the first screen, all events in a chapter.
 
 #include <string>
 #include <vector>
@@ -16,14 +15,14 @@ struct RunEvent {
   std::string text;
 };
 
-/// Of events.jsonl, else of the log, in the order of time. A line that is no event is passed over:
-/// a run that was killed may have left half of one.
+/// Events from events.jsonl, or from the log if it is absent, in order of time. Skips lines that
+/// are not events: a killed run may leave half a line.
 std::vector<RunEvent> read_events(const RunFolder& run);
 
-/// Errors and warnings in a few lines, with a link to the chapter; "" where there is none.
+/// Errors and warnings in a few lines, with a link to the chapter; "" without any.
 std::string event_notice(const std::vector<RunEvent>& events);
 
-/// The chapter: all events, and a box to see warnings and errors alone.
+/// The chapter: all events, with a check box that hides all but warnings and errors.
 std::string event_table(const std::vector<RunEvent>& events);
 
 }  // namespace vinerow::tools::report

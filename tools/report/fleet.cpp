@@ -10,17 +10,17 @@
 namespace vinerow::tools::report {
 namespace {
 
-/// The metric `clearance` looks no farther.
+/// Search radius of the metric `clearance`.
 constexpr double kClearanceReach_m = 3.0;
 
-/// Vehicles that work together for less only take over from each other.
+/// Vehicles that work at the same time for less only hand over to each other. Chosen.
 constexpr double kTogether_s = 5.0;
 
 std::string card(const std::string& value, const std::string& what) {
   return fmt::format("<div class=\"card\"><b>{}</b><span>{}</span></div>\n", value, what);
 }
 
-/// Sum or least of a metric over the vehicles that have it; NaN where none has.
+/// Sum of a metric over the vehicles that have it; NaN if no vehicle has it.
 double sum_of(const RunFolder& run, const std::string& metric) {
   double sum = kNone;
   for (const std::string& vehicle : run.vehicles) {
@@ -30,7 +30,7 @@ double sum_of(const RunFolder& run, const std::string& metric) {
   return sum;
 }
 
-double least_of(const RunFolder& run, const std::string& metric) {
+double min_of(const RunFolder& run, const std::string& metric) {
   double least = kNone;
   for (const std::string& vehicle : run.vehicles) {
     least = std::fmin(least, run.metric(vehicle, metric));
@@ -38,7 +38,7 @@ double least_of(const RunFolder& run, const std::string& metric) {
   return least;
 }
 
-/// Distance of two vehicles at the first one's instants.
+/// Distance between two vehicles at the first one's time stamps.
 Samples distance_of(const VehicleLog& a, const VehicleLog& b) {
   Samples samples;
   if (a.truth.empty() || b.truth.empty()) return samples;
@@ -50,7 +50,7 @@ Samples distance_of(const VehicleLog& a, const VehicleLog& b) {
   return samples;
 }
 
-/// While both are at work.
+/// Samples from the time in which both vehicles are at work.
 Samples during(const Samples& samples, const Track& a, const Track& b) {
   Samples both;
   if (a.empty() || b.empty()) return both;
@@ -84,7 +84,7 @@ std::string key_numbers(const RunFolder& run, const std::vector<VehicleLog>& veh
   std::string out = "<div class=\"cards\">\n";
   out += card(duration_text(std::max(0.0, run.end_s())), "simulated");
   out += card("<span data-from=\"real-time-factor\">see Timings</span>",
-              "real time: speed of the simulation");
+              "real time: simulation speed");
   std::string names;
   for (const std::string& name : run.vehicles) names += (names.empty() ? "" : ", ") + name;
   out += card(std::to_string(run.vehicles.size()),
@@ -99,19 +99,20 @@ std::string key_numbers(const RunFolder& run, const std::vector<VehicleLog>& veh
   if (std::isfinite(contacts)) {
     out += card(fmt::format("{:.0f}", contacts), "contacts with plants, posts or vehicles");
   }
-  const double clearance_m = least_of(run, "min_clearance_m");
+  const double clearance_m = min_of(run, "min_clearance_m");
   if (std::isfinite(clearance_m)) {
     const bool beyond = clearance_m >= kClearanceReach_m;
     out += card(beyond ? fmt::format("over {:g} m", kClearanceReach_m)
                        : fmt::format("{:.2f} m", clearance_m),
-                "closest to plants and posts");
+                "smallest clearance from plants and posts");
   }
-  double separation_m = least_of(run, "min_vehicle_distance_m");
+  double separation_m = min_of(run, "min_vehicle_distance_m");
   const bool measured = std::isfinite(separation_m);
-  if (!measured) separation_m = least_separation_m(vehicles);
+  if (!measured) separation_m = min_separation_m(vehicles);
   if (std::isfinite(separation_m)) {
     out += card(fmt::format("{:.1f} m", separation_m),
-                measured ? "closest two vehicles came" : "closest two vehicles came (centres)");
+                measured ? "smallest distance between vehicles"
+                         : "smallest distance between vehicles (centres)");
   }
   return out + "</div>\n";
 }
@@ -122,10 +123,10 @@ LinePlot separation_plot(const std::vector<VehicleLog>& vehicles,
   plot.title = "Distance between the vehicles";
   plot.y_label = "centre to centre, m";
   plot.caption =
-      "True distance between their centres while both are at work. Shaded: one waits for an alley "
-      "that another one has.";
+      "True distance between the centres while both vehicles are at work. Shaded: a vehicle waits "
+      "for an alley that another one occupies.";
   plot.spans_label = "a vehicle waits for another";
-  plot.least_span = 1.0;
+  plot.min_span = 1.0;
   for (std::size_t a = 0; a < vehicles.size(); ++a) {
     add_waits(vehicles[a], plot.spans);
     for (std::size_t b = a + 1; b < vehicles.size(); ++b) {
@@ -136,20 +137,20 @@ LinePlot separation_plot(const std::vector<VehicleLog>& vehicles,
     }
   }
   if (plot.spans.empty())
-    plot.caption = "True distance between their centres while both are at work.";
+    plot.caption = "True distance between the centres while both vehicles are at work.";
   return plot;
 }
 
-double least_separation_m(const std::vector<VehicleLog>& vehicles) {
-  double least_m = kNone;
+double min_separation_m(const std::vector<VehicleLog>& vehicles) {
+  double min_m = kNone;
   for (std::size_t a = 0; a < vehicles.size(); ++a) {
     for (std::size_t b = a + 1; b < vehicles.size(); ++b) {
       for (const double distance_m : distance_of(vehicles[a], vehicles[b]).y) {
-        least_m = std::fmin(least_m, distance_m);
+        min_m = std::fmin(min_m, distance_m);
       }
     }
   }
-  return least_m;
+  return min_m;
 }
 
 }  // namespace vinerow::tools::report

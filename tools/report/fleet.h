@@ -1,5 +1,5 @@
 #pragma once
-/// What concerns all vehicles together: key numbers, and how near they come to each other.
+/// Report elements on all vehicles together: key numbers and separation.
 
 #include <string>
 #include <vector>
@@ -11,17 +11,17 @@
 
 namespace vinerow::tools::report {
 
-/// The cards of the first screen. Without what depends on the machine: the page's script takes the
-/// real-time factor from the element "real-time-factor".
+/// Cards of the first screen. They contain nothing that depends on the machine: the page's script
+/// copies the real-time factor from the element "real-time-factor".
 std::string key_numbers(const RunFolder& run, const std::vector<VehicleLog>& vehicles);
 
-/// Distance between the middles of every two vehicles while both are at work, with the stretches in
-/// which one waits for an alley that the other has; empty where no two are.
-/// @param tracks  one of each vehicle
+/// Distance between the centres of each pair of vehicles while both are at work. Times in which one
+/// waits for an alley that another occupies are shaded. Empty if no two work at the same time.
+/// @param tracks  one per vehicle
 LinePlot separation_plot(const std::vector<VehicleLog>& vehicles, const std::vector<Track>& tracks);
 
-/// Least distance between the middles of two vehicles at the instants of the log, m; NaN for fewer
-/// than two.
-double least_separation_m(const std::vector<VehicleLog>& vehicles);
+/// Smallest distance between the centres of two vehicles at the instants of the log, m; NaN for
+/// fewer than two vehicles.
+double min_separation_m(const std::vector<VehicleLog>& vehicles);
 
 }  // namespace vinerow::tools::report

@@ -10,9 +10,9 @@
 namespace vinerow::tools::report {
 namespace {
 
-constexpr const char* kThinSpace = "\u202f";  // does not break
+constexpr const char* kThinSpace = "\u202f";  // no-break
 
-/// Thousands of the digits before the point apart.
+/// Integer digits with thin spaces between thousands.
 std::string grouped(const std::string& digits) {
   const std::size_t whole = std::min(digits.find('.'), digits.size());
   if (whole < 5) return digits;
@@ -24,7 +24,7 @@ std::string grouped(const std::string& digits) {
   return out + digits.substr(whole);
 }
 
-/// XML has no place for U+FFFE and U+FFFF.
+/// Text without U+FFFE and U+FFFF, which XML forbids.
 std::string without_noncharacters(std::string text) {
   for (const char* none : {"\xEF\xBF\xBE", "\xEF\xBF\xBF"}) {
     for (std::size_t at = 0; (at = text.find(none, at)) != std::string::npos;) text.erase(at, 3);
@@ -52,7 +52,7 @@ std::string escaped(const std::string& text) {
         out += "&quot;";
         break;
       default:
-        // XML 1.0 has no place for the others.
+        // XML 1.0 forbids the other control characters.
         if (static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t') out += c;
     }
   }

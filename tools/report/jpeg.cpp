@@ -12,7 +12,7 @@
 namespace vinerow::tools::report {
 namespace {
 
-constexpr int kBlock = 8, kCell = 16;  ///< pixels of a block's side, and of a cell with its colours
+constexpr int kBlock = 8, kCell = 16;  ///< side of a block and of a cell (with colours), pixels
 
 using Table = std::array<int, 64>;
 using Block = std::array<double, 64>;
@@ -27,13 +27,13 @@ constexpr Table kChrominance = {17, 18, 24, 47, 99, 99, 99, 99, 18, 21, 26, 66, 
                                 24, 26, 56, 99, 99, 99, 99, 99, 47, 66, 99, 99, 99, 99, 99, 99,
                                 99, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99,
                                 99, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99};
-// T.81, figure A.6: the place in a block of each coefficient in its order of writing.
+// T.81, figure A.6: index in the block of each coefficient, in order of output.
 constexpr Table kZigzag = {0,  1,  8,  16, 9,  2,  3,  10, 17, 24, 32, 25, 18, 11, 4,  5,
                            12, 19, 26, 33, 40, 48, 41, 34, 27, 20, 13, 6,  7,  14, 21, 28,
                            35, 42, 49, 56, 57, 50, 43, 36, 29, 22, 15, 23, 30, 37, 44, 51,
                            58, 59, 52, 45, 38, 31, 39, 46, 53, 60, 61, 54, 47, 55, 62, 63};
 
-/// How many codes have 1 to 16 bits, and what they stand for (T.81, tables K.3 to K.6).
+/// Number of codes with 1 to 16 bits, and their values (T.81, tables K.3 to K.6).
 struct CodeList {
   std::array<std::uint8_t, 16> counts;
   std::span<const std::uint8_t> symbols;
@@ -76,7 +76,7 @@ struct Code {
   int length = 0;
 };
 
-/// T.81, annex C: codes of one length follow each other.
+/// Huffman codes from a list (T.81, annex C): codes of one length are consecutive.
 std::array<Code, 256> codes_of(const CodeList& list) {
   std::array<Code, 256> codes;
   std::uint32_t next = 0;
@@ -101,7 +101,7 @@ class BitWriter {
     }
   }
   void put(const Code& code) { put(code.bits, code.length); }
-  /// Ones up to the end of the byte.
+  /// Fills the last byte with ones.
   void finish() {
     while (filled_ != 0) put(1, 1);
   }
@@ -109,7 +109,7 @@ class BitWriter {
  private:
   void flush() {
     out_ += static_cast<char>(byte_);
-    // A byte of ones would begin a marker.
+    // 0xFF would start a marker, so a zero byte follows it.
     if (byte_ == 0xFF) out_ += '\0';
     byte_ = 0;
     filled_ = 0;
@@ -120,7 +120,7 @@ class BitWriter {
   int filled_ = 0;
 };
 
-/// One of Y, Cb, Cr: its tables, and the coefficient from which the next block's differs.
+/// Colour component Y, Cb or Cr: its tables, and the DC coefficient of the previous block.
 struct Component {
   Table quanta;
   std::array<Code, 256> dc, ac;
@@ -178,7 +178,7 @@ int size_of(int value) {
   return size;
 }
 
-/// The bits after a size: those of the number, of a negative one less one (T.81, F.1.2.1).
+/// Bits that follow a size: those of the value, or of value - 1 if it is negative (T.81, F.1.2.1).
 void put_value(int value, int size, BitWriter& out) {
   out.put(static_cast<std::uint32_t>(value < 0 ? value + (1 << size) - 1 : value), size);
 }
@@ -241,7 +241,7 @@ std::string headers(const render::Pixels& pixels, const Table& luminance,
   out += '\x08';
   put_word(out, pixels.height);
   put_word(out, pixels.width);
-  // Three components: number, samples across and down in a cell, table of quanta.
+  // Three components: number, horizontal and vertical samples per cell, quantisation table.
   out.append("\3\1\x22\0\2\x11\1\3\x11\1", 10);
   put_codes(out, 0x00, kLuminanceDc);
   put_codes(out, 0x10, kLuminanceAc);
@@ -253,7 +253,7 @@ std::string headers(const render::Pixels& pixels, const Table& luminance,
   return out;
 }
 
-/// A cell of 16 x 16 pixels, in YCbCr as JFIF has it; beyond the picture its last pixels repeat.
+/// Cell of 16 x 16 pixels in the YCbCr of JFIF. Beyond the picture its last pixels repeat.
 struct Cell {
   std::array<Block, 4> y;
   Block cb{}, cr{};

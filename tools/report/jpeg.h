@@ -1,5 +1,6 @@
 #pragma once
-/// Photographs for the page. PNG keeps every leaf of a frame and takes five times the bytes.
+/// JPEG encoder for the photographs of the page. PNG would keep every leaf but take five times the
+/// bytes.
 
 #include <string>
 
@@ -8,9 +9,9 @@
 namespace vinerow::tools::report {
 
 /// Baseline JPEG (ITU-T T.81) in JFIF, colours at half the resolution (4:2:0), with the tables of
-/// Annex K. The same pixels give the same bytes. Alpha is left out.
-/// @param quality  1 to 100, as the Independent JPEG Group scales its tables @pre width, height
-/// from 1 to 65535
+/// Annex K. The same pixels give the same bytes. Alpha is ignored.
+/// @param quality  1 to 100, scaled as by the Independent JPEG Group
+/// @pre width, height from 1 to 65535
 std::string encode_jpeg(const render::Pixels& pixels, int quality);
 
 }  // namespace vinerow::tools::report

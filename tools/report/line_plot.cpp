@@ -12,7 +12,7 @@
 namespace vinerow::tools::report {
 namespace {
 
-/// A limit farther than this many spans outside of the lines is left out.
+/// A limit farther outside the lines than this multiple of their span is left out. Chosen.
 constexpr double kFarLimit = 3.0;
 
 Range line_range(const LinePlot& plot) {
@@ -26,10 +26,11 @@ Range line_range(const LinePlot& plot) {
   return range;
 }
 
-/// A band widens the plot up to so many times the lines' own span, and is cut there.
+/// Range of the lines, widened by bands up to a multiple of the lines' span; bands are clipped
+/// there.
 Range with_bands(const Range& lines, const LinePlot& plot) {
-  constexpr double kMostWider = 1.0;
-  const double reach = kMostWider * std::max(lines.span(), plot.least_span);
+  constexpr double kMaxWider = 1.0;
+  const double reach = kMaxWider * std::max(lines.span(), plot.min_span);
   Range range = lines;
   for (const PlotBand& band : plot.bands) {
     for (const auto* side : {&band.low, &band.high}) {
@@ -41,8 +42,8 @@ Range with_bands(const Range& lines, const LinePlot& plot) {
   return range;
 }
 
-bool is_near(const PlotLimit& limit, const Range& lines, double least_span) {
-  const double reach = kFarLimit * std::max(lines.span(), least_span);
+bool is_near(const PlotLimit& limit, const Range& lines, double min_span) {
+  const double reach = kFarLimit * std::max(lines.span(), min_span);
   return lines.empty() || (limit.y > lines.low - reach && limit.y < lines.high + reach);
 }
 
@@ -100,7 +101,7 @@ std::string legend(const LinePlot& plot) {
   const Range lines = line_range(plot);
   std::string told;
   for (const PlotLimit& limit : plot.limits) {
-    if (limit.label == told || !is_near(limit, lines, plot.least_span)) continue;
+    if (limit.label == told || !is_near(limit, lines, plot.min_span)) continue;
     told = limit.label;
     keys += legend_key("limit", limit.label);
   }
@@ -128,12 +129,12 @@ Range y_range(const LinePlot& plot) {
   const Range lines = line_range(plot);
   Range range = lines.empty() ? lines : with_bands(lines, plot);
   for (const PlotLimit& limit : plot.limits) {
-    if (is_near(limit, lines, plot.least_span)) range.include(limit.y);
+    if (is_near(limit, lines, plot.min_span)) range.include(limit.y);
   }
-  range = range.padded(0.05, plot.least_span);
-  // No room beyond what there can be: a charge of 100.2 %.
+  range = range.padded(0.05, plot.min_span);
+  // No padding beyond the largest possible value, such as a charge of 100 %.
   const double most = std::max(plot.most, lines.empty() ? plot.most : lines.high);
-  if (range.high > most) range = {std::min(range.low, most - plot.least_span), most};
+  if (range.high > most) range = {std::min(range.low, most - plot.min_span), most};
   return range;
 }
 
@@ -154,7 +155,7 @@ std::string draw(const LinePlot& plot, const PlotFrame& frame) {
   for (const PlotBand& band : plot.bands) draw_band(band, x, y, svg);
   const Range lines = line_range(plot);
   for (const PlotLimit& limit : plot.limits) {
-    if (!is_near(limit, lines, plot.least_span)) continue;
+    if (!is_near(limit, lines, plot.min_span)) continue;
     svg.line(x.from_px(), y.px(limit.y), x.to_px(), y.px(limit.y), "limit");
   }
   for (const PlotLine& line : plot.lines) draw_line(line, x, y, svg);

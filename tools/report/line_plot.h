@@ -1,5 +1,5 @@
 #pragma once
-/// A plot of lines over time or distance: axes with units, ticks, limits, bands, shaded stretches.
+/// Line plot over time or distance: axes with units, ticks, limits, bands, shaded spans.
 
 #include <limits>
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace vinerow::tools::report {
 
-/// A value where a line has a gap.
+/// Value that marks a gap in a line.
 inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 struct PlotLine {
@@ -26,12 +26,12 @@ struct PlotBand {
   std::string style;
 };
 
-/// A stretch of x that is shaded.
+/// Shaded range of x.
 struct PlotSpan {
   double from = 0.0, to = 0.0;
 };
 
-/// A level that must not be passed.
+/// Level that must not be passed.
 struct PlotLimit {
   double y = 0.0;
   std::string label;
@@ -41,33 +41,33 @@ struct LinePlot {
   std::string title;
   std::string x_label = "time, s";
   std::string y_label;  ///< with its unit
-  std::string caption;  ///< a sentence or two, HTML
+  std::string caption;  ///< one or two sentences, HTML
   std::vector<PlotLine> lines;
   std::vector<PlotBand> bands;
   std::vector<PlotSpan> spans;
-  std::string spans_label;  ///< what the shaded stretches are
+  std::string spans_label;  ///< legend text of the shaded spans
   std::vector<PlotLimit> limits;
-  double least_span = 1e-3;  ///< of y: what is less is no event, in y's unit
-  double most = std::numeric_limits<double>::infinity();  ///< of y: 100 for a share in per cent
+  double min_span = 1e-3;  ///< smallest span of the y axis, in y's unit
+  double most = std::numeric_limits<double>::infinity();  ///< upper end of y: 100 for per cent
 
-  /// Whether there is anything to draw.
+  /// Whether there is nothing to draw.
   bool empty() const;
 };
 
-/// The places where plots of a picture's size draw, in its pixels.
+/// Size and margins of a plot, in pixels.
 struct PlotFrame {
   double width = 640, height = 300, left = 70, right = 16, top = 12, bottom = 46;
 };
 
-/// Ranges that hold every line of a plot. Limits count where they lie less than `3 x` the lines'
-/// own span outside of it, bands as far as that span, so that a far one does not flatten the lines.
+/// Ranges that contain every line of a plot. Limits are included if they are less than 3 spans of
+/// the lines outside, bands up to one span, so that a distant one does not flatten the lines.
 Range x_range(const LinePlot& plot);
 Range y_range(const LinePlot& plot);
 
-/// The plot as SVG, without title, legend and caption. @pre !plot.empty()
+/// Plot as SVG, without title, legend and caption. @pre !plot.empty()
 std::string draw(const LinePlot& plot, const PlotFrame& frame = {});
 
-/// <figure> with title, legend, plot and caption; nothing where the plot is empty.
+/// <figure> with title, legend, plot and caption; "" if the plot is empty.
 std::string figure(const LinePlot& plot, const PlotFrame& frame = {});
 
 }  // namespace vinerow::tools::report

@@ -44,7 +44,7 @@ footer { margin-top: 48px; font-size: 13px; color: #787c7a; }
 @media print { body { background: #fff; } main { max-width: none; padding: 0; } figure, tr, .card { break-inside: avoid; } }
 )";
 
-/// "7 012 345", with narrow spaces that do not break.
+/// "7 012 345", with narrow no-break spaces.
 std::string grouped_count(std::int64_t number) {
   std::string digits = std::to_string(std::abs(number)), out;
   for (std::size_t k = 0; k < digits.size(); ++k) {
@@ -93,9 +93,9 @@ std::string cards(const mapping::CloudMap& map) {
   const double area_ha = 1e-4 * std::abs(signed_area_m2(map.map.boundary_W));
   std::string out = "<div class=\"cards\">\n";
   out += figure_card(std::to_string(r.rows.size()), "", "rows");
-  out += figure_card(fmt::format("{:.0f}", total_length_m(r)), "m", "length of all rows");
+  out += figure_card(fmt::format("{:.0f}", total_length_m(r)), "m", "total length of the rows");
   out += figure_card(fmt::format("{:.2f}", r.spacing_m), fmt::format("± {:.2f} m", r.spacing_std_m),
-                     "between rows");
+                     "row spacing");
   out += figure_card(fmt::format("{:.1f}°", r.bearing_deg), "from north", "direction of the rows");
   out += figure_card(fmt::format("{:.2f}", r.canopy_top_m), "m", "canopy height above the ground");
   out += figure_card(fmt::format("{:.2f}", r.canopy_width_m), "m", "canopy width");
@@ -103,12 +103,12 @@ std::string cards(const mapping::CloudMap& map) {
                      area_ha > 0.0 ? fmt::format("m³, {:.0f} m³/ha", r.volume_m3 / area_ha) : "m³",
                      "volume inside the meshes");
   out += figure_card(fmt::format("{:.0f}", r.seen_volume_m3), "m³",
-                     "canopy that was seen, without what noise adds");
+                     "canopy seen, without the volume that noise adds");
   out += figure_card(
       fmt::format("{:.0f}", all_gaps_m(r)),
       fmt::format("m, {:.1f} %",
                   total_length_m(r) > 0.0 ? 100.0 * all_gaps_m(r) / total_length_m(r) : 0.0),
-      "of the rows without canopy");
+      "of row length without canopy");
   out += figure_card(fmt::format("{:.1f} %", 100.0 * r.containment), "",
                      "of canopy points within 1 cm of the meshes");
   out += figure_card(fmt::format("{:.1f} %", 100.0 * r.reduction),
@@ -184,7 +184,7 @@ std::string facts(const mapping::CloudMap& map) {
   out += fact("file", r.file + (r.format.empty() ? "" : ", " + r.format));
   out += fact("coordinate reference system", r.crs.empty() ? "none, local metres" : r.crs);
   out += fact("points", grouped_count(r.points) +
-                            (r.not_finite > 0 ? fmt::format(", {} more left out, not finite",
+                            (r.not_finite > 0 ? fmt::format(", {} more ignored, not finite",
                                                             grouped_count(r.not_finite))
                                               : ""));
   out += fact("density", fmt::format("{:.0f} per m²", r.density_per_m2));
@@ -192,13 +192,13 @@ std::string facts(const mapping::CloudMap& map) {
   out += fact("ground points", share(r.ground_points));
   out += fact("low vegetation", share(r.low_points));
   out += fact("canopy of rows", share(r.canopy_points));
-  out += fact("other, as high as canopy", share(r.other_points));
+  out += fact("other points as high as the canopy", share(r.other_points));
   if (map.has_origin) {
     out += fact("origin of the map",
                 fmt::format("{:.7f}° N, {:.7f}° E, {:.2f} m", deg_from_rad(map.origin.latitude_rad),
                             deg_from_rad(map.origin.longitude_rad), map.origin.altitude_m));
   } else {
-    out += fact("origin of the map", "not known: coordinates are local metres");
+    out += fact("origin of the map", "unknown: coordinates are local metres");
   }
   if (!map.map.occupancy.empty()) {
     const OccupancyGrid& grid = map.map.occupancy;
@@ -236,9 +236,9 @@ std::string map_report_html(const mapping::CloudMap& map,
   out += "<h2>Ends of the rows</h2>\n" + end_table(map);
   out += "<h2>Point cloud and map</h2>\n" + facts(map);
   out +=
-      "<footer>Made by Vinerow. Files beside this page: map.json (rows, figures), report.json "
+      "<footer>Made by Vinerow. Files next to this page: map.json (rows, figures), report.json "
       "(figures), meshes (PLY), terrain.tif (GeoTIFF), occupancy.yaml (ROS map), rows.geojson "
-      "(QGIS, where the origin is known).</footer>\n</main>\n</body>\n</html>\n";
+      "(QGIS, if the origin is known).</footer>\n</main>\n</body>\n</html>\n";
   return out;
 }
 
@@ -252,13 +252,13 @@ std::string map_report_text(const mapping::CloudMap& map) {
                      r.file, r.format, r.points, megabytes(r.cloud_bytes), r.density_per_m2,
                      100.0 * r.noise_m);
   if (r.not_finite > 0) {
-    out += fmt::format("left out       {} points that are not finite\n", r.not_finite);
+    out += fmt::format("ignored        {} points that are not finite\n", r.not_finite);
   }
   out += fmt::format(
       "classes        {:.1f} % ground, {:.1f} % low vegetation, {:.1f} % canopy, {:.1f} % other\n",
       percent(r.ground_points), percent(r.low_points), percent(r.canopy_points),
       percent(r.other_points));
-  out += fmt::format("rows           {}, {:.0f} m of them, {:.0f} m without canopy\n",
+  out += fmt::format("rows           {}, total length {:.0f} m, {:.0f} m without canopy\n",
                      r.rows.size(), total_length_m(r), all_gaps_m(r));
   out += fmt::format("direction      {:.2f} deg from north\n", r.bearing_deg);
   out += fmt::format("spacing        {:.3f} m +- {:.3f} m\n", r.spacing_m, r.spacing_std_m);
@@ -268,9 +268,9 @@ std::string map_report_text(const mapping::CloudMap& map) {
                      r.volume_m3, r.seen_volume_m3);
   out += fmt::format("meshes         {} triangles, {}, {:.2f} % less than the cloud\n", r.triangles,
                      megabytes(r.mesh_bytes), 100.0 * r.reduction);
-  out +=
-      fmt::format("sections       {:.1f} % larger than the smallest polygons of as many corners\n",
-                  100.0 * r.section_excess);
+  out += fmt::format(
+      "sections       {:.1f} % larger than the smallest polygons with equally many corners\n",
+      100.0 * r.section_excess);
   out +=
       fmt::format("containment    {:.2f} % of canopy points within 1 cm\n", 100.0 * r.containment);
   if (!map.map.occupancy.empty()) {

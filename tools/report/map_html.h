@@ -1,5 +1,5 @@
 #pragma once
-/// report.html of a map that was made of a point cloud.
+/// Report page of a map made from a point cloud.
 
 #include <string>
 #include <vector>
@@ -8,18 +8,18 @@
 
 namespace vinerow::tools {
 
-/// A picture beside the page.
+/// Picture file next to the page.
 struct ReportPicture {
   std::string file;     ///< relative to the page
   std::string caption;  ///< one sentence
 };
 
-/// One page that opens without a network: headline figures, pictures, a table of rows, notes. Well
-/// formed as XML, too. @param title  of the page, like the parcel's name
+/// Page that opens without a network: headline figures, pictures, a table of rows, notes. It is
+/// well-formed XML too. @param title  title of the page, such as the parcel's name
 std::string map_report_html(const mapping::CloudMap& map,
                             const std::vector<ReportPicture>& pictures, const std::string& title);
 
-/// The same figures for a terminal, a line each, keys first.
+/// The same figures for a terminal, one per line, keys first.
 std::string map_report_text(const mapping::CloudMap& map);
 
 }  // namespace vinerow::tools

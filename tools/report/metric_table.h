@@ -1,19 +1,21 @@
 #pragma once
-/// What every metric means, in words, with the equation or section of a paper that it stems from.
+/// Title, definition and source of a metric, from the declaration of the part that gives it
+/// (engine/api/result_spec.h).
 
 #include <string>
 
 namespace vinerow::tools::report {
 
 struct MetricMeaning {
-  std::string title;       ///< a few plain words, "largest distance from the lane"
-  std::string definition;  ///< one sentence
-  std::string source;      ///< "paper B, eq. 8"; "" where it is our own
-  bool known = false;      ///< false: made of the name alone
+  std::string title;       ///< a few plain words, "max lateral error on lanes"
+  std::string definition;  ///< one or two sentences
+  std::string source;      ///< "paper B, eq. 8"; empty if the definition is ours
+  bool known = false;      ///< false: no built-in part declares it; the title is made of the name
 };
 
-/// @param name  without the vehicle, "cross_track_rms_m". Names of wheels, sources of innovations
-/// and observers may stand in it, as in "slip_rms_fl", "nis_range_mean" or "ekf_lateral_rms_m".
+/// @param name  without the vehicle, "cross_track_rms_m". Names of wheels, measurement sources,
+/// observers and payloads may be part of it, as in "slip_rms_fl", "nis_range_mean",
+/// "ekf_lateral_rms_m" or "sprayer_litres_left"; the title then ends with them.
 MetricMeaning metric_meaning(const std::string& name);
 
 }  // namespace vinerow::tools::report

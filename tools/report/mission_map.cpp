@@ -14,21 +14,21 @@ namespace vinerow::tools::report {
 namespace {
 
 constexpr double kTolerance_px = 0.3;
-/// Around everything, as a share of the larger side.
+/// Margin around the content, as a share of the larger side. Chosen.
 constexpr double kMarginShare = 0.03;
-/// A parcel that takes less of the whole picture is shown apart.
+/// A parcel with a smaller share of the whole picture gets its own picture. Chosen.
 constexpr double kSmallParcel = 0.35;
 constexpr double kTurnMargin_m = 3.0;
-constexpr double kTickRoom_px = 40.0;
+constexpr double kTickSpace_px = 40.0;
 
-/// Metres to pixels, the same along both axes.
+/// Projection from metres to pixels, with the same scale on both axes.
 class Projection {
  public:
   Projection(const MapView& view, const MapStyle& style) {
-    const double room = style.with_axes ? kTickRoom_px : 0.0;
+    const double room = style.with_axes ? kTickSpace_px : 0.0;
     const double width = style.width - room;
     const double wanted = width / view.x.span() * view.y.span();
-    const double height = std::clamp(wanted, style.least_height - room, style.most_height - room);
+    const double height = std::clamp(wanted, style.min_height - room, style.max_height - room);
     scale_ = std::min(width / view.x.span(), height / view.y.span());
     const double x_m = width / scale_, y_m = height / scale_;
     const double x0 = 0.5 * (view.x.low + view.x.high), y0 = 0.5 * (view.y.low + view.y.high);
@@ -52,7 +52,7 @@ class Projection {
   double scale_ = 1.0, left_ = 0.0, bottom_ = 0.0, full_height_ = 0.0;
 };
 
-/// Lines every so many metres, the same along both axes; the axes' texts where there is room.
+/// Draws grid lines with the same step on both axes, and tick labels where there is space.
 void draw_grid_lines(const Projection& at, const MapStyle& style, Svg& svg) {
   if (!style.with_axes) return;
   const Axis x(at.shown().x, at.left(), style.width, 10);
@@ -66,7 +66,7 @@ void draw_grid_lines(const Projection& at, const MapStyle& style, Svg& svg) {
   for (double k = first; k * step_m <= at.shown().y.high; ++k) {
     const double y = at({0.0, k * step_m}).y();
     svg.line(at.left(), y, style.width, y, "grid");
-    // The corner belongs to the axis' name, 80 units long on a telephone.
+    // The axis name, 80 px long, occupies the corner on a telephone.
     if (y > 90.0) svg.text(at.left() - 5, y + 4, tick_text(k * step_m, step_m), "tick end");
   }
   svg.text(style.width - 2, bottom + 33, "east, m", "tick end");
@@ -134,12 +134,12 @@ void draw_tracks(const std::vector<VehicleLog>& vehicles, const Projection& at,
   }
 }
 
-/// A round length of about a sixth of the picture, and an arrow to the north.
+/// Draws a scale bar of a round length, about a sixth of the picture, and a north arrow.
 void draw_scale(const Projection& at, const MapStyle& style, Svg& svg) {
-  const double most_m = style.width / at.scale() / 5.0;
-  double length_m = std::pow(10.0, std::floor(std::log10(most_m)));
+  const double max_m = style.width / at.scale() / 5.0;
+  double length_m = std::pow(10.0, std::floor(std::log10(max_m)));
   for (const double factor : {5.0, 2.0}) {
-    if (factor * length_m > most_m) continue;
+    if (factor * length_m > max_m) continue;
     length_m *= factor;
     break;
   }
@@ -174,7 +174,7 @@ std::optional<MapView> with_margin(MapView view) {
   return view;
 }
 
-/// Index of the point farthest from the straight line between two, and how far it is.
+/// Point farthest from the straight line between two points: its index and distance.
 std::pair<std::size_t, double> farthest(const std::vector<Eigen::Vector2d>& line, std::size_t first,
                                         std::size_t last) {
   const Eigen::Vector2d d = line[last] - line[first];

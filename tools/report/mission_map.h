@@ -1,5 +1,5 @@
 #pragma once
-/// The mission from above: rows, parcel, plans and tracks to scale, north up.
+/// Map of the mission: rows, parcel, plans and tracks to scale, north up.
 
 #include <optional>
 #include <string>
@@ -12,43 +12,43 @@
 
 namespace vinerow::tools::report {
 
-/// A rectangle of the ground, m east and north.
+/// Rectangle of the ground, m east and north.
 struct MapView {
   Range x, y;
 };
 
 struct MapStyle {
-  std::string label;  ///< what the picture shows, for who cannot see it
+  std::string label;  ///< description of the picture, for screen readers
   double width = 1000;
-  double least_height = 320, most_height = 640;
-  bool with_axes = true;  ///< ticks in metres, else the scale bar alone
+  double min_height = 320, max_height = 640;
+  bool with_axes = true;  ///< ticks in metres; otherwise only a scale bar
   bool with_plans = true;
-  bool with_ends = true;    ///< where vehicles start and end
-  bool with_canopy = true;  ///< rows as wide as their canopy
+  bool with_ends = true;    ///< mark where vehicles start and end
+  bool with_canopy = true;  ///< draw rows as wide as their canopy
 };
 
-/// What holds rows, parcel, plans and tracks of the vehicles; nothing where there is none of it.
+/// View that contains rows, parcel, plans and tracks of the vehicles; nullopt without any of them.
 std::optional<MapView> whole_view(const RunFolder& run, const std::vector<VehicleLog>& vehicles);
 
-/// Rows, parcel, and the tracks of those that work in them; nothing where that is about the whole
-/// view or nobody works there.
+/// View of rows, parcel and the tracks of vehicles that work there; empty if it is nearly the whole
+/// view or no vehicle works there.
 std::optional<MapView> parcel_view(const RunFolder& run, const std::vector<VehicleLog>& vehicles);
 
-/// What holds one vehicle's plans and track.
+/// View that contains one vehicle's plans and track.
 std::optional<MapView> own_view(const VehicleLog& vehicle);
 
-/// Around the first turn between rows; nothing where there is none.
+/// View of the first turn between rows; nullopt without a turn.
 std::optional<MapView> first_turn_view(const Track& track);
 
-/// The picture as SVG. The view grows on one side to fill it.
+/// Map as SVG. The view is widened on one axis to fill the picture.
 std::string mission_map(const RunFolder& run, const std::vector<VehicleLog>& vehicles,
                         const MapView& view, const MapStyle& style);
 
-/// Its legend: every vehicle's colour, plan, rows.
+/// Legend of the map: every vehicle's colour, plan, rows.
 std::string map_legend(const RunFolder& run, const std::vector<VehicleLog>& vehicles,
                        const MapStyle& style);
 
-/// Fewer points within `tolerance` of the line (D. Douglas, T. Peucker, 1973).
+/// Line with fewer points, within `tolerance` of the original (D. Douglas, T. Peucker, 1973).
 std::vector<Eigen::Vector2d> simplified(const std::vector<Eigen::Vector2d>& line, double tolerance);
 
 }  // namespace vinerow::tools::report

@@ -13,7 +13,8 @@ std::vector<double> in_degrees(std::vector<double> angles) {
   return angles;
 }
 
-/// Largest value that the run's criteria allow a metric of the vehicle; NaN where they say nothing.
+/// Largest value that the run's criteria allow for a metric of the vehicle; NaN without a
+/// criterion.
 double allowed(const RunFolder& run, const VehicleLog& vehicle, const std::string& metric) {
   double limit = kNone;
   for (const Json& criterion : list_in(run.summary, "criteria")) {
@@ -25,14 +26,14 @@ double allowed(const RunFolder& run, const VehicleLog& vehicle, const std::strin
   return limit;
 }
 
-/// The same on either side of zero.
+/// Adds a limit on both sides of zero.
 void add_limits(double limit, const std::string& label, LinePlot& plot) {
   if (!std::isfinite(limit) || limit <= 0.0) return;
   plot.limits.push_back({limit, label});
   plot.limits.push_back({-limit, label});
 }
 
-/// References go on after the work is done; the plot does not.
+/// Removes samples outside the track: references continue after the work is done.
 void cut_to(const Track& track, LinePlot& plot) {
   for (PlotLine& line : plot.lines) {
     Samples kept;
@@ -44,7 +45,7 @@ void cut_to(const Track& track, LinePlot& plot) {
   }
 }
 
-/// From -180 to 180 degrees, with a gap where the angle passes from one end to the other.
+/// Angle in degrees from -180 to 180, with a gap where it wraps.
 Samples wrapped(const Samples& turning) {
   Samples out;
   double before = kNone;
@@ -61,13 +62,13 @@ double ground_m(const RunFolder& run, const Eigen::Vector3d& p) {
   return run.world && run.world->terrain ? run.world->terrain->height_m(p.x(), p.y()) : kNone;
 }
 
-/// Of a rotorcraft: height above the ground below it.
+/// Height of a rotorcraft above the ground below it.
 LinePlot height_above_ground(const RunFolder& run, const VehicleLog& vehicle, const Track& track) {
   LinePlot plot = plot_of(track, "Height above the ground", "height, m");
   plot.caption =
-      "Flown height (line) and the one asked for (dashed), both above the true ground below. As "
-      "paper A, figures 20 b and 21 a.";
-  plot.least_span = 0.1;
+      "Flown height (line) and reference (dashed), both above the true ground below. As paper A, "
+      "figures 20 b and 21 a.";
+  plot.min_span = 0.1;
   Samples wanted, flown;
   for (std::size_t i = 0; i < track.t_s.size(); ++i) {
     flown.add(track.t_s[i], track.p_W[i].z() - ground_m(run, track.p_W[i]));
@@ -77,17 +78,17 @@ LinePlot height_above_ground(const RunFolder& run, const VehicleLog& vehicle, co
     wanted.add(vehicle.reference.t_s[i], p.z() - ground_m(run, p));
   }
   plot.lines = {{"flown", std::move(flown), vehicle.style},
-                {"asked for", std::move(wanted), "ref"}};
+                {"reference", std::move(wanted), "ref"}};
   return plot;
 }
 
-/// Of a fixed wing: altitude over the hillside.
+/// Altitude of a fixed wing over the terrain.
 LinePlot altitude(const RunFolder& run, const VehicleLog& vehicle, const Track& track) {
   LinePlot plot = plot_of(track, "Altitude h", "height over the map's origin, m");
   plot.caption =
       "Flown altitude (line) and the guidance's reference (dashed), with the ground below. As "
       "paper A, figures 9 and 10.";
-  plot.least_span = 1.0;
+  plot.min_span = 1.0;
   Samples flown, ground, wanted;
   for (std::size_t i = 0; i < track.t_s.size(); ++i) {
     flown.add(track.t_s[i], track.p_W[i].z());
@@ -109,9 +110,9 @@ LinePlot heading(const VehicleLog& vehicle, const Track& track) {
       plot_of(track, vehicle.has_wings ? "Heading ψ" : "Heading", "from east, left positive, °");
   plot.caption = vehicle.has_wings ? "True heading (line) and reference (dashed). As paper A, "
                                      "figure 10."
-                                   : "True heading (line) and the plan's at the nearest place "
+                                   : "True heading (line) and planned heading at the nearest point "
                                      "(dashed). As paper A, figure 19 a.";
-  plot.least_span = 1.0;
+  plot.min_span = 1.0;
   plot.lines = {{"true", wrapped({track.t_s, in_degrees(track.heading_rad)}), vehicle.style}};
   Samples wanted;
   if (vehicle.has_wings) {
@@ -134,8 +135,8 @@ LinePlot heading(const VehicleLog& vehicle, const Track& track) {
 LinePlot bank(const VehicleLog& vehicle, const Track& track) {
   LinePlot plot = plot_of(track, "Bank φ", "right wing down, °");
   plot.caption =
-      "True bank (line) and the one that the turn takes (dashed). As paper A, figure 10.";
-  plot.least_span = 1.0;
+      "True bank (line) and the bank that the turn needs (dashed). As paper A, figure 10.";
+  plot.min_span = 1.0;
   Samples flown, wanted;
   for (std::size_t i = 0; i < vehicle.truth.times.size(); ++i) {
     const double t_s = vehicle.truth.times[i].s();
@@ -150,13 +151,13 @@ LinePlot bank(const VehicleLog& vehicle, const Track& track) {
   return plot;
 }
 
-/// Of a fixed wing: what its guidance asks for is airspeed.
+/// Airspeed of a fixed wing, the speed that its guidance commands.
 LinePlot airspeed(const VehicleLog& vehicle, const Track& track) {
   LinePlot plot = plot_of(track, "Airspeed", "true airspeed, m/s");
   plot.caption =
       "True airspeed (line) and the guidance's reference (dashed), with the speed over "
-      "ground, which the wind makes differ.";
-  plot.least_span = 0.1;
+      "ground, which differs by the wind.";
+  plot.min_span = 0.1;
   plot.lines = {{"over ground", {track.t_s, track.speed_mps}, "ground"}};
   if (const Columns* air = vehicle.find("air"); air && air->find("airspeed_mps")) {
     plot.lines.push_back({"airspeed", {air->t_s, *air->find("airspeed_mps")}, vehicle.style});
@@ -174,7 +175,7 @@ LinePlot airspeed(const VehicleLog& vehicle, const Track& track) {
 LinePlot speed(const VehicleLog& vehicle, const Track& track) {
   LinePlot plot = plot_of(track, "Speed", "speed over ground, m/s");
   plot.caption = "True speed over ground";
-  plot.least_span = 0.1;
+  plot.min_span = 0.1;
   plot.lines = {{"true", {track.t_s, track.speed_mps}, vehicle.style}};
   Samples wanted;
   if (!vehicle.reference.t_s.empty()) {
@@ -185,21 +186,21 @@ LinePlot speed(const VehicleLog& vehicle, const Track& track) {
     }
   }
   if (wanted.size() > 0) {
-    plot.caption += " (line) and the one asked for (dashed)";
-    plot.lines.push_back({"asked for", std::move(wanted), "ref"});
+    plot.caption += " (line) and reference (dashed)";
+    plot.lines.push_back({"reference", std::move(wanted), "ref"});
   }
   plot.caption += ".";
   return plot;
 }
 
 LinePlot lateral_error(const RunFolder& run, const VehicleLog& vehicle, const Track& track) {
-  LinePlot plot = plot_of(track, "Distance from the plan, sideways", "left of the plan, m");
+  LinePlot plot = plot_of(track, "Lateral distance from the plan", "left of the plan, m");
   plot.caption =
-      "True distance from the planned path in the plane, left positive. As paper B, figure 14.";
-  plot.least_span = 0.01;
+      "True horizontal distance from the planned path, left positive. As paper B, figure 14.";
+  plot.min_span = 0.01;
   if (vehicle.has_wings) {
     plot.caption =
-        "True distance from the lane in the plane, left positive, while it flies "
+        "True horizontal distance from the lane, left positive, while the vehicle flies "
         "straight on a lane.";
   }
   plot.lines = {{"true", {track.t_s, track.lateral_m}, vehicle.style}};
@@ -211,9 +212,9 @@ LinePlot lateral_error(const RunFolder& run, const VehicleLog& vehicle, const Tr
 }
 
 LinePlot height_error(const RunFolder& run, const VehicleLog& vehicle, const Track& track) {
-  LinePlot plot = plot_of(track, "Distance from the plan, upwards", "above the plan, m");
-  plot.caption = "True height minus planned height at the nearest place, on the rows or lanes.";
-  plot.least_span = 0.01;
+  LinePlot plot = plot_of(track, "Vertical distance from the plan", "above the plan, m");
+  plot.caption = "True height minus planned height at the nearest point, on rows or lanes.";
+  plot.min_span = 0.01;
   plot.lines = {{"true", {track.t_s, track.height_error_m}, vehicle.style}};
   for (const char* metric : {"altitude_error_max_m", "height_error_max_m"}) {
     add_limits(allowed(run, vehicle, metric), "allowed at most", plot);

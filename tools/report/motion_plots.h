@@ -1,5 +1,5 @@
 #pragma once
-/// Plots of how a vehicle moved: height, speed, heading, bank, and its distance from the plan.
+/// Plots of a vehicle's motion: height, speed, heading, bank, and distance from the plan.
 
 #include <vector>
 
@@ -9,7 +9,7 @@
 
 namespace vinerow::tools::report {
 
-/// Those whose signals exist. Limits are those of the run's criteria on the same quantity.
+/// Plots whose signals exist. Their limits come from the run's criteria on the same quantity.
 std::vector<LinePlot> motion_plots(const RunFolder& run, const VehicleLog& vehicle,
                                    const Track& track);
 

@@ -24,12 +24,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostFrames = 36;
-/// A file as small as this is taken as it is.
+constexpr std::size_t kMaxFrames = 36;
+/// A file of at most this size is embedded unchanged. Chosen.
 constexpr std::uintmax_t kSmall_bytes = 250'000;
 constexpr double kMoves_mps = 0.05;
 constexpr int kPhotoQuality = 84;
-/// Bytes of a frame as JPEG of that quality over those of its PNG file, about.
+/// Approximate ratio of a frame's JPEG size at that quality to its PNG size.
 constexpr double kPhotoShare = 0.1;
 
 std::vector<fs::path> png_files(const fs::path& folder) {
@@ -42,7 +42,7 @@ std::vector<fs::path> png_files(const fs::path& folder) {
   return files;
 }
 
-/// "<camera>_<milliseconds>" of a frame's name; an empty camera where it is not of that form.
+/// Parsed frame name "<camera>_<milliseconds>"; the camera is empty if the name has another form.
 struct FrameName {
   std::string camera;
   double time_s = 0.0;
@@ -73,38 +73,39 @@ std::string frame_caption(const RunFolder& run, const fs::path& file) {
   if (camera && camera->kind == scenario::CameraKind::kTop) what += ", seen from above";
   if (camera && camera->kind == scenario::CameraKind::kChase) what += ", behind " + camera->vehicle;
   if (camera && camera->kind == scenario::CameraKind::kOnBoard)
-    what += ", on board of " + camera->vehicle;
+    what += ", on board " + camera->vehicle;
   if (camera && camera->kind == scenario::CameraKind::kShots) {
-    what += ", what the camera of " + camera->vehicle + " took";
+    what += ", picture taken by " + camera->vehicle;
   }
   return fmt::format("{}, after {}", what, duration_text(name.time_s));
 }
 
-/// Share of a frame that shows each vehicle, as its file says; empty where it does not say.
+/// Share of a frame that shows each vehicle, read from its file; empty if the file has no such
+/// data.
 std::map<std::string, double> seen_in(const fs::path& file) {
   const std::map<std::string, std::string> words = render::read_png_words(file.string());
   const auto text = words.find(playback::kSeenKey);
   return text == words.end() ? std::map<std::string, double>() : playback::parse_seen(text->second);
 }
 
-/// Between rows or beside one: where the work is.
+/// Whether a position is between rows or next to one, where vehicles work.
 bool is_at_a_row(const RunFolder& run, const Eigen::Vector3d& p_W) {
-  constexpr double kBeside_m = 2.0;
+  constexpr double kLateralOffset_m = 2.0;
   if (!run.world) return false;
   for (const PlantRow& row : run.world->rows->rows) {
     std::vector<Eigen::Vector2d> line;
     for (const Eigen::Vector3d& p : row.line_W) line.push_back(p.head<2>());
     if (line.size() < 2) continue;
-    if (PolylineDistance(std::move(line)).nearest(p_W.head<2>()).distance_m < kBeside_m)
+    if (PolylineDistance(std::move(line)).nearest(p_W.head<2>()).distance_m < kLateralOffset_m)
       return true;
   }
   return false;
 }
 
-/// Share of a picture from which on it shows no more of a vehicle.
+/// Share of a picture above which a larger vehicle gains no score. Chosen.
 constexpr double kFillsPicture = 0.2;
 
-/// How much of the run a frame shows; more is better, any of one line more than all below it.
+/// Score of a frame as the title picture; larger is better. Each term outweighs all later ones.
 double score_of(const RunFolder& run, const fs::path& file,
                 const std::vector<VehicleLog>& vehicles) {
   const FrameName name = frame_name(file);
@@ -125,13 +126,13 @@ double score_of(const RunFolder& run, const fs::path& file,
     const bool moves = truth.v_WB_B.norm() > kMoves_mps;
     const auto share = seen.find(vehicle.name);
     if (moves && share != seen.end()) moving_share += share->second;
-    // Of pictures that do not tell what they show.
+    // Without data on the shares, count moving vehicles.
     score += moves && seen.empty() ? 1e-3 : 0.0;
     if (vehicle.name != camera->vehicle) continue;
     score += moves ? 1'000 : 0;
     score += is_at_a_row(run, truth.X_WB.p) ? 500 : 0;
   }
-  // Of two pictures of work in the rows that which shows more of those at work.
+  // Prefer the frame that shows more of the moving vehicles.
   return score + 400.0 * std::min(1.0, moving_share / kFillsPicture);
 }
 
@@ -144,7 +145,7 @@ std::string bytes_of(const fs::path& file) {
 
 std::vector<Picture> frame_pictures(const RunFolder& run) {
   std::vector<Picture> pictures;
-  const std::size_t count = run.frames.size(), shown = std::min(count, kMostFrames);
+  const std::size_t count = run.frames.size(), shown = std::min(count, kMaxFrames);
   for (std::size_t i = 0; i < shown; ++i) {
     const fs::path& file = run.frames[i * count / shown];
     pictures.push_back({file, frame_caption(run, file), true});
@@ -157,22 +158,22 @@ std::vector<Picture> coverage_pictures(const RunFolder& run) {
   for (const fs::path& file : png_files(run.path)) {
     if (!file.filename().string().starts_with("coverage")) continue;
     pictures.push_back({file,
-                        "How many pictures of the survey see each place of the parcel, and "
-                        "with what forward overlap",
+                        "Number of survey pictures that see each point of the parcel, and "
+                        "their forward overlap",
                         false});
   }
   return pictures;
 }
 
 std::vector<Picture> product_pictures(const RunFolder& run) {
-  // In the order of their making: points, meshes, rows, grid.
+  // Order of production: points, meshes, rows, grid.
   const auto rank = [](const fs::path& file) {
     const std::string order[] = {"classes", "mesh", "top", "grid"};
     return std::find(std::begin(order), std::end(order), file.stem().string()) - std::begin(order);
   };
   std::vector<Picture> pictures;
   for (const Json& phase : list_in(run.summary, "phases")) {
-    // A phase that gave nothing may have a folder of an earlier run.
+    // The folder of a phase without a product may be left from an earlier run.
     if (!phase.contains("product") || !phase["product"].contains("file")) continue;
     const std::string name = phase.at("name");
     std::vector<fs::path> files = png_files(run.path / phase["product"]["file"].get<std::string>());
@@ -208,18 +209,18 @@ int fitting_width(const std::vector<Picture>& pictures, std::size_t budget_bytes
     if (!failed) bytes += (picture.is_photo ? kPhotoShare : 1.0) * static_cast<double>(size);
   }
   for (const int width : {1280, 1024, 800, 640}) {
-    // Bytes go with the area of pictures that are 1280 wide.
+    // The size of a picture is proportional to its area; the estimate is for 1280 px width.
     const double share = std::pow(width / 1280.0, 2);
     if (share * bytes <= static_cast<double>(budget_bytes)) return width;
   }
   return 480;
 }
 
-std::string embedded(const Picture& picture, int most_width) {
+std::string embedded(const Picture& picture, int max_width) {
   auto pixels = render::read_png(picture.file.string());
   if (!pixels) throw ConfigError(pixels.reason());
-  const bool is_wide = pixels->width > most_width;
-  const render::Pixels shown = is_wide ? shrunk(*pixels, most_width) : std::move(*pixels);
+  const bool is_wide = pixels->width > max_width;
+  const render::Pixels shown = is_wide ? shrunk(*pixels, max_width) : std::move(*pixels);
   const bool as_it_is = !is_wide && fs::file_size(picture.file) <= kSmall_bytes;
   std::string bytes, type = "png";
   if (picture.is_photo) {
@@ -232,9 +233,9 @@ std::string embedded(const Picture& picture, int most_width) {
                      shown.width, shown.height, escaped(picture.caption), type, base64(bytes));
 }
 
-std::string picture_figure(const Picture& picture, int most_width) {
+std::string picture_figure(const Picture& picture, int max_width) {
   return fmt::format("<figure class=\"picture\">{}<figcaption>{}</figcaption></figure>\n",
-                     embedded(picture, most_width), escaped(sentence_case(picture.caption)));
+                     embedded(picture, max_width), escaped(sentence_case(picture.caption)));
 }
 
 render::Pixels shrunk(const render::Pixels& pixels, int width) {

@@ -8,7 +8,7 @@ namespace vinerow::tools::report {
 
 namespace {
 
-/// --v0 and so on: the vehicles' colours, as in frames and replay.
+/// CSS variables --v0, --v1, ... with the vehicles' colours, as in frames and replay.
 std::string vehicle_style() {
   std::string paper, dark, classes;
   for (std::size_t v = 0; v < playback::kVehicleColours.size(); ++v) {
@@ -216,7 +216,7 @@ const char* page_script() {
   return R"(
 (function () {
   'use strict';
-  // The pointer's place on a plot becomes a time, and every line's value at it.
+  // Read-out: the pointer's position on a plot gives a time, and the value of every line at it.
   function digits(span) { return Math.max(0, Math.min(6, 3 - Math.floor(Math.log10(span)))); }
   document.querySelectorAll('svg.plot').forEach(function (svg) {
     var X = svg.dataset.x.split(' ').map(Number), Y = svg.dataset.y.split(' ').map(Number);
@@ -273,7 +273,7 @@ const char* page_script() {
       box.style.top = (event.clientY - frame.top + 12) + 'px';
     });
   });
-  // A picture opens over the page, as large as the window; arrows go on to the next.
+  // A picture opens over the page, as large as the window; arrow keys show the next.
   var dialog = document.querySelector('dialog.picture'), shown = 0;
   var pictures = Array.prototype.slice.call(document.querySelectorAll('figure.opens img, figure.picture img')).filter(function (image) { return !dialog.contains(image); });
   function show(k) {
@@ -301,11 +301,11 @@ const char* page_script() {
       document.querySelector('table.events').classList.toggle('grave-only', box.checked);
     });
   });
-  // On paper nothing can be opened.
+  // For printing, open everything.
   window.addEventListener('beforeprint', function () {
     document.querySelectorAll('details.more').forEach(function (more) { more.open = true; });
   });
-  // What depends on the machine stands in the timings alone; the first screen repeats it.
+  // Values that depend on the machine are in Timings only; the first screen copies them.
   document.querySelectorAll('[data-from]').forEach(function (place) {
     var source = document.getElementById(place.dataset.from);
     if (source) place.textContent = source.textContent;

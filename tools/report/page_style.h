@@ -1,6 +1,6 @@
 #pragma once
-/// How the report looks, on screens light and dark and on paper, and the little that it does by
-/// itself: a read-out under the pointer, pictures that open over the page.
+/// Style and script of the report: light, dark and print styles, a read-out under the pointer,
+/// pictures that open over the page.
 
 #include <string>
 
@@ -9,10 +9,10 @@ namespace vinerow::tools::report {
 /// Content of <style>, with the vehicles' colours of engine/playback/vehicle_colours.h.
 std::string page_style();
 
-/// Content of <script>; no "<" or "&" in it, so that it is well formed as XML, too.
+/// Content of <script>, without "<" and "&", so that it is well-formed XML too.
 const char* page_script();
 
-/// What shows a picture large: empty until the script fills it.
+/// Dialog that shows a picture large; empty until the script fills it.
 const char* picture_dialog();
 
 }  // namespace vinerow::tools::report

@@ -1,14 +1,14 @@
 #pragma once
-/// The papers that the page cites. It names each in full once, in its chapter Sources.
+/// Papers cited by the page. The chapter Sources gives each in full once.
 
 #include <string>
 
 namespace vinerow::tools::report {
 
-/// HTML in which each "paper A" is a link "[A]" to its entry. @param html  escaped where it must be
+/// HTML in which each "paper A" is a link "[A]" to its entry. @param html  escaped already
 std::string with_citations(const std::string& html);
 
-/// The entries of those papers that a page cites by such links; "" where it cites none.
+/// Entries of the papers that a page cites with such links; "" if it cites none.
 std::string source_list(const std::string& page);
 
 }  // namespace vinerow::tools::report

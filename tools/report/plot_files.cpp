@@ -16,44 +16,43 @@
 namespace vinerow::tools {
 namespace {
 
-constexpr std::size_t kNowhere = std::string_view::npos;
+constexpr std::size_t kNotFound = std::string_view::npos;
 
-/// What stands between two texts; "" where they are not there.
+/// Text between two delimiters; "" if they do not occur.
 std::string_view between(std::string_view text, std::string_view open, std::string_view close) {
   const std::size_t from = text.find(open);
-  if (from == kNowhere) return {};
+  if (from == kNotFound) return {};
   const std::size_t to = text.find(close, from + open.size());
-  return to == kNowhere ? std::string_view()
-                        : text.substr(from + open.size(), to - from - open.size());
+  return to == kNotFound ? std::string_view()
+                         : text.substr(from + open.size(), to - from - open.size());
 }
 
 std::string replaced(std::string text, std::string_view what, std::string_view by) {
-  for (std::size_t at = 0; (at = text.find(what, at)) != kNowhere; at += by.size()) {
+  for (std::size_t at = 0; (at = text.find(what, at)) != kNotFound; at += by.size()) {
     text.replace(at, what.size(), by);
   }
   return text;
 }
 
-/// Adds the colours that a rule's declarations give, by name: "--ink".
+/// Adds the colours that a rule declares, by name: "--ink".
 void add_colours(std::string_view declarations, std::map<std::string, std::string>& colours) {
   while (!declarations.empty()) {
     const std::string_view declaration = declarations.substr(0, declarations.find(';'));
     declarations.remove_prefix(std::min(declaration.size() + 1, declarations.size()));
     const std::size_t name = declaration.find("--"), colon = declaration.find(':');
-    if (name == kNowhere || colon == kNowhere || colon < name) continue;
+    if (name == kNotFound || colon == kNotFound || colon < name) continue;
     const std::size_t value = declaration.find_first_not_of(' ', colon + 1);
-    if (value == kNowhere) continue;
+    if (value == kNotFound) continue;
     colours[std::string(declaration.substr(name, colon - name))] = declaration.substr(value);
   }
 }
 
 struct Rule {
   std::string selector;  ///< ends with the space before the brace
-  std::string body;      ///< with its braces
+  std::string body;      ///< including the braces
 };
 
-/// The rules that hold on every medium: what stands inside "@media ... { }" is of a telephone, a
-/// dark page or paper.
+/// Rules for all media. Rules inside "@media ... { }" are for telephones, dark pages or paper.
 std::vector<Rule> rules_of_all_media(std::string_view style) {
   std::vector<Rule> rules;
   int depth = 0;
@@ -71,33 +70,33 @@ std::vector<Rule> rules_of_all_media(std::string_view style) {
   return rules;
 }
 
-/// Classes that give curves a colour of their own: of ".ref { --c: var(--ink); }" "ref", "--ink".
+/// Classes that give curves their colour: "ref", "--ink" for ".ref { --c: var(--ink); }".
 std::vector<std::pair<std::string, std::string>> curve_colours(const std::vector<Rule>& rules) {
   std::vector<std::pair<std::string, std::string>> colours;
   for (const Rule& rule : rules) {
     const std::string_view name(rule.selector);
     const std::string_view colour = between(rule.body, "--c: var(", ")");
-    // ".key.limit " is no class of a curve.
-    if (!name.starts_with('.') || name.find('.', 1) != kNowhere || colour.empty()) continue;
+    // ".key.limit " is not the class of a curve.
+    if (!name.starts_with('.') || name.find('.', 1) != kNotFound || colour.empty()) continue;
     colours.emplace_back(name.substr(1, name.find(' ') - 1), colour);
   }
   return colours;
 }
 
-/// ".end:is(text)" is "text.end" to programs that know little CSS.
+/// Selector for programs with little CSS support: "text.end" for ".end:is(text)".
 std::string plain_selector(std::string selector) {
   for (const char* kind : {"text", "rect"}) {
     const std::string suffix = fmt::format(":is({})", kind);
     const std::size_t at = selector.find(suffix);
-    if (at == kNowhere) continue;
+    if (at == kNotFound) continue;
     selector.erase(at, suffix.size());
     const std::size_t dot = selector.rfind('.', at);
-    if (dot != kNowhere) selector.insert(dot, kind);
+    if (dot != kNotFound) selector.insert(dot, kind);
   }
   return selector;
 }
 
-/// The page's rules for pictures, with plain colours in place of variables.
+/// The page's rules for pictures, with colours instead of variables.
 std::string plain_style(const std::string& more_style) {
   const std::string style = report::page_style() + more_style;
   const std::vector<Rule> rules = rules_of_all_media(style);
@@ -114,16 +113,16 @@ std::string plain_style(const std::string& more_style) {
       body = replaced(body, fmt::format("var({})", name), value);
     }
     if (selector == "svg ") {
-      // A file has a size of its own.
+      // A file has its own size.
       for (const char* of_page : {"display: block;", "width: 100%;", "height: auto;"}) {
         body = replaced(body, of_page, "");
       }
     }
-    if (body.find("var(--c)") == kNowhere) {
+    if (body.find("var(--c)") == kNotFound) {
       plain += selector + body + "\n";
       continue;
     }
-    // A curve's own colour comes with its class.
+    // The class of a curve gives its colour.
     selector.erase(selector.find_last_not_of(' ') + 1);
     for (const auto& [css_class, colour] : own_colours) {
       plain += fmt::format("{}.{} {}\n", selector, css_class,
@@ -133,19 +132,19 @@ std::string plain_style(const std::string& more_style) {
   return plain;
 }
 
-/// The legend above a picture, one entry after the other. @param y  of its first line, px
-/// @returns the height it takes
+/// Adds the legend above a picture, entry by entry. @param y  position of its first line, px
+/// @returns its height, px
 double add_legend(std::string_view legend, double width, double y, std::string& out) {
   constexpr double kKey_px = 24, kGap_px = 16, kLine_px = 19, kSize_px = 13;
   double x = 10, used = 0;
-  for (std::size_t at = 0; (at = legend.find("<span>", at)) != kNowhere;) {
+  for (std::size_t at = 0; (at = legend.find("<span>", at)) != kNotFound;) {
     const std::size_t end = legend.find("</span>", at);
-    if (end == kNowhere) break;
+    if (end == kNotFound) break;
     const std::string_view entry = legend.substr(at + 6, end - at - 6);
     at = end;
     const std::string classes(between(entry, "<i class=\"key ", "\""));
     const std::size_t words_at = entry.rfind('>');
-    const std::string words(words_at == kNowhere ? entry : entry.substr(words_at + 1));
+    const std::string words(words_at == kNotFound ? entry : entry.substr(words_at + 1));
     const double wide =
         (classes.empty() ? 0 : kKey_px + 6) + report::text_width_px(words, kSize_px);
     if (used == 0) used = kLine_px;
@@ -175,7 +174,7 @@ double add_legend(std::string_view legend, double width, double y, std::string& 
   return used;
 }
 
-/// "rover_distance_from_the_plan" of a heading and a label, each once.
+/// Unique file stem from heading and label, such as "rover_wheel_slip".
 std::string plot_name(const std::string& label, std::set<std::string>& taken) {
   std::string name;
   for (const char c : label) {
@@ -196,13 +195,13 @@ std::string plot_name(const std::string& label, std::set<std::string>& taken) {
   return own + ".svg";
 }
 
-/// The end of an element <svg>, which may hold others.
+/// End of an element <svg>, which may contain others.
 std::size_t end_of_svg(std::string_view page, std::size_t begin) {
   int depth = 0;
   std::size_t at = begin;
   while (true) {
     const std::size_t open = page.find("<svg", at), close = page.find("</svg>", at);
-    if (close == kNowhere) return kNowhere;
+    if (close == kNotFound) return kNotFound;
     if (open < close) {
       ++depth;
       at = open + 4;
@@ -213,7 +212,7 @@ std::size_t end_of_svg(std::string_view page, std::size_t begin) {
   }
 }
 
-/// @param title  as the page writes it, escaped
+/// Complete SVG file of a picture. @param title  as in the page, escaped
 std::string complete_picture(std::string_view svg, std::string_view before,
                              const std::string& title, const std::string& style) {
   const std::size_t head_end = svg.find('>');
@@ -226,7 +225,7 @@ std::string complete_picture(std::string_view svg, std::string_view before,
   const double legend_px =
       add_legend(between(before, "<p class=\"legend\">", "</p>"), width, kTitle_px, above);
   const double top = kTitle_px + legend_px + 4;
-  // The strip lies above the picture's own zero.
+  // The strip with title and legend is above the picture's own y = 0.
   return fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:g}\" height=\"{1:g}\" viewBox=\"0 "
       "{2:g} "
@@ -245,21 +244,21 @@ std::vector<PlotFile> plot_files_of(const std::string& page, const std::string& 
   std::vector<PlotFile> files;
   std::set<std::string> taken;
   constexpr std::string_view kPicture = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=";
-  // The script behind the chapters is no place for pictures.
+  // Do not search the script after the chapters.
   const std::string_view text = std::string_view(page).substr(0, page.find("</main>"));
-  for (std::size_t at = 0; (at = text.find(kPicture, at)) != kNowhere;) {
+  for (std::size_t at = 0; (at = text.find(kPicture, at)) != kNotFound;) {
     const std::size_t end = end_of_svg(text, at);
-    if (end == kNowhere) break;
+    if (end == kNotFound) break;
     const std::string_view svg = text.substr(at, end - at);
     const std::size_t figure = text.rfind("<figure", at);
-    // A figure that is closed by then is another picture's.
+    // A figure that is already closed belongs to another picture.
     const std::string_view before =
-        figure == kNowhere || text.substr(figure, at - figure).find("</figure>") != kNowhere
+        figure == kNotFound || text.substr(figure, at - figure).find("</figure>") != kNotFound
             ? std::string_view()
             : text.substr(figure, at - figure);
-    // The nearest heading says whose plot it is; a new section ends its reach.
+    // The nearest heading in the same section names the vehicle.
     const std::size_t heading = text.rfind("<h3>", at), section = text.rfind("<section", at);
-    const bool owned = heading != kNowhere && (section == kNowhere || heading > section);
+    const bool owned = heading != kNotFound && (section == kNotFound || heading > section);
     const std::string owner(owned ? between(text.substr(heading), "<h3>", "</h3>") : "");
     const std::string label(between(svg, "aria-label=\"", "\""));
     const std::string title = owner.empty() ? report::sentence_case(label) : owner + ": " + label;

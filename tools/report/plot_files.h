@@ -1,5 +1,5 @@
 #pragma once
-/// The plots and maps of a report as files of their own, for papers and slides.
+/// Export of a report's plots and maps as separate files, for papers and slides.
 
 #include <filesystem>
 #include <string>
@@ -7,15 +7,17 @@
 
 namespace vinerow::tools {
 
-/// One picture, complete: title, legend, and its style in plain colours, which other programs than
-/// browsers also know.
+/// Complete picture with title, legend and style. Colours are literal, for programs other than
+/// browsers.
 struct PlotFile {
   std::string name;  ///< "rover_speed.svg"
   std::string svg;
 };
 
-/// @param page        of write_report(), or another whose figures are written alike
-/// @param more_style  of that page, beside page_style(): rules that begin with "svg" count
+/// Plots of a page.
+/// @param page        page of write_report(), or another with figures of the same form
+/// @param more_style  style of that page in addition to page_style(): rules that begin with "svg"
+/// count
 std::vector<PlotFile> plot_files_of(const std::string& page, const std::string& more_style = "");
 
 }  // namespace vinerow::tools

@@ -37,9 +37,9 @@ struct Chapter {
   std::string content;
 };
 
-/// All that chapters are made of.
+/// Data from which the chapters are made.
 struct PageMaterial {
-  std::function<void()> step = [] {};  ///< called before what takes time
+  std::function<void()> step = [] {};  ///< called before each long step
   RunFolder run;
   std::vector<VehicleLog> vehicles;
   std::vector<Track> tracks;
@@ -49,7 +49,7 @@ struct PageMaterial {
   int picture_width = 1280;
 };
 
-/// Calls of PageMaterial::step for a page.
+/// Number of calls of PageMaterial::step for a page.
 int steps_for(std::size_t vehicles) {
   return 6 + static_cast<int>(vehicles);
 }
@@ -94,8 +94,8 @@ std::string hero(const PageMaterial& m) {
   style.with_plans = m.vehicles.empty();
   const bool alone = picture == nullptr && !parcel;
   style.width = alone ? 1200 : 640;
-  style.least_height = alone ? 300 : 414;
-  style.most_height = alone ? 400 : 414;
+  style.min_height = alone ? 300 : 414;
+  style.max_height = alone ? 400 : 414;
   const auto add = [&](const std::optional<MapView>& view, const std::string& label) {
     if (!view) return;
     style.label = label;
@@ -109,7 +109,7 @@ std::string hero(const PageMaterial& m) {
   return fmt::format("<div class=\"hero{}\">\n{}</div>\n", alone || !whole ? "" : " both", out);
 }
 
-/// Phases, else what the vehicles did when.
+/// Time line of the phases, or of the vehicles' activities in a run without phases.
 std::string time_lines(const PageMaterial& m) {
   const std::vector<TimeRow> phases = phase_rows(m.run);
   if (!phases.empty()) {
@@ -117,7 +117,8 @@ std::string time_lines(const PageMaterial& m) {
   }
   const std::vector<TimeRow> rows = activity_rows(m.vehicles, m.tracks);
   if (rows.empty()) return "";
-  return time_line(rows, m.run.end_s(), "what the vehicles did when") + activity_legend(rows);
+  return time_line(rows, m.run.end_s(), "activities of the vehicles over time") +
+         activity_legend(rows);
 }
 
 std::string first_screen(const PageMaterial& m) {
@@ -137,7 +138,7 @@ std::string map_chapter(const PageMaterial& m) {
   const auto whole = whole_view(m.run, m.vehicles);
   if (!whole) return "";
   MapStyle style;
-  style.most_height = 480;
+  style.max_height = 480;
   const auto map = [&](const MapView& view, const std::string& label, const std::string& caption) {
     style.label = label;
     return fmt::format(
@@ -151,18 +152,18 @@ std::string map_chapter(const PageMaterial& m) {
           "18 a and 20 a.");
   if (const auto parcel = parcel_view(m.run, m.vehicles)) {
     out += map(*parcel, "map of the parcel: rows, plans and tracks, north up",
-               "The same between the rows, enlarged.");
+               "The same, enlarged to the rows.");
   }
   return out;
 }
 
-std::vector<std::string> way_figures(const PageMaterial& m, const VehicleLog& vehicle,
-                                     const Track& track) {
+std::vector<std::string> path_figures(const PageMaterial& m, const VehicleLog& vehicle,
+                                      const Track& track) {
   const std::vector<VehicleLog> alone = {vehicle};
   std::vector<std::string> out;
   MapStyle style;
   style.width = 640;
-  style.least_height = style.most_height = 330;
+  style.min_height = style.max_height = 330;
   const auto add = [&](const std::optional<MapView>& view, const std::string& title,
                        const std::string& caption) {
     if (!view) return;
@@ -185,10 +186,10 @@ std::vector<std::string> way_figures(const PageMaterial& m, const VehicleLog& ve
   return out;
 }
 
-/// The first ones, and a line that opens the others: a page of three vehicles has sixty.
+/// The first figures, and a fold that opens the others: a page of three vehicles has sixty.
 std::string figure_grid(const std::vector<std::string>& figures) {
   constexpr std::size_t kOpen = 4;
-  if (figures.empty()) return "<p>It never began its work.</p>\n";
+  if (figures.empty()) return "<p>This vehicle never started its work.</p>\n";
   std::string first, more;
   for (std::size_t i = 0; i < figures.size(); ++i) (i < kOpen ? first : more) += figures[i];
   std::string out = "<div class=\"figures\">\n" + first + "</div>\n";
@@ -201,7 +202,7 @@ std::string figure_grid(const std::vector<std::string>& figures) {
 
 std::string plots_chapter(const PageMaterial& m) {
   if (!m.run.log) {
-    return "<p>The run wrote no log, so there are no plots of it: <code>vinerow run</code> without "
+    return "<p>The run wrote no log, so there are no plots. <code>vinerow run</code> without "
            "<code>--no-log</code> writes one.</p>\n";
   }
   std::string out;
@@ -212,7 +213,7 @@ std::string plots_chapter(const PageMaterial& m) {
   for (std::size_t i = 0; i < m.vehicles.size(); ++i) {
     m.step();
     const VehicleLog& vehicle = m.vehicles[i];
-    std::vector<std::string> figures = way_figures(m, vehicle, m.tracks[i]);
+    std::vector<std::string> figures = path_figures(m, vehicle, m.tracks[i]);
     for (auto make :
          {motion_plots(m.run, vehicle, m.tracks[i]), estimate_plots(vehicle, m.run.world.get()),
           action_plots(vehicle, m.tracks[i])}) {
@@ -230,21 +231,21 @@ std::string pictures_chapter(const PageMaterial& m) {
   std::string out;
   for (const auto* pictures : {&m.coverage, &m.products, &m.frames}) {
     for (const Picture& picture : *pictures) {
-      // The first screen shows that one.
+      // The hero picture is on the first screen.
       if (&picture != hero) out += picture_figure(picture, m.picture_width);
     }
   }
   if (out.empty()) return "";
-  out = "<p class=\"hint\">Click a picture to see it large.</p>\n<div class=\"gallery\">\n" + out +
+  out = "<p class=\"hint\">Click a picture to enlarge it.</p>\n<div class=\"gallery\">\n" + out +
         "</div>\n";
   if (m.frames.size() < m.run.frames.size()) {
-    out += fmt::format("<p>{} of the run's {} frames; the others are in its folder frames.</p>\n",
+    out += fmt::format("<p>Showing {} of {} frames; all are in the folder frames of the run.</p>\n",
                        m.frames.size(), m.run.frames.size());
   }
   return out;
 }
 
-/// The run in three dimensions, to orbit, scrub and follow.
+/// Replay of the run in 3D.
 std::string replay_chapter(const PageMaterial& m) {
   const RunFolder& run = m.run;
   m.step();

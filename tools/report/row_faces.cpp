@@ -13,12 +13,12 @@ namespace vinerow::tools::report {
 namespace {
 
 constexpr double kBin_m = 0.5;
-/// Where no alley tells how far one works.
+/// Working distance from a row side without an alley. Chosen.
 constexpr double kReach_m = 4.0;
-/// What flies higher above the row's foot works on no side of it.
+/// A vehicle higher above the row's foot works on neither side. Chosen.
 constexpr double kLow_m = 6.0;
 constexpr double kPassed = 0.5;
-constexpr std::size_t kMostNamed = 6;
+constexpr std::size_t kMaxNamed = 6;
 
 PolylineDistance row_line_of(const std::vector<Eigen::Vector3d>& points) {
   std::vector<Eigen::Vector2d> line;
@@ -26,7 +26,7 @@ PolylineDistance row_line_of(const std::vector<Eigen::Vector3d>& points) {
   return PolylineDistance(std::move(line));
 }
 
-/// Metres along the line; negative where the nearest place is one of its ends.
+/// Distance along the line, m; negative if the nearest point is one of its ends.
 double along_m(const PolylineDistance& line, const PolylineDistance::Nearest& at) {
   const auto& points = line.points();
   const auto segment = static_cast<std::size_t>(at.segment);
@@ -38,7 +38,7 @@ double along_m(const PolylineDistance& line, const PolylineDistance::Nearest& at
   return sum_m + at.fraction * (points[segment + 1] - points[segment]).norm();
 }
 
-/// Stretches of one side that were passed.
+/// Bins along one row side, marked if passed.
 class Passed {
  public:
   explicit Passed(double length_m)
@@ -96,7 +96,7 @@ std::string faces_left_out(const std::vector<RowFace>& faces) {
       names.push_back(fmt::format("row {} ({})", face.row, face.side > 0 ? "left" : "right"));
   }
   if (names.empty()) return "";
-  if (names.size() > kMostNamed) return fmt::format("{} sides", names.size());
+  if (names.size() > kMaxNamed) return fmt::format("{} sides", names.size());
   const std::string last = names.back();
   names.pop_back();
   return names.empty() ? last : fmt::format("{} and {}", fmt::join(names, ", "), last);
@@ -106,11 +106,11 @@ std::string face_sentence(const std::vector<RowFace>& faces) {
   const auto passed =
       std::count_if(faces.begin(), faces.end(), [](const RowFace& face) { return face.passed; });
   if (passed == 0 || static_cast<std::size_t>(passed) == faces.size()) return "";
-  const bool no_way = std::none_of(faces.begin(), faces.end(), [](const RowFace& face) {
+  const bool no_path = std::none_of(faces.begin(), faces.end(), [](const RowFace& face) {
     return !face.passed && face.has_alley;
   });
   return fmt::format(
-      "{} {} of the {} row sides: {}", no_way ? "No alley runs beside" : "The plan left out",
+      "{} {} of the {} row sides: {}", no_path ? "No alley runs along" : "The plan left out",
       faces.size() - static_cast<std::size_t>(passed), faces.size(), faces_left_out(faces));
 }
 

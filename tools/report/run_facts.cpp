@@ -17,7 +17,7 @@ std::string plain(const Json& value) {
   return value.is_number() ? number_text(value.get<double>()) : value.dump();
 }
 
-/// What planners counted, of every vehicle.
+/// Table of the planners' counters, for every vehicle.
 std::string planning_table(const RunFolder& run) {
   const auto planning = run.summary.find("planning");
   if (planning == run.summary.end() || !planning->is_object()) return "";
@@ -30,17 +30,17 @@ std::string planning_table(const RunFolder& run) {
   }
   return rows.empty()
              ? ""
-             : "<details><summary>What the planners counted</summary>\n" +
+             : "<details><summary>Planner statistics</summary>\n" +
                    table({"vehicle", "number", "value", "unit"}, rows, "planning") + "</details>\n";
 }
 
-/// "its estimator error_state_kalman", "the true state: it has no estimator".
+/// "its estimator error_state_kalman", "the true state (no estimator)".
 std::string state_source(const Json& estimation) {
   const auto estimator = estimation.find("estimator");
   if (estimator == estimation.end() || !estimator->is_string()) {
-    return "the true state: it has no estimator";
+    return "the true state (no estimator)";
   }
-  if (*estimator == "truth") return "the true state, as its estimator 'truth' gives it";
+  if (*estimator == "truth") return "the true state (estimator 'truth')";
   std::string told = "its estimator " + estimator->get<std::string>();
   for (const Json& of_truth : list_in(estimation, "truth")) {
     told += ", with the true " + plain(of_truth);
@@ -77,7 +77,7 @@ std::string facts(const RunFolder& run) {
   std::string out = table({}, rows, "facts") + planning_table(run);
   if (!run.resolved_yaml.empty()) {
     out +=
-        "<details><summary>The scenario as it was run, with every default written out"
+        "<details><summary>Scenario as run, with all defaults"
         "</summary>\n<pre>" +
         escaped(run.resolved_yaml) + "</pre></details>\n";
   }
@@ -86,11 +86,10 @@ std::string facts(const RunFolder& run) {
 
 std::string timings(const RunFolder& run) {
   std::string out = fmt::format(
-      "<p>The only part of this page that differs from machine to machine. {} simulated in {:.2f} "
+      "<p>Only this part of the page depends on the machine. {} simulated in {:.2f} "
       "s: "
-      "<strong id=\"real-time-factor\">{:.0f} ×</strong> real time, pictures and building the "
-      "world "
-      "apart.</p>\n",
+      "<strong id=\"real-time-factor\">{:.0f} ×</strong> real time, without pictures and without "
+      "building the world.</p>\n",
       duration_text(std::max(0.0, run.end_s())), run.number("wall_s"),
       run.number("real_time_factor"));
   std::vector<std::vector<std::string>> rows;
@@ -109,8 +108,8 @@ std::string timings(const RunFolder& run) {
   }
   return out + (rows.empty()
                     ? ""
-                    : table({"task", "period, s", "ticks", "computing time, s", "µs a tick"}, rows,
-                            "cost"));
+                    : table({"task", "period, s", "ticks", "computing time, s", "µs per tick"},
+                            rows, "cost"));
 }
 
 }  // namespace vinerow::tools::report

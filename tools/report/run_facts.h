@@ -1,5 +1,5 @@
 #pragma once
-/// What a run was made of, and what it cost.
+/// Facts about a run: its ingredients and its computing cost.
 
 #include <string>
 
@@ -7,10 +7,10 @@
 
 namespace vinerow::tools::report {
 
-/// Digest, seed, versions, notes, what planners counted, the resolved scenario.
+/// Digest, seed, versions, notes, planner statistics, the resolved scenario.
 std::string facts(const RunFolder& run);
 
-/// Wall-clock times; all that depends on the machine. The real-time factor has the id
+/// Wall-clock times, the only content that depends on the machine. The real-time factor has the id
 /// "real-time-factor".
 std::string timings(const RunFolder& run);
 

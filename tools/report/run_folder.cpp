@@ -22,8 +22,8 @@ std::string read_text(const fs::path& file) {
 Json read_summary(const fs::path& folder) {
   const fs::path file = folder / "summary.json";
   if (!fs::is_regular_file(file)) {
-    throw ConfigError(
-        fmt::format("{}: holds no summary.json, so it is no folder of a run", folder.string()));
+    throw ConfigError(fmt::format("{}: contains no summary.json, so it is not the folder of a run",
+                                  folder.string()));
   }
   Json summary = Json::parse(read_text(file), nullptr, false);
   if (summary.is_discarded()) {
@@ -32,8 +32,8 @@ Json read_summary(const fs::path& folder) {
   }
   for (const char* key : {"scenario", "status", "digest"}) {
     if (!summary.is_object() || !summary.contains(key) || !summary[key].is_string()) {
-      throw ConfigError(
-          fmt::format("{}: has no text '{}', so it is no summary of a run", file.string(), key));
+      throw ConfigError(fmt::format("{}: has no text '{}', so it is not the summary of a run",
+                                    file.string(), key));
     }
   }
   return summary;
@@ -50,9 +50,9 @@ void open_log(RunFolder& run) {
   };
   const std::string seed = run.summary.contains("seed") ? run.summary["seed"].dump() : "";
   if (of("scenario") != run.text("scenario") || of("seed") != seed) {
-    throw ConfigError(
-        fmt::format("{}: is of scenario '{}' (seed {}), summary.json beside it of '{}' (seed {})",
-                    file.string(), of("scenario"), of("seed"), run.text("scenario"), seed));
+    throw ConfigError(fmt::format(
+        "{}: belongs to scenario '{}' (seed {}), but summary.json next to it to '{}' (seed {})",
+        file.string(), of("scenario"), of("seed"), run.text("scenario"), seed));
   }
   run.log = std::move(log);
 }
@@ -69,8 +69,9 @@ void read_scenario(RunFolder& run, const Registry& registry) {
   if (run.resolved_yaml.empty()) return;
   run.scenario = scenario::parse_scenario(run.resolved_yaml, run.path, registry);
   if (run.scenario->name != run.text("scenario")) {
-    throw ConfigError(fmt::format("{}: is scenario '{}', summary.json beside it is of '{}'",
-                                  file.string(), run.scenario->name, run.text("scenario")));
+    throw ConfigError(
+        fmt::format("{}: is scenario '{}', but summary.json next to it belongs to '{}'",
+                    file.string(), run.scenario->name, run.text("scenario")));
   }
   run.world = build_world(*run.scenario, registry);
   for (const scenario::VehicleConfig& config : run.scenario->vehicles) {

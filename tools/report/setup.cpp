@@ -19,10 +19,10 @@
 namespace vinerow::tools::report {
 namespace {
 
-/// Heights are looked up on so many places along and across the rows.
+/// Number of height samples along and across the rows. Chosen.
 constexpr int kPlaces = 25;
 
-/// Rise over run of the plane that fits the ground below the rows best.
+/// Gradient (rise over run) of the plane that best fits the ground below the rows.
 std::optional<Eigen::Vector2d> gradient(const WorldModel& world) {
   if (!world.terrain) return std::nullopt;
   Eigen::AlignedBox2d box;
@@ -92,7 +92,7 @@ std::string type_text(std::string type) {
   return type;
 }
 
-/// "imu, gnss, 4 × ultrasound", in the order of their first one.
+/// "imu, gnss, 4 × ultrasound", in order of first occurrence.
 std::string sensors_text(const scenario::VehicleConfig& vehicle) {
   std::vector<std::pair<std::string, int>> types;
   for (const scenario::NamedPart& sensor : vehicle.sensors) {
@@ -148,7 +148,7 @@ std::string setup_table(const RunFolder& run) {
          fmt::format("{}<br/><span class=\"sensors\">sensors: {}</span>",
                      escaped(parts_text(vehicle, run, v)), escaped(sensors_text(vehicle)))});
   }
-  return "<h2 class=\"quiet\">What was simulated</h2>\n" + table({}, rows, "facts setup");
+  return "<h2 class=\"quiet\">Simulated setup</h2>\n" + table({}, rows, "facts setup");
 }
 
 }  // namespace vinerow::tools::report

@@ -1,5 +1,5 @@
 #pragma once
-/// What was simulated, in a few lines: the place, and each vehicle with its sensors.
+/// Summary of the simulated setup: the place, and each vehicle with its sensors.
 
 #include <string>
 
@@ -7,7 +7,7 @@
 
 namespace vinerow::tools::report {
 
-/// A table for the first screen; "" where the scenario is not known.
+/// Table for the first screen; "" if the scenario is unknown.
 std::string setup_table(const RunFolder& run);
 
 }  // namespace vinerow::tools::report

@@ -18,7 +18,7 @@ std::string more(const std::string& attributes) {
   return attributes.empty() ? "" : " " + attributes;
 }
 
-/// "/>", or the element's end with a text that shows while the pointer rests on it.
+/// "/>", or the element's end with a tooltip.
 std::string end_of(const std::string& element, const std::string& tip) {
   return tip.empty() ? "/>\n" : fmt::format("><title>{}</title></{}>\n", escaped(tip), element);
 }

@@ -15,7 +15,7 @@ namespace vinerow::tools::report {
 namespace {
 
 constexpr double kLabels = 150, kNote = 120, kRow = 26, kTimes = 42, kTop = 4, kBorder = 16;
-/// Of a page as narrow as a telephone, where names stand above the bars.
+/// Width for telephones, and height of a name above its bars, pixels.
 constexpr double kNarrowChart = 360, kNameRow = 20;
 constexpr double kSliver_px = 5.0;
 
@@ -27,7 +27,7 @@ std::string listed(const Json& names) {
   return out;
 }
 
-/// The class of a phase's state.
+/// CSS class of a phase's state.
 std::string style_of(const std::string& state) {
   if (state == "succeeded") return "met";
   if (state == "failed") return "failed";
@@ -43,7 +43,7 @@ std::string who(const Json& phase) {
 std::string span_text(const Json& phase) {
   const double begin_s = number_of(phase.value("begin_s", Json()));
   const double end_s = number_of(phase.value("end_s", Json()));
-  if (!std::isfinite(begin_s)) return "did not begin";
+  if (!std::isfinite(begin_s)) return "did not start";
   return fmt::format("{} to {}", duration_text(begin_s),
                      std::isfinite(end_s) ? duration_text(end_s) : "the end");
 }
@@ -53,7 +53,7 @@ struct Activity {
   const char* label;
 };
 
-/// What a phase of a rotorcraft's reference is called.
+/// Style and text of a phase of a rotorcraft's reference.
 Activity activity(ReferenceTrajectory::Phase phase) {
   using Phase = ReferenceTrajectory::Phase;
   switch (phase) {
@@ -100,7 +100,7 @@ Activity activity(AirReference::Phase phase) {
   return {"", ""};
 }
 
-/// Adds to the last bar, or a new one where something else begins.
+/// Extends the last bar, or adds a new one if the activity changes.
 void extend(const Activity& now, double t_s, std::vector<TimeBar>& bars) {
   if (!bars.empty()) bars.back().to_s = t_s;
   const bool goes_on =
@@ -260,8 +260,8 @@ std::string phase_table(const RunFolder& run) {
          escaped(product.empty() ? "–" : product) + numbers});
   }
   if (rows.empty()) return "";
-  return table({"phase", "who", "waits for", "state", "begin, s", "end, s", "reason",
-                "criteria met", "gives"},
+  return table({"phase", "vehicles or job", "after", "state", "start, s", "end, s", "reason",
+                "criteria met", "product"},
                rows, "phases");
 }
 

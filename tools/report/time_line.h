@@ -12,32 +12,32 @@ namespace vinerow::tools::report {
 struct TimeBar {
   double from_s = 0.0, to_s = 0.0;
   std::string style;  ///< class of its colour
-  std::string tip;    ///< shown while the pointer rests on it
+  std::string tip;    ///< tooltip
 };
 
-/// One line of bars.
+/// Row of bars.
 struct TimeRow {
   std::string label;
-  std::string note;  ///< at the right, "succeeded"
+  std::string note;  ///< text at the right, "succeeded"
   std::string note_style;
   std::vector<TimeBar> bars;
 };
 
-/// Bars over [0, end_s] as SVG, twice: for a wide page with names beside the bars, for a narrow one
-/// above them; the page's style shows one. Nothing without rows.
+/// Bars over [0, end_s] as SVG, in two versions: names left of the bars for a wide page, above them
+/// for a narrow one. The page's style shows one of them. "" without rows.
 std::string time_line(const std::vector<TimeRow>& rows, double end_s, const std::string& label);
 
-/// The phases of summary.json. A bar of a phase that took no simulated time is a sliver.
+/// Rows for the phases of summary.json. A phase without simulated time gets a thin bar.
 std::vector<TimeRow> phase_rows(const RunFolder& run);
 
-/// Of a run without phases: what every vehicle did when.
+/// Rows for a run without phases: the activities of every vehicle.
 std::vector<TimeRow> activity_rows(const std::vector<VehicleLog>& vehicles,
                                    const std::vector<Track>& tracks);
 
-/// What the colours of activities mean, those that occur.
+/// Legend of the activities that occur.
 std::string activity_legend(const std::vector<TimeRow>& rows);
 
-/// Name, what works in it, state, begin, end, reason, criteria met.
+/// Table of the phases: name, vehicles or job, state, start, end, reason, criteria met, product.
 std::string phase_table(const RunFolder& run);
 
 }  // namespace vinerow::tools::report

@@ -8,25 +8,26 @@
 namespace vinerow::tools::report {
 namespace {
 
-/// Slower than this for good, it has ended its work.
-constexpr double kStandsForGood_mps = 0.02;
-/// So long it is shown standing.
+/// A vehicle that stays slower than this to the end of the log has ended its work. Chosen.
+constexpr double kParkedSpeed_mps = 0.02;
+/// Time after the end of the work that is still shown. Chosen.
 constexpr double kShown_s = 2.0;
 
-/// Index behind the last sample that is shown.
+/// Index after the last shown sample.
 std::size_t end_of_work(const playback::Trace<Odometry>& truth) {
   std::size_t last = 0;
   for (std::size_t i = 0; i < truth.values.size(); ++i) {
-    if (truth.values[i].v_WB_B.norm() > kStandsForGood_mps) last = i;
+    if (truth.values[i].v_WB_B.norm() > kParkedSpeed_mps) last = i;
   }
   std::size_t end = last;
   while (end < truth.times.size() && (truth.times[end] - truth.times[last]).s() <= kShown_s) ++end;
   return end;
 }
 
-/// What the guidance of a fixed wing last told at t; null before it does. @param at  where to look
-/// first, moved on
-const AirReference* last_told(const playback::Trace<AirReference>& trace, Time t, std::size_t& at) {
+/// Latest reference of a fixed wing's guidance at t; null before the first. @param at  start index
+/// of the search, advanced
+const AirReference* last_reported(const playback::Trace<AirReference>& trace, Time t,
+                                  std::size_t& at) {
   while (at + 1 < trace.times.size() && trace.times[at + 1] <= t) ++at;
   return at < trace.times.size() && trace.times[at] <= t ? &trace.values[at] : nullptr;
 }
@@ -81,7 +82,7 @@ Track make_track(const VehicleLog& vehicle) {
     if (waits) continue;
     PlaceValues values;
     if (plan.has_plan()) values = values_at(plan, truth, vehicle);
-    if (const AirReference* told = last_told(vehicle.air_reference, t, air_at)) {
+    if (const AirReference* told = last_reported(vehicle.air_reference, t, air_at)) {
       values.in_turn = told->phase == AirReference::Phase::kTurn;
       const bool straight = told->phase == AirReference::Phase::kStraight;
       if (!straight) values.lateral_m = values.height_error_m = kNone;

@@ -1,5 +1,5 @@
 #pragma once
-/// A vehicle's true track beside its plan.
+/// True track of a vehicle relative to its plan.
 
 #include <vector>
 
@@ -8,32 +8,33 @@
 
 namespace vinerow::tools::report {
 
-/// One entry for each logged true pose from when there is a plan to when the vehicle stands still
-/// for good. NaN where it does not apply.
+/// One entry per logged true pose, from the first plan until the vehicle finally stops. NaN where a
+/// value does not apply.
 struct Track {
   std::vector<double> t_s;
-  std::vector<double> lateral_m;       ///< true distance from the planned curve, left positive; of
-                                       ///< what flies on legs and turns, with wings on legs alone
-  std::vector<double> height_error_m;  ///< of what flies, on legs: true height less the plan's
+  std::vector<double> lateral_m;       ///< true distance from the planned curve, left positive;
+                                       ///< rotorcraft: on legs and turns, fixed wings: on legs
+  std::vector<double> height_error_m;  ///< flying vehicles on legs: true minus planned height
   std::vector<double> heading_rad;     ///< true, continuous
-  std::vector<double> plan_heading_rad;  ///< of the planned curve there, next to the true one
-  std::vector<double> speed_mps;         ///< true, in space
-  std::vector<Eigen::Vector3d> p_W;      ///< true
+  std::vector<double>
+      plan_heading_rad;              ///< of the planned curve there, unwrapped near the true one
+  std::vector<double> speed_mps;     ///< true, in space
+  std::vector<Eigen::Vector3d> p_W;  ///< true
   std::vector<char> in_turn;
-  std::string turns_label;  ///< what its turns are called
+  std::string turns_label;  ///< legend text of the turns
 
   bool empty() const { return t_s.empty(); }
-  /// The stretches in which it turns from row to row.
+  /// Time spans in which the vehicle turns from row to row.
   std::vector<PlotSpan> turns() const;
 };
 
 Track make_track(const VehicleLog& vehicle);
 
-/// An empty plot over the time that the vehicle is at work, its turns shaded.
+/// Empty plot over the time in which the vehicle is at work, with its turns shaded.
 LinePlot plot_of(const Track& track, const std::string& title, const std::string& y_label,
                  const std::string& caption = "");
 
-/// Adds whole turns, so that `angle_rad` is the one next to `near_rad`.
+/// `angle_rad` plus whole turns, so that it is nearest to `near_rad`.
 double next_to(double angle_rad, double near_rad);
 
 }  // namespace vinerow::tools::report

@@ -7,7 +7,7 @@
 namespace vinerow::tools::report {
 namespace {
 
-/// Longer endings before those they end in.
+/// Name endings and units. A longer ending comes before the endings that it ends with.
 constexpr auto kUnits = std::to_array<std::pair<const char*, const char*>>({{"_ml_per_m2", "ml/m²"},
                                                                             {"_per_m", "1/m"},
                                                                             {"_mps2", "m/s²"},
@@ -35,7 +35,7 @@ constexpr auto kUnits = std::to_array<std::pair<const char*, const char*>>({{"_m
                                                                             {"_m", "m"},
                                                                             {"_s", "s"}});
 
-/// Of its unit's ending, or null.
+/// Entry whose ending the name has, or null.
 const std::pair<const char*, const char*>* ending_of(const std::string& name) {
   const auto found = std::find_if(kUnits.begin(), kUnits.end(),
                                   [&](const auto& unit) { return name.ends_with(unit.first); });
@@ -45,7 +45,7 @@ const std::pair<const char*, const char*>* ending_of(const std::string& name) {
 }  // namespace
 
 std::string unit_of(const std::string& name) {
-  // Told before the quantity, not after it.
+  // Here the unit precedes the quantity.
   if (name.find("litres_") != std::string::npos) return name.ends_with("_per_ha") ? "l/ha" : "l";
   const auto* ending = ending_of(name);
   return ending ? ending->second : "";
@@ -60,7 +60,7 @@ std::string words_of(const std::string& name) {
 }
 
 std::string sentence_case(std::string words) {
-  // A name with a line in it, as build_map, stays as its file spells it.
+  // A name with an underscore, such as build_map, keeps its spelling.
   const std::string first = words.substr(0, words.find_first_of(" :"));
   if (first.find('_') != std::string::npos) return words;
   if (!words.empty() && words[0] >= 'a' && words[0] <= 'z') words[0] -= 'a' - 'A';

@@ -1,17 +1,17 @@
 #pragma once
-/// What the ending of a name says of its unit, for people.
+/// Units and readable words from the names of numbers.
 
 #include <string>
 
 namespace vinerow::tools::report {
 
-/// "m/s" of "row_speed_mean_mps"; "" of what has no unit.
+/// Unit of a name: "m/s" for "row_speed_mean_mps"; "" without a unit.
 std::string unit_of(const std::string& name);
 
-/// The name without its unit, spaced: "row speed mean".
+/// Name without its unit, with spaces: "row speed mean".
 std::string words_of(const std::string& name);
 
-/// The same with its first letter large.
+/// Text with an upper-case first letter.
 std::string sentence_case(std::string words);
 
 }  // namespace vinerow::tools::report

@@ -9,7 +9,7 @@
 namespace vinerow::tools::report {
 namespace {
 
-/// Signals that are plotted; others of the same type are left in the log.
+/// Plotted signals; others of the same type are not read.
 constexpr const char* kColumns[] = {"actuators", "wheels", "deviation", "steering",
                                     "wrench",    "rotors", "air"};
 
@@ -48,8 +48,8 @@ void read_reference(const record::LogReader& log, const std::string& topic,
   });
 }
 
-/// Whether a vehicle acts on the truth: it has no estimator, or, where the scenario is not known,
-/// its estimate is the truth wherever both were logged at one instant.
+/// Whether a vehicle acts on the truth: it has no estimator or, if the scenario is unknown, its
+/// estimate equals the truth whenever both were logged at the same instant.
 bool acts_on_truth(const RunFolder& run, const VehicleLog& vehicle) {
   if (run.scenario) {
     for (const scenario::VehicleConfig& config : run.scenario->vehicles) {
@@ -76,7 +76,7 @@ void read_signal(const record::LogReader& log, const record::ChannelInfo& channe
   if (type == Odometry::kType && signal == "truth") {
     read_into(log, channel.topic, vehicle.truth);
   } else if (type == Odometry::kType) {
-    if (!playback::is_truth_beside(log, channel.topic)) {
+    if (!playback::is_truth_of_reading(log, channel.topic)) {
       read_into(log, channel.topic, vehicle.estimates[signal]);
     }
   } else if (type == PlannedPath::kType && signal == "plan") {
@@ -122,7 +122,7 @@ std::vector<VehicleLog> read_vehicles(const RunFolder& run) {
     VehicleLog& vehicle = vehicles.emplace_back();
     vehicle.name = name;
     vehicle.style = fmt::format("v{}", (vehicles.size() - 1) % playback::kVehicleColours.size());
-    // Without a scenario nothing is known but the signals.
+    // Without a scenario only the signals are known.
     if (!run.models.empty()) describe(run.models[vehicles.size() - 1]->description(), vehicle);
     const std::string prefix = "/" + name + "/";
     for (const record::ChannelInfo& channel : run.log->info().channels) {

@@ -1,5 +1,5 @@
 #pragma once
-/// What plots need of one vehicle's signals, as columns over time.
+/// Signals of a vehicle for plots, as columns over time.
 
 #include <map>
 #include <string>
@@ -17,14 +17,14 @@ namespace vinerow::tools::report {
 struct Columns {
   std::vector<double> t_s;
   std::vector<std::string> names;
-  std::vector<std::vector<double>> values;  ///< one for each name, as long as t_s
+  std::vector<std::vector<double>> values;  ///< one per name, each as long as t_s
 
   bool empty() const { return t_s.empty(); }
-  /// Null where there is no such column.
+  /// Null if there is no such column.
   const std::vector<double>* find(const std::string& name) const;
 };
 
-/// Where a vehicle in the air was to be.
+/// Reference of a rotorcraft over time.
 struct FlightReference {
   std::vector<double> t_s;
   std::vector<Eigen::Vector3d> p_W;
@@ -34,14 +34,14 @@ struct FlightReference {
 
 struct VehicleLog {
   std::string name;
-  std::string style;  ///< class of its colour, "v0" (engine/playback/vehicle_colours.h)
+  std::string style;  ///< CSS class of its colour, "v0" (engine/playback/vehicle_colours.h)
   bool flies = false;
   bool has_wings = false;
   std::vector<ActuatorSpec> actuators;
   playback::Trace<Odometry> truth;
   playback::Trace<PlannedPath> plan;
-  std::map<std::string, playback::Trace<Odometry>> estimates;  ///< "estimate" where it is not the
-                                                               ///< truth; those of observers
+  std::map<std::string, playback::Trace<Odometry>> estimates;  ///< "estimate" unless it is the
+                                                               ///< truth; estimates of observers
   FlightReference reference;
   playback::Trace<AirReference> air_reference;
   playback::Trace<VelocityCommand> command;
@@ -52,7 +52,7 @@ struct VehicleLog {
   const Columns* find(const std::string& signal) const;
 };
 
-/// Reads every vehicle of a run; none where it has no log.
+/// Reads every vehicle of a run; empty if it has no log.
 std::vector<VehicleLog> read_vehicles(const RunFolder& run);
 
 }  // namespace vinerow::tools::report

@@ -14,7 +14,7 @@
 namespace vinerow::tools::report {
 namespace {
 
-/// A requirement and the phase whose it is. One with two limits is two criteria in the summary.
+/// Requirement and its phase. A requirement with two limits is two criteria in the summary.
 struct Judged {
   std::vector<Json> criteria;  ///< one or two, of one metric
   std::string phase;
@@ -23,7 +23,7 @@ struct Judged {
     return std::all_of(criteria.begin(), criteria.end(),
                        [](const Json& criterion) { return criterion.value("met", false); });
   }
-  /// The one that was missed, else the first.
+  /// The missed criterion, or the first if all are met.
   const Json& decisive() const {
     const auto missed = std::find_if(criteria.begin(), criteria.end(), [](const Json& criterion) {
       return !criterion.value("met", false);
@@ -58,7 +58,7 @@ std::vector<Judged> all_criteria(const RunFolder& run) {
   return all;
 }
 
-/// "at most 5", "at least 5", "−1 to 1", "exactly 4".
+/// Limit as text: "at most 5", "at least 5", "−1 to 1", "exactly 4".
 std::string limit_text(const Judged& judged) {
   const auto limit = [](const Json& c) { return number_of(c.value("limit", Json())); };
   const Json& first = judged.criteria.front();
@@ -87,7 +87,7 @@ std::string metric_part(const std::string& metric) {
   return dot == std::string::npos ? metric : metric.substr(dot + 1);
 }
 
-/// "rover: largest wheel slip is 12 %, at most 5 % is allowed".
+/// Sentence on a missed requirement: "rover: largest wheel slip is 12 %, at most 5 % is allowed".
 std::string failure(const Judged& judged) {
   const Json& c = judged.decisive();
   const std::string metric = c.value("metric", ""), name = metric_part(metric);
@@ -103,7 +103,7 @@ std::string failure(const Judged& judged) {
                      most ? "allowed" : "required", where);
 }
 
-/// "phases scout, spray", of those that failed; "" where none did.
+/// Failed phases as text: "phases scout, spray"; "" if none failed.
 std::string failed_phases(const RunFolder& run) {
   std::vector<std::string> names;
   for (const Json& phase : list_in(run.summary, "phases")) {
@@ -113,26 +113,26 @@ std::string failed_phases(const RunFolder& run) {
   return fmt::format("phase{} {}", names.size() == 1 ? "" : "s", fmt::join(names, ", "));
 }
 
-/// Phases that did not succeed, in a sentence each; those that wait for another are told after it.
+/// One sentence for each phase that did not succeed, in the order of the summary.
 std::vector<std::string> phase_failures(const RunFolder& run) {
   std::vector<std::string> told;
   for (const Json& phase : list_in(run.summary, "phases")) {
     const std::string state = phase.value("state", ""), reason = phase.value("reason", "");
     if (state != "failed" && state != "blocked" && state != "stopped") continue;
     told.push_back(fmt::format("phase {} {}{}", phase.value("name", ""),
-                               state == "blocked" ? "could not begin" : state,
+                               state == "blocked" ? "could not start" : state,
                                reason.empty() ? "" : ": " + reason));
   }
   return told;
 }
 
 std::string sentence_of(const std::vector<std::string>& parts) {
-  constexpr std::size_t kMost = 3;
+  constexpr std::size_t kMax = 3;
   std::string out;
-  for (std::size_t i = 0; i < parts.size() && i < kMost; ++i) {
+  for (std::size_t i = 0; i < parts.size() && i < kMax; ++i) {
     out += (i == 0 ? "" : "; ") + parts[i];
   }
-  if (parts.size() > kMost) out += fmt::format("; and {} more below", parts.size() - kMost);
+  if (parts.size() > kMax) out += fmt::format("; and {} more below", parts.size() - kMax);
   return sentence_case(out) + ".";
 }
 
@@ -178,8 +178,8 @@ Verdict make_verdict(const RunFolder& run) {
     verdict.sentence =
         faults.empty() ? sentence_case(run.text("status")) + "." : sentence_of(faults);
   } else if (criteria.empty()) {
-    verdict = {Verdict::Kind::kOpen, "The run came to its end",
-               "Its scenario sets no requirement, so there is nothing to judge.", ""};
+    verdict = {Verdict::Kind::kOpen, "The run is complete",
+               "The scenario has no requirements, so there is no verdict.", ""};
   } else {
     verdict.kind = Verdict::Kind::kMet;
     verdict.headline = criteria.size() == 1
@@ -189,7 +189,7 @@ Verdict make_verdict(const RunFolder& run) {
     const bool done = finished != run.summary.end() && finished->is_boolean() && *finished;
     verdict.sentence =
         done ? "Every vehicle finished its task, and every measured value is within its limit."
-             : "The time was over before every vehicle reported that it had finished.";
+             : "The time ran out before every vehicle finished its task.";
   }
   return verdict;
 }
@@ -227,8 +227,8 @@ std::string criteria_table(const RunFolder& run) {
          number_cell(number_of(c.value("value", Json()))), escaped(unit),
          fmt::format("<td class=\"num\">{}</td>", limit_text(judged))});
   }
-  if (rows.empty()) return "<p>The scenario sets no criterion.</p>\n";
-  return "<p class=\"hint\">Click a requirement to see what is measured.</p>\n" +
+  if (rows.empty()) return "<p>The scenario has no criteria.</p>\n";
+  return "<p class=\"hint\">Click a requirement to see its definition.</p>\n" +
          table({"", "requirement", "<span class=\"num\">value</span>", "unit",
                 "<span class=\"num\">limit</span>"},
                rows, "criteria");

@@ -1,5 +1,5 @@
 #pragma once
-/// What became of a run, in a sentence that a stranger understands, and its table of criteria.
+/// Verdict of a run in one plain sentence, and the table of its criteria.
 
 #include <string>
 
@@ -11,22 +11,22 @@ struct Verdict {
   enum class Kind { kMet, kFailed, kBrokenOff, kOpen };
   Kind kind = Kind::kOpen;
   std::string headline;  ///< "All 7 requirements met"
-  std::string sentence;  ///< what failed, or what was done
-  std::string remark;    ///< what a reader may ask next, or ""
+  std::string sentence;  ///< the failures, or the success
+  std::string remark;    ///< further explanation, or ""
 };
 
 Verdict make_verdict(const RunFolder& run);
 
-/// The large box of the first screen.
+/// Verdict box of the first screen.
 std::string verdict_box(const Verdict& verdict);
 
-/// Every criterion, of the run and of its phases, with value, limit, and what the metric means.
+/// Every criterion of the run and of its phases, with value, limit and definition of the metric.
 std::string criteria_table(const RunFolder& run);
 
-/// All metrics of all vehicles.
+/// Table of all metrics of all vehicles.
 std::string metrics_table(const RunFolder& run);
 
-/// "rover: largest wheel slip" of "rover.slip_max".
+/// Title of a metric: "rover: largest wheel slip" for "rover.slip_max".
 std::string criterion_title(const std::string& metric);
 
 }  // namespace vinerow::tools::report

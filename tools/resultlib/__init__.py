@@ -1,1 +1,1 @@
-"""What tools/results is made of."""
+"""Modules of tools/results."""

@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator
 
 
 class TableError(Exception):
-    """What is wrong with the table or with a number that it asks for, in one sentence."""
+    """Fault of the table or of a number that it requests, in one sentence."""
 
 
 class NotRun(Exception):
@@ -71,7 +71,7 @@ def calls_of(text: str) -> Iterator[tuple[str, list]]:
 
 
 def evaluate(text: str, values_of: Callable[[str, str], list], asset: Callable) -> float | str:
-    """@param values_of  (run, path) -> what each seed gave;  asset: (file, key[, index]) -> number of a parameter file"""
+    """@param values_of  (run, path) -> values of all seeds;  asset: (file, key[, index]) -> number of a parameter file"""
 
     def value(node: ast.expr):
         if isinstance(node, ast.Constant) and isinstance(node.value, (int, float)):

@@ -1,4 +1,4 @@
-"""What is not one run of a scenario: the chain of commands that makes a map, and programs that print tables."""
+"""Numbers that do not come from a single run: the command chain that makes a map, and programs that print tables."""
 
 import json
 import os
@@ -31,12 +31,12 @@ def rows_of_study(output: str) -> dict:
 
 
 def comparison_numbers(output: str) -> dict:
-    """What `vinerow map --truth` tells of the map's errors."""
+    """Errors of a map, from the output of `vinerow map --truth`."""
     patterns = {
         ("rows_found", "rows"): r"rows found +(\d+) of (\d+)",
         ("bearing_deg",): r"direction +([-+.\d]+) deg",
         ("spacing_m",): r"spacing +([-+.\d]+) m",
-        ("end_mean_m", "end_worst_m"): r"row ends +([.\d]+) m off in the mean, ([.\d]+) m",
+        ("end_mean_m", "end_worst_m"): r"row ends +([.\d]+) m mean error, ([.\d]+) m maximum",
         ("volume_percent", "seen_volume_percent"): r"volume +([-+.\d]+) % .* seen ([-+.\d]+) %",
     }
     told = output[output.index("against the truth"):]
@@ -47,7 +47,7 @@ def comparison_numbers(output: str) -> dict:
 
 
 def benchmark_numbers(output: str) -> dict:
-    """Counters of google benchmark, beside the times."""
+    """Counters of google benchmark, without the times."""
     runs = json.loads(output)["benchmarks"]
     return {run["name"].split("/")[0]: {k: v for k, v in run.items() if isinstance(v, (int, float))} for run in runs}
 

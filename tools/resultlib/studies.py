@@ -15,7 +15,7 @@ KEPT = ROOT / "runs" / "results"
 
 
 def study_text(runs: list[Run], metrics: list[str]) -> str:
-    """A study of runs of one scenario, which differ in what they set. @param metrics  the numbers to keep"""
+    """Study of runs of one scenario with different overrides. @param metrics  the numbers to keep"""
     alternatives = [f"      {run.name}: {{{', '.join(text.replace('=', ': ', 1) for text in run.sets)}}}\n" for run in runs]
     return (f"vinerow_study: 1\nscenario: {runs[0].scenario}\nseeds: {runs[0].seeds}\n"
             f"metrics: [{', '.join(metrics)}]\nfactors:\n  run:\n    alternatives:\n{''.join(alternatives)}")
@@ -48,10 +48,10 @@ class Studies:
         return files
 
     def make(self, runs: list[Run]) -> None:
-        """@throws TableError with the study's last words where a run did not come to its end"""
+        """@throws TableError with the study's last line if a run did not run to the end"""
         for file, members in self.files(runs).items():
             out = KEPT / file.stem
-            # Another list of cells, program or scenario begins a new index; cells that nothing has changed are taken over.
+            # A changed list of cells, program or scenario starts a new index; unchanged cells are reused.
             command = [self.vinerow, "study", "run", file, "--out", out, "--cells", KEPT / "cells", "--fresh", "--jobs", self.jobs]
             print(f"study {file.stem}", flush=True)
             command += [] if sys.stderr.isatty() else ["--quiet"]
@@ -68,7 +68,7 @@ class Studies:
             self.cpu_s += sum(float(row["cpu_s"] or 0.0) for row in csv.DictReader((out / "costs.csv").read_text().splitlines()))
 
     def values(self, run: Run, path: str) -> list[float | None]:
-        """What each seed gave. @throws NotRun"""
+        """Values of all seeds. @throws NotRun"""
         if run.name not in self.cells:
             raise NotRun("not run")
         rows = self.cells[run.name]

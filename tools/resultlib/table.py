@@ -1,4 +1,4 @@
-"""Reads tools/results.toml: which runs there are, and what of the papers they are set beside."""
+"""Reads tools/results.toml: the runs, and the papers' numbers to which they are compared."""
 
 import itertools
 import re
@@ -27,7 +27,7 @@ class Run:
     seeds: int = 1
     quick: bool = False
     group: str = ""  # name of the table's run that axes made this one of
-    shown: tuple[str, ...] = ()  # the sets as told to readers, with the axes' names
+    shown: tuple[str, ...] = ()  # the overrides as shown to readers, with the axes' names
     levels: tuple[tuple[str, str], ...] = ()  # of the axes; of a study its factors
 
     @property
@@ -41,7 +41,7 @@ class Run:
 
     @property
     def scenario(self) -> Path | None:
-        """The scenario file, where there is one."""
+        """The scenario file, if any."""
         return ROOT / "assets" / "scenarios" / f"{self.what}.yaml" if self.kind in ("scenario", "map") else None
 
 
@@ -53,7 +53,7 @@ class Entry:
     verdict: str
     head: list[str] = field(default_factory=list)
     rows: list[list[str]] = field(default_factory=list)
-    here: str = ""  # of drawings: what of it exists here
+    here: str = ""  # for drawings: the part of it that exists here
     why: str = ""
     pictures: list[str] = field(default_factory=list)
 
@@ -76,7 +76,7 @@ class Table:
     papers: dict[str, str]  # letter -> what it is
 
     def asked(self) -> dict[str, list[str]]:
-        """Run -> the numbers that are asked of it, in order."""
+        """Run -> the numbers that are requested from it, in order."""
         paths: dict[str, dict[str, None]] = {}
         for entry in self.entries:
             for text in entry.expressions():

@@ -28,7 +28,7 @@ constexpr std::array<std::pair<CellState, const char*>, 9> kWords = {{
     {CellState::kOutOfMemory, "out of memory"},
 }};
 
-/// Why a run that came to its end did not meet what it should, most important first.
+/// Reason why a complete run did not meet its requirements; the most important one counts.
 std::string reason_of(const run::RunResult& result) {
   if (!result.error.empty()) return result.error;
   for (const PhaseReport& phase : result.phases) {
@@ -96,7 +96,7 @@ CellState cell_state_of(const std::string& word) {
   for (const auto& [state, known] : kWords) {
     if (word == known) return state;
   }
-  throw ConfigError(fmt::format("'{}' is no state of a cell", word));
+  throw ConfigError(fmt::format("'{}' is not a state of a cell", word));
 }
 
 bool is_finished(CellState state) {
@@ -135,8 +135,9 @@ CellResult cell_result_of(const std::string& text, const std::string& file) {
                    cost.at("peak_MB").get<double>(), cost.at("host").get<std::string>()};
     return result;
   } catch (const nlohmann::json::exception& error) {
-    throw ConfigError(fmt::format(
-        "'{}' is no result of a cell ({}); remove it to run the cell again", file, error.what()));
+    throw ConfigError(
+        fmt::format("'{}' is not the result of a cell ({}); remove it to run the cell again", file,
+                    error.what()));
   }
 }
 

@@ -20,13 +20,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where a run writes until it has ended: ".000012-1a2b3c4d.<host>.<process>".
+/// Folder of a run that has not ended: ".000012-1a2b3c4d.<host>.<process>".
 fs::path work_folder(const fs::path& kept) {
   return kept.parent_path() /
          fmt::format(".{}.{}.{}", kept.filename().string(), host_name(), getpid());
 }
 
-/// Runs a cell and stores its result, and the run's files where they are to stay.
+/// Runs a cell and stores its result, and the run's files if they are to be kept.
 void run_and_store(const OpenStudy& open, const StudyFolder& folder, std::size_t cell,
                    const std::shared_ptr<RunShelf>& shelf) {
   const std::string identity = open.identity.of(cell);
@@ -50,7 +50,7 @@ void run_and_store(const OpenStudy& open, const StudyFolder& folder, std::size_t
       fs::remove_all(work, error);
     }
   }
-  // Last: a cell that is there is complete.
+  // Last: the cell file marks the cell as complete.
   CellFiles(folder.cells).put(identity, result);
 }
 
@@ -90,7 +90,7 @@ CellResult result_of_end(const EndedCell& ended) {
 }
 
 void serve(const OpenStudy& open, const StudyFolder& folder) {
-  // Whatever a part prints must not stand between the answers.
+  // Output of parts must not mix with the answers.
   const int answers = dup(STDOUT_FILENO);
   dup2(STDERR_FILENO, STDOUT_FILENO);
   const auto shelf = std::make_shared<RunShelf>();
@@ -116,12 +116,12 @@ void serve(const OpenStudy& open, const StudyFolder& folder) {
 }
 
 void run_cells(const OpenStudy& open, const StudyFolder& folder,
-               const std::vector<std::size_t>& cells, int jobs, const TellCell& tell) {
+               const std::vector<std::size_t>& cells, int jobs, const DescribeCell& tell) {
   const CellFiles files(folder.cells);
   WorkerPool pool(worker_command(open, folder), jobs, open.study.budget);
   auto next = cells.begin();
   const auto give_all = [&] {
-    while (pool.has_room() && next != cells.end()) {
+    while (pool.has_free_slot() && next != cells.end()) {
       const std::size_t cell = *next++;
       const std::string identity = open.identity.of(cell);
       if (const auto found = files.find(identity)) {

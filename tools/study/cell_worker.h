@@ -1,6 +1,6 @@
 #pragma once
-/// Runs cells and stores their results: the side of a study that may stand on another machine than
-/// its driver.
+/// Worker of a study: runs cells and stores their results, possibly on another machine than the
+/// driver.
 
 #include <cstddef>
 #include <functional>
@@ -14,29 +14,29 @@
 
 namespace vinerow::study {
 
-/// Words of the command that starts a worker.
+/// Command line that starts a worker.
 std::vector<std::string> worker_command(const OpenStudy& open, const StudyFolder& folder);
 
-/// Whether a run of this state leaves its files.
+/// Whether the files of a run in this state are kept.
 bool leaves_files(scenario::KeepRuns keep, CellState state);
 
-/// The result of a cell whose worker could not tell it.
+/// Result of a cell whose worker stored none.
 CellResult result_of_end(const EndedCell& ended);
 
-/// Answers a driver: reads "cell identity" lines, runs each and stores its result. Ends with the
-/// input.
+/// Serves a driver: reads lines "cell identity", runs each cell and stores its result, until the
+/// input ends.
 void serve(const OpenStudy& open, const StudyFolder& folder);
 
-using TellCell = std::function<void(std::size_t cell, const CellResult& result)>;
+using DescribeCell = std::function<void(std::size_t cell, const CellResult& result)>;
 
-/// Runs cells in processes of their own, under the budget, and stores their results. What is
-/// stored already is not run again.
-/// @param jobs  processes at a time, >= 1 @param tell  is called after each cell, as they end
-/// @throws WriteError where results cannot be stored
+/// Runs cells in separate processes, under the budget, and stores their results. Stored cells do
+/// not run again.
+/// @param jobs  number of parallel processes, >= 1 @param `tell`  called after each cell
+/// @throws WriteError if results cannot be stored
 void run_cells(const OpenStudy& open, const StudyFolder& folder,
-               const std::vector<std::size_t>& cells, int jobs, const TellCell& tell);
+               const std::vector<std::size_t>& cells, int jobs, const DescribeCell& tell);
 
-/// Removes what runs that were killed on this machine have left in the folder of kept runs.
+/// Removes unfinished runs of killed processes of this machine from the folder of kept runs.
 void remove_leftovers(const StudyFolder& folder);
 
 }  // namespace vinerow::study

@@ -1,5 +1,5 @@
 #pragma once
-/// What a piece of work of this process takes.
+/// Meter of the computing cost of work in this process.
 
 #include <chrono>
 
@@ -9,9 +9,9 @@ namespace vinerow::study {
 
 class CostMeter {
  public:
-  /// Begins. Peaks of memory before this are forgotten.
+  /// Starts the measurement and resets the memory peak.
   CostMeter();
-  /// Since then.
+  /// Cost since the start.
   CellCost cost() const;
 
  private:

@@ -111,8 +111,8 @@ void Database::fail(int status) const {
   }
   const bool is_damaged = kind == SQLITE_NOTADB || kind == SQLITE_CORRUPT;
   throw ConfigError(fmt::format("'{}' cannot be read: {}{}", file_.string(), words,
-                                is_damaged ? "; 'vinerow study run --fresh' makes it anew from "
-                                             "the cells that are finished"
+                                is_damaged ? "; 'vinerow study run --fresh' rebuilds it from "
+                                             "the finished cells"
                                            : ""));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// A SQLite file, as little of it as the store needs.
+/// Minimal SQLite wrapper for the store.
 
 #include <cstdint>
 #include <filesystem>
@@ -14,23 +14,22 @@ namespace vinerow::study {
 
 class Database;
 
-/// A prepared statement. Parameters and columns are counted from 0.
+/// Prepared statement. Parameters and columns are counted from 0.
 class Statement {
  public:
   Statement(Database& database, const std::string& sql);
   Statement& bind(int place, std::int64_t value);
   Statement& bind(int place, double value);  ///< NaN is stored as NULL
   Statement& bind(int place, std::string_view text);
-  /// To the next row. @returns whether there is one; the statement is ready again where there is
-  /// not
+  /// Advances to the next row. @returns whether there is one; if not, the statement is reset
   bool step();
-  /// Of a statement that gives no rows.
+  /// Runs a statement that returns no rows.
   void run();
 
   int columns() const;
   std::string column_name(int place) const;
   std::int64_t integer(int place) const;
-  double number(int place) const;  ///< NaN of NULL
+  double number(int place) const;  ///< NaN for NULL
   std::string text(int place) const;
 
  private:
@@ -47,7 +46,7 @@ class Database {
   /// @throws ConfigError "'x/study.sqlite' cannot be read: file is not a database"
   Database(const std::filesystem::path& file, Mode mode);
 
-  /// @throws WriteError where the disk is full or fails, else ConfigError
+  /// @throws WriteError if the disk is full or fails, otherwise ConfigError
   void run(const std::string& sql);
   [[noreturn]] void fail(int status) const;
 
@@ -60,7 +59,7 @@ class Database {
   std::unique_ptr<sqlite3, Close> database_;
 };
 
-/// "\"rover.time_s\"": any name as SQL takes it.
+/// Name quoted for SQL: "\"rover.time_s\"".
 std::string sql_name(std::string_view name);
 
 }  // namespace vinerow::study

@@ -8,7 +8,7 @@
 namespace vinerow::study {
 namespace {
 
-/// Metrics have points in their names.
+/// Parser that accepts names with points, as metrics have.
 mu::Parser make_parser(const scenario::DerivedColumn& column) {
   mu::Parser parser;
   parser.DefineNameChars("0123456789_.abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ");
@@ -17,7 +17,7 @@ mu::Parser make_parser(const scenario::DerivedColumn& column) {
 }
 
 [[noreturn]] void fail(const scenario::DerivedColumn& column, const mu::ParserError& error) {
-  io::fail_at(column.where, fmt::format("derived.{} = '{}' is no expression: {}", column.name,
+  io::fail_at(column.where, fmt::format("derived.{} = '{}' is not an expression: {}", column.name,
                                         column.expression, error.GetMsg()));
 }
 

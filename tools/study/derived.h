@@ -1,5 +1,5 @@
 #pragma once
-/// Columns that are computed from others: `cost: rover.time_s * 40 / 3600`.
+/// Derived columns, computed from others: `cost: rover.time_s * 40 / 3600`.
 
 #include <functional>
 #include <memory>
@@ -10,11 +10,11 @@
 
 namespace vinerow::study {
 
-/// Names that an expression uses. @throws ConfigError "study.yaml:9: derived.cost: ..." where it is
-/// no expression
+/// Names that an expression uses. @throws ConfigError "study.yaml:9: derived.cost = ..." if it is
+/// not an expression
 std::vector<std::string> variables_of(const scenario::DerivedColumn& column);
 
-/// An expression ready to be computed many times. Operators and functions are those of muParser.
+/// Compiled expression with the operators and functions of muParser.
 class Expression {
  public:
   /// @throws ConfigError as variables_of()
@@ -22,7 +22,7 @@ class Expression {
   ~Expression();
   Expression(Expression&&) noexcept;
 
-  /// @param value_of  of a name; NaN where there is none, which makes the result NaN
+  /// @param value_of  value of a name; NaN if missing, which makes the result NaN
   double value(const std::function<double(const std::string&)>& value_of);
 
  private:

@@ -65,7 +65,7 @@ std::vector<std::string> Design::texts(std::size_t setting) const {
 }
 
 std::vector<std::size_t> Design::settings_in_running_order() const {
-  // Settings are counted anew, in the factors that change the world alone.
+  // Number of each setting's world: settings counted over the factors that change the world only.
   std::vector<std::size_t> world_of(settings_, 0), order(settings_);
   for (std::size_t setting = 0; setting < settings_; ++setting) {
     order[setting] = setting;

@@ -1,9 +1,9 @@
 #pragma once
-/// Which settings and cells a study has.
+/// Experimental design of a study: its settings and cells.
 ///
-/// A *setting* is one combination of levels, the last factor of the file changing fastest. A *cell*
+/// A *setting* is one combination of levels; the last factor of the file changes fastest. A *cell*
 /// is one run: a setting with a seed. All settings have the same seeds, so that comparisons between
-/// them share their noise. Cells are counted from 0: cell = setting * seeds + place of the seed.
+/// them share their noise. Cells are counted from 0: cell = setting * seeds + index of the seed.
 
 #include <cstddef>
 #include <cstdint>
@@ -29,19 +29,18 @@ class Design {
     return setting * seeds() + seed_place;
   }
 
-  /// The level of each factor.
+  /// Level of each factor.
   std::vector<std::size_t> levels(std::size_t setting) const;
-  /// What the cell's run sets over the scenario.
+  /// Overrides of the scenario for a cell's run.
   scenario::Overrides overrides(std::size_t cell) const;
-  /// The same with the levels of your choice, one for each factor, and no seed.
+  /// Overrides for given levels, one per factor, without a seed.
   scenario::Overrides overrides_of(const std::vector<std::size_t>& levels) const;
 
-  /// Columns of all factors, and what stands in them for a setting.
+  /// Columns of all factors, and their texts for a setting.
   const std::vector<std::string>& columns() const { return columns_; }
   std::vector<std::string> texts(std::size_t setting) const;
 
-  /// Settings in the order in which to run them: those that share a world one after the other, so
-  /// that it is built once.
+  /// Settings in running order: those that share a world are consecutive, so that it is built once.
   std::vector<std::size_t> settings_in_running_order() const;
 
  private:

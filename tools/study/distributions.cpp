@@ -1,6 +1,6 @@
 #include "tools/study/distributions.h"
 
-// Boost would compute in long double, whose width and functions differ from machine to machine.
+// Without this, Boost computes in long double, whose width and functions depend on the machine.
 #define BOOST_MATH_PROMOTE_DOUBLE_POLICY false
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>

@@ -28,7 +28,7 @@ bool is_worth_a_retry(CellState state) {
          state == CellState::kOutOfMemory;
 }
 
-/// Decides which cell is next, and takes what comes back.
+/// Selects the next cells and collects their results.
 class Driver {
  public:
   Driver(const OpenStudy& open, const DriveOptions& options)
@@ -36,7 +36,7 @@ class Driver {
         options_(options),
         cells_(options.folder.cells),
         index_(options.folder.index(), open.design, open.identity,
-               options.fresh ? Index::Access::kAnew : Index::Access::kWrite),
+               options.fresh ? Index::Access::kRestart : Index::Access::kWrite),
         results_(open.design),
         judge_(results_),
         issued_(open.design.settings(), 0) {}
@@ -47,9 +47,9 @@ class Driver {
     Clock::time_point committed = start_;
     tell(*runner);
     while (give_all(*runner)) {
-      constexpr double kLook_s = 0.2;  // after Ctrl-C
+      constexpr double kLook_s = 0.2;  // time until Ctrl-C is noticed
       const std::vector<EndedCell> ended = runner->wait(kLook_s);
-      give_all(*runner);  // workers first: they wait
+      give_all(*runner);  // before anything else, so that no worker idles
       for (const EndedCell& cell : ended) take(cell);
       if (runner->is_detached()) {
         detached_ = true;
@@ -65,7 +65,7 @@ class Driver {
       }
       tell(*runner);
     }
-    if (!interrupted_ && !detached_) leave_out_what_is_not_needed();
+    if (!interrupted_ && !detached_) remove_unneeded();
     index_.commit();
     tell(*runner);
     return {std::move(results_), run_, taken_, interrupted_, detached_, wall_s(), runner->status()};
@@ -82,7 +82,7 @@ class Driver {
 
   double wall_s() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
-  /// Whether the cell is finished, with the files that it should leave.
+  /// Whether the cell is finished and has the files that it should leave.
   bool is_complete(std::size_t cell) const {
     const CellState state = results_.state(cell);
     if (!is_finished(state) || (options_.retry && is_worth_a_retry(state))) return false;
@@ -113,10 +113,10 @@ class Driver {
     }
   }
 
-  /// Further cells of a setting that are wanted by now and not complete.
+  /// Further cells of a setting that the stop rule needs now and that are not complete.
   std::vector<std::size_t> issue(std::size_t setting) {
     std::vector<std::size_t> cells;
-    // Complete ones may make more wanted.
+    // Complete cells can make the rule need more.
     while (issued_[setting] < judge_.wanted(setting)) {
       const std::size_t cell = open_.design.cell_of(setting, issued_[setting]++);
       ++wanted_;
@@ -125,9 +125,9 @@ class Driver {
     return cells;
   }
 
-  /// Gives cells to idle workers. @returns whether any of them works
+  /// Gives cells to idle workers. @returns whether any worker is busy
   bool give_all(CellRunner& runner) {
-    while (runner.has_room() && !ready_.empty()) {
+    while (runner.has_free_slot() && !ready_.empty()) {
       runner.give(ready_.front(), open_.identity.of(ready_.front()));
       ready_.pop_front();
     }
@@ -155,13 +155,14 @@ class Driver {
     index_.put(ended.cell, *result);
     ++run_;
     count_failure(ended.cell);
-    // In front: the setting's world is built.
+    // Put first: the setting's world is already built.
     const std::vector<std::size_t> more = issue(open_.design.setting_of(ended.cell));
     ready_.insert(ready_.begin(), more.begin(), more.end());
   }
 
-  /// By the rule alone, whatever an earlier rule has run: the table does not depend on that.
-  void leave_out_what_is_not_needed() {
+  /// Removes cells that the current rule does not need, so that the table is independent of cells
+  /// run under an earlier rule.
+  void remove_unneeded() {
     for (std::size_t setting = 0; setting < open_.design.settings(); ++setting) {
       for (std::size_t k = judge_.wanted(setting); k < open_.design.seeds(); ++k) {
         const std::size_t cell = open_.design.cell_of(setting, k);
@@ -189,7 +190,7 @@ class Driver {
   Index index_;
   Results results_;
   StopJudge judge_;
-  std::vector<std::size_t> issued_;  ///< by setting: so many of its seeds were looked at
+  std::vector<std::size_t> issued_;  ///< by setting: number of its seeds already considered
   std::deque<std::size_t> ready_;
   Clock::time_point start_ = Clock::now();
   std::size_t run_ = 0, taken_ = 0, failed_ = 0, wanted_ = 0;

@@ -1,5 +1,5 @@
 #pragma once
-/// Runs the cells of a study that are not finished yet.
+/// Driver of a study: runs the cells that are not finished.
 
 #include <cstddef>
 #include <functional>
@@ -14,41 +14,41 @@
 namespace vinerow::study {
 
 struct StudyProgress {
-  std::size_t finished = 0;  ///< before and by this call
-  std::size_t failed = 0;    ///< of them: what did not run to its end
-  std::size_t total = 0;     ///< cells, as far as they are needed
-  std::size_t run = 0;       ///< by this call
-  double wall_s = 0.0;       ///< of this call
-  std::string runner;        ///< what the runner says of itself; may be empty
+  std::size_t finished = 0;  ///< cells finished before and by this call
+  std::size_t failed = 0;    ///< of these, cells that did not run to the end
+  std::size_t total = 0;     ///< needed cells
+  std::size_t run = 0;       ///< cells run by this call
+  double wall_s = 0.0;       ///< wall time of this call
+  std::string runner;        ///< status of the runner; may be empty
 };
 
 struct DriveOptions {
   StudyFolder folder;
-  int jobs = 1;                       ///< cells at a time on this machine
-  std::optional<SlurmOptions> slurm;  ///< set: the cells run there
-  bool fresh = false;                 ///< begin a new index
-  bool retry = false;                 ///< run cells again that crashed or went over their budget
+  int jobs = 1;                       ///< number of parallel cells on this machine
+  std::optional<SlurmOptions> slurm;  ///< if set, the cells run on Slurm
+  bool fresh = false;                 ///< start a new index
+  bool retry = false;                 ///< rerun cells that crashed or exceeded their budget
   std::function<void(const StudyProgress&)> progress;
   std::function<bool()> interrupted;
 };
 
 struct DriveResult {
   Results results;
-  std::size_t run = 0;    ///< cells that this call ran
-  std::size_t taken = 0;  ///< cells that were finished before
+  std::size_t run = 0;    ///< cells run by this call
+  std::size_t taken = 0;  ///< cells finished before
   bool interrupted = false;
-  bool detached = false;  ///< the cells go on without this process
+  bool detached = false;  ///< the cells continue without this process
   double wall_s = 0.0;
-  std::string runner;  ///< what the runner said at last
+  std::string runner;  ///< last status of the runner
 };
 
-/// Takes finished cells over, runs the others, keeps the index. Whatever ends it, what is finished
-/// stays.
-/// @throws ConfigError where the index is of something else, or another driver has the folder;
-///   WriteError where results cannot be stored
+/// Reuses finished cells, runs the others, and maintains the index. Finished cells stay however the
+/// call ends.
+/// @throws ConfigError if the index belongs to another study, or another driver uses the folder;
+///   WriteError if results cannot be stored
 DriveResult drive(const OpenStudy& open, const DriveOptions& options);
 
-/// What is finished, from the index and the cells' files, without writing anything.
+/// Finished cells, from the index and the cell files. Writes nothing.
 Results look(const OpenStudy& open, const StudyFolder& folder);
 
 }  // namespace vinerow::study

@@ -12,7 +12,7 @@
 namespace vinerow::study {
 namespace {
 
-// The settings' means relative to the mean of all, and the sum of their squares.
+// Means of the settings relative to the mean of all, and the sum of their squares.
 struct Deviations {
   std::span<const SettingMean> settings;
   double mean;
@@ -44,7 +44,7 @@ MainEffect main_effect(const Deviations& deviations, std::size_t factor, int lev
     sums[level] += deviations.values[s];
     counts[level] += 1.0;
   }
-  // α_i, and Σ n_i α_i². A level without settings has 0 / 0 = NaN and no part in the sum.
+  // α_i, and Σ n_i α_i². A level without settings has 0 / 0 = NaN and is not in the sum.
   MainEffect result;
   double part = 0.0;
   for (std::size_t i = 0; i < size; ++i) {
@@ -57,13 +57,12 @@ MainEffect main_effect(const Deviations& deviations, std::size_t factor, int lev
   return result;
 }
 
-// What the sums a_i + b_j that fit the cells best leave of each cell: minimises
-// Σ n_ij (c_ij - a_i - b_j)² over the cells that are there. Sizes: all (levels of first x levels of
-// second).
+// Residual c_ij - a_i - b_j of each cell, with a, b that minimise Σ n_ij (c_ij - a_i - b_j)² over
+// the existing cells. Sizes: all (levels of first x levels of second).
 Eigen::MatrixXd additive_residuals(const Eigen::MatrixXd& cells, const Eigen::MatrixXd& counts) {
   const Eigen::Index rows = cells.rows(), columns = cells.cols();
   const Eigen::Index equations = (counts.array() > 0.0).count();
-  // One equation for each cell, √n_ij (a_i + b_j) = √n_ij c_ij; unknowns are all a, then all b.
+  // One equation per cell, √n_ij (a_i + b_j) = √n_ij c_ij; unknowns are all a, then all b.
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(equations, rows + columns);
   Eigen::VectorXd right(equations);
   Eigen::Index equation = 0;
@@ -77,7 +76,7 @@ Eigen::MatrixXd additive_residuals(const Eigen::MatrixXd& cells, const Eigen::Ma
       ++equation;
     }
   }
-  // The unknowns are not unique (a + c, b - c); the sums are, and this takes the shortest solution.
+  // The unknowns are not unique (a + c, b - c), but their sums are; this is the shortest solution.
   Eigen::VectorXd solution = Eigen::VectorXd::Zero(rows + columns);
   if (equations > 0) solution = matrix.completeOrthogonalDecomposition().solve(right);
   Eigen::MatrixXd residuals = cells;
@@ -96,11 +95,12 @@ Interaction interaction(const Deviations& deviations, int first, int second, int
     cells(i, j) += deviations.values[s];
     counts(i, j) += 1.0;
   }
-  cells = cells.cwiseQuotient(counts).eval();  // 0 / 0 = NaN where there is none
+  cells = cells.cwiseQuotient(counts).eval();  // 0 / 0 = NaN without settings
 
   Interaction result{first, second, (cells.array() + deviations.mean).matrix(),
                      additive_residuals(cells, counts), 0.0};
-  // Σ n_ij γ_ij²: by Pythagoras, what the cells explain minus what sums of effects explain.
+  // Σ n_ij γ_ij²: the sum of squares explained by the cells minus that explained by a_i + b_j
+  // (Pythagoras).
   double part = 0.0;
   for (Eigen::Index k = 0; k < cells.size(); ++k) {
     const double effect = result.effects(k);

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Files that name others in their text.
+/// Whether a file may name other files in its text.
 bool names_files(const fs::path& file, std::size_t bytes) {
   constexpr std::size_t kLongest = 8 << 20;
   constexpr std::array kExtensions = {".yaml", ".yml", ".sdf",  ".world", ".urdf", ".xacro",
@@ -26,7 +26,7 @@ bool names_files(const fs::path& file, std::size_t bytes) {
          std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
 }
 
-/// What in a text looks like a file's name.
+/// Parts of a text that look like file names.
 std::vector<std::string> names_in(const std::string& text) {
   static const std::regex pattern(R"([\w./~+-]+\.[A-Za-z0-9]{1,8}\b)");
   std::vector<std::string> names;
@@ -38,7 +38,7 @@ std::vector<std::string> names_in(const std::string& text) {
   return names;
 }
 
-/// Every scalar of a tree with the folder that its paths start from.
+/// Collects every scalar of a tree.
 void add_scalars(const io::YamlNode& node, std::vector<const io::YamlNode*>& scalars) {
   if (node.is_scalar()) scalars.push_back(&node);
   for (const io::YamlNode& item : node.items) add_scalars(item, scalars);
@@ -67,7 +67,7 @@ std::string digest_of_values(const std::vector<scenario::OverrideValue>& values,
 std::string FileDigests::of(const fs::path& path) {
   const fs::path absolute = path.lexically_normal();
   const auto [place, is_new] = known_.emplace(absolute, "");
-  // Of a file that is being read already, further up: a circle adds nothing.
+  // The file is already known or being read further up: a cycle adds nothing.
   if (!is_new) return place->second;
   Hasher hasher;
   std::error_code error;

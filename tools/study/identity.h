@@ -1,5 +1,5 @@
 #pragma once
-/// What a cell's result depends on, as a digest: equal digests, equal results.
+/// Digest of everything that a cell's result depends on: equal digests mean equal results.
 
 #include <filesystem>
 #include <map>
@@ -11,25 +11,25 @@
 
 namespace vinerow::study {
 
-/// Digests of files and of what they name.
+/// Digests of files, including the files that they name.
 class FileDigests {
  public:
-  /// Of every file and folder that a text in the tree names, and of those that these name in turn;
-  /// "" where there is none. A text counts as a name where such a file exists.
+  /// Digest of every file and folder that a text in the tree names, and recursively of those that
+  /// they name; "" without any. A text counts as a name if such a file exists.
   std::string of(const io::YamlNode& tree);
-  /// Of one file with all that it names; of a folder, of all files in it.
+  /// Digest of a file with all files that it names, or of all files in a folder.
   std::string of(const std::filesystem::path& path);
 
  private:
   std::map<std::filesystem::path, std::string> known_;
 };
 
-/// Of the program: its version, and every byte of it and of the library that simulates.
+/// Digest of the program: its version, and every byte of it and of the simulation library.
 std::string program_digest();
 
 class Identity {
  public:
-  /// @param source  of the study's scenario @param program  of program_digest()
+  /// @param source  source of the study's scenario @param program  result of program_digest()
   Identity(const Design& design, const scenario::ScenarioSource& source,
            const std::string& program);
 
@@ -37,11 +37,11 @@ class Identity {
   std::string of(std::size_t cell) const;
   /// Digest of the scenario with all files that it names.
   const std::string& scenario() const { return scenario_; }
-  /// As given.
+  /// Digest of the program, as given.
   const std::string& program() const { return program_; }
   /// Digest of the list of cells: factors, levels, seeds and their order.
   const std::string& design() const { return design_digest_; }
-  /// Of all of it: equal digests, equal cells under equal numbers.
+  /// Digest of the whole study: equal digests mean equal cells with equal numbers.
   std::string whole() const;
 
  private:

@@ -1,12 +1,11 @@
 #pragma once
-/// What a program said at last.
+/// Last line of a program's output.
 
 #include <string>
 
 namespace vinerow::study {
 
-/// The last line of a text that is not blank, without what is beyond 300 characters; "" where there
-/// is none.
+/// Last non-blank line of a text, cut after 300 characters; "" if all are blank.
 std::string last_line_of(const std::string& text);
 
 }  // namespace vinerow::study

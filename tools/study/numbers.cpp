@@ -29,7 +29,7 @@ double Numbers::value(std::size_t cell, const std::string& name) {
     return factor(cell, found->second);
   }
   if (!has_numbers(results_.state(cell))) return kNoNumber;
-  // A column may use those that stand before it in the file, which open_study.cpp checks.
+  // A column may use only columns before it in the file; open_study.cpp checks this.
   if (const auto found = expressions_.find(name); found != expressions_.end()) {
     return found->second.value([&](const std::string& used) { return value(cell, used); });
   }

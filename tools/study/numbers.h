@@ -1,5 +1,5 @@
 #pragma once
-/// Every number of a cell by its name: metrics, derived columns, factors that are numbers.
+/// Numbers of a cell by name: metrics, derived columns, numeric factors.
 
 #include <cstddef>
 #include <map>
@@ -12,7 +12,7 @@
 
 namespace vinerow::study {
 
-/// The number that a text is, as a whole.
+/// Number in a text, if the whole text is a number.
 std::optional<double> number_in(const std::string& text);
 
 class Numbers {
@@ -20,15 +20,15 @@ class Numbers {
   /// @param results  outlives this; may grow
   explicit Numbers(const Results& results);
 
-  /// NaN where there is none. Of a cell that did not run to its end there is no metric.
+  /// NaN if absent. A cell that did not run to the end has no metrics.
   double value(std::size_t cell, const std::string& name);
 
  private:
   double factor(std::size_t cell, std::size_t column) const;
 
   const Results& results_;
-  std::map<std::string, std::size_t> factors_;     ///< place among the design's columns
-  std::map<std::string, Expression> expressions_;  ///< of derived columns
+  std::map<std::string, std::size_t> factors_;     ///< index among the design's columns
+  std::map<std::string, Expression> expressions_;  ///< expressions of derived columns
 };
 
 }  // namespace vinerow::study

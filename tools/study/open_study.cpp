@@ -18,12 +18,12 @@
 namespace vinerow::study {
 namespace {
 
-/// Levels that are tried before the first cell: all, or of many those at the ends of a number.
+/// Levels to try before the first cell: all, or only the extreme ones if a numeric factor has many.
 std::vector<std::size_t> levels_to_try(const scenario::Factor& factor) {
-  constexpr std::size_t kMost = 100;
+  constexpr std::size_t kMax = 100;
   std::vector<std::size_t> all(factor.levels.size());
   for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
-  if (all.size() <= kMost) return all;
+  if (all.size() <= kMax) return all;
   std::set<std::size_t> ends = {0, all.size() - 1};
   for (std::size_t column = 0; column < factor.columns.size(); ++column) {
     const auto less = [&](std::size_t a, std::size_t b) {
@@ -36,7 +36,7 @@ std::vector<std::size_t> levels_to_try(const scenario::Factor& factor) {
   return {ends.begin(), ends.end()};
 }
 
-/// Names of the numbers that a cell has before its run.
+/// Names of a cell's numbers, as far as they are known before its run.
 std::set<std::string> numbers_of(const OpenStudy& open, const std::vector<std::size_t>& levels,
                                  const std::shared_ptr<RunShelf>& shelf) {
   SessionOptions options;
@@ -51,7 +51,7 @@ std::set<std::string> numbers_of(const OpenStudy& open, const std::vector<std::s
   return names;
 }
 
-/// A name that the study uses, and where.
+/// Name used by the study, and the place of its use.
 struct UsedName {
   std::string name, what;
   io::SourceMark mark;
@@ -78,7 +78,7 @@ std::vector<UsedName> used_names(const scenario::Study& study) {
   return used;
 }
 
-/// Known only behind the run: what planners count, numbers of jobs.
+/// Whether a name can be known only after the run: counters of planners, numbers of jobs.
 bool is_known_later(const std::string& name, const scenario::Scenario& scenario) {
   const std::string owner = name.substr(0, name.find('.'));
   if (owner == "planning") return true;
@@ -102,7 +102,7 @@ void check_names(const OpenStudy& open) {
   };
   std::vector<std::size_t> first(open.study.factors.size(), 0);
   look(first);
-  // Other parts may have other numbers.
+  // Levels with other parts may have other numbers.
   for (std::size_t k = 0; k < first.size() && !missing.empty(); ++k) {
     for (const std::size_t level : levels_to_try(open.study.factors[k])) {
       std::vector<std::size_t> levels = first;

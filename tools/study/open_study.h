@@ -1,5 +1,5 @@
 #pragma once
-/// A study with all that belongs to it.
+/// Opened study with its scenario, plug-ins and design.
 
 #include <filesystem>
 #include <memory>
@@ -24,8 +24,8 @@ struct OpenStudy {
   const Identity identity;
 };
 
-/// Refuses before the first cell what can be refused: key paths and values that do not fit the
-/// scenario, names of metrics that no cell has, expressions that cannot be computed.
+/// Checks a study before the first cell: key paths and values that do not fit the scenario, names
+/// of metrics that no cell has, expressions that cannot be computed.
 /// @throws ConfigError
 void check_study(const OpenStudy& open);
 

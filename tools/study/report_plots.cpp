@@ -18,17 +18,17 @@
 namespace vinerow::study {
 namespace {
 
-/// A column of the design: its distinct texts in the order of settings, and their numbers where all
-/// are numbers.
+/// Column of the design: its distinct texts in the order of settings, and their values if all are
+/// numbers.
 struct Column {
   std::string name;
-  std::string unit;  ///< of the parameter's key, where one factor sets one
+  std::string unit;  ///< from the key, if the factor sets a single parameter
   std::vector<std::string> texts;
-  std::vector<double> numbers;  ///< by text; empty where one is none
-  std::vector<std::size_t> of;  ///< [setting] place among texts
+  std::vector<double> numbers;  ///< by text; empty unless all are numbers
+  std::vector<std::size_t> of;  ///< [setting] index into texts
 };
 
-/// "m" of a factor called lookahead that sets rover.controller.lookahead_m and nothing else.
+/// Unit of a column: "m" for a factor lookahead that sets only rover.controller.lookahead_m.
 std::string unit_of_column(const Design& design, const std::string& name) {
   std::string path = name;
   for (const scenario::Factor& factor : design.study().factors) {
@@ -60,12 +60,12 @@ std::vector<Column> columns_of(const Design& design) {
     }
     if (columns[k].numbers.size() < columns[k].texts.size()) columns[k].numbers.clear();
   }
-  // What does not vary explains nothing.
+  // A column that does not vary explains nothing.
   std::erase_if(columns, [](const Column& column) { return column.texts.size() < 2; });
   return columns;
 }
 
-/// "rover.cross_track_rms_m": its last part says the unit.
+/// Quantity of a number such as "rover.cross_track_rms_m", whose ending gives the unit.
 Quantity quantity_of(const std::string& name) {
   const std::size_t dot = name.rfind('.');
   const std::string last = dot == std::string::npos ? name : name.substr(dot + 1);
@@ -83,14 +83,14 @@ Quantity quantity_of(const Column& column) {
   return quantity;
 }
 
-/// The factors' values in words: "lookahead_m = 1, pitch_m = 0.33".
+/// Values of the factors as text: "lookahead_m = 1, pitch_m = 0.33".
 std::string setting_text(const Design& design, std::size_t setting) {
   std::string words;
   const std::vector<std::string> texts = design.texts(setting);
   for (std::size_t k = 0; k < texts.size(); ++k) {
     words += fmt::format("{}{} = {}", k == 0 ? "" : ", ", design.columns()[k], texts[k]);
   }
-  return words.empty() ? "the scenario as it is" : words;
+  return words.empty() ? "the unchanged scenario" : words;
 }
 
 std::int64_t first_cell(const Design& design, std::size_t setting) {
@@ -101,7 +101,7 @@ std::string title_of(const std::string& name) {
   return tools::report::sentence_case(quantity_of(name).label);
 }
 
-constexpr const char* kClick = "A click shows the command that repeats a run.";
+constexpr const char* kClick = "Click a mark for the command that repeats its run.";
 
 std::string caption_of(const Design& design) {
   return fmt::format(
@@ -157,7 +157,7 @@ std::string lines_over(const Results& results, const std::string& name, const Co
 std::string boxes_over(const std::string& name, const Column& x,
                        const std::vector<SettingNumber>& settings) {
   BoxPlot plot;
-  plot.texts = {title_of(name), fmt::format("All runs of each level. {}", kClick)};
+  plot.texts = {title_of(name), fmt::format("All runs at each level. {}", kClick)};
   plot.x = quantity_of(x), plot.y = quantity_of(name);
   for (const std::string& text : x.texts) plot.levels.push_back({text, {}});
   for (std::size_t setting = 0; setting < settings.size(); ++setting) {
@@ -178,7 +178,7 @@ std::string number_figures(const Results& results, const std::string& name) {
                                        [](const auto& setting) { return !setting.values.empty(); });
   if (!is_measured) return "";
   const std::vector<Column> columns = columns_of(results.design());
-  constexpr std::size_t kMostGroups = 8, kMostBoxes = 40;
+  constexpr std::size_t kMaxGroups = 8, kMaxBoxes = 40;
   if (columns.size() == 1) {
     const Column& x = columns.front();
     if (!x.numbers.empty()) return lines_over(results, name, x, nullptr, settings);
@@ -188,23 +188,23 @@ std::string number_figures(const Results& results, const std::string& name) {
                                                    results.design().settings();
   if (is_table) {
     std::string figures = map_over_two(results, name, columns[1], columns[0], settings);
-    // Lines over the one that is a number, by preference the second.
+    // Lines over the numeric factor, preferably the second.
     for (const std::size_t over : {1, 0}) {
       const Column& group = columns[1 - over];
-      if (columns[over].numbers.empty() || group.texts.size() > kMostGroups) continue;
+      if (columns[over].numbers.empty() || group.texts.size() > kMaxGroups) continue;
       return figures + lines_over(results, name, columns[over], &group, settings);
     }
     return figures;
   }
   std::string figures;
   for (const Column& column : columns) {
-    if (column.texts.size() <= kMostBoxes) figures += boxes_over(name, column, settings);
+    if (column.texts.size() <= kMaxBoxes) figures += boxes_over(name, column, settings);
   }
   return figures;
 }
 
 std::string success_figure(const Results& results) {
-  constexpr std::size_t kMostRows = 60;
+  constexpr std::size_t kMaxRows = 60;
   const Design& design = results.design();
   if (design.seeds() < 2) return "";
   IntervalPlot plot;
@@ -226,14 +226,14 @@ std::string success_figure(const Results& results) {
     }
     rows.emplace_back(row.value, std::move(row));
   }
-  if (rows.size() > kMostRows) {
+  if (rows.size() > kMaxRows) {
     std::stable_sort(rows.begin(), rows.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
-    rows.resize(kMostRows);
+    rows.resize(kMaxRows);
     plot.texts.caption = fmt::format(
         "The {} settings with the smallest share; all {} are in "
         "settings.csv. ",
-        kMostRows, design.settings());
+        kMaxRows, design.settings());
   }
   plot.texts.caption += kClick;
   for (auto& [share, row] : rows) plot.rows.push_back(std::move(row));
@@ -244,7 +244,7 @@ std::string parallel_figure(const Results& results, const std::vector<std::strin
   const std::vector<Column> columns = columns_of(results.design());
   if (columns.size() < 2 || columns.size() + names.size() < 3) return "";
   ParallelPlot plot;
-  plot.texts = {"All settings", fmt::format("A line for each setting. {}", kClick)};
+  plot.texts = {"All settings", fmt::format("One line per setting. {}", kClick)};
   plot.lines.resize(results.design().settings());
   for (const Column& column : columns) {
     ParallelAxis axis;

@@ -1,5 +1,5 @@
 #pragma once
-/// The plots of a study's page, chosen by what its factors are.
+/// Plots of a study's page, chosen by the kinds of its factors.
 
 #include <string>
 
@@ -7,14 +7,14 @@
 
 namespace vinerow::study {
 
-/// Figures of one number: a map over two factors, lines over a numeric one, boxes over a factor of
-/// words. "" where nothing was measured.
+/// Figures of one number: a heat map over two factors, lines over a numeric factor, boxes over a
+/// categorical factor. "" if nothing was measured.
 std::string number_figures(const Results& results, const std::string& name);
 
-/// How often the criteria were met in each setting, with Wilson's interval; "" for one seed.
+/// Share of runs that met the criteria in each setting, with Wilson intervals; "" for one seed.
 std::string success_figure(const Results& results);
 
-/// All settings at once, over all factors and numbers; "" with fewer than three axes.
+/// Parallel plot of all settings over all factors and numbers; "" with fewer than three axes.
 std::string parallel_figure(const Results& results, const std::vector<std::string>& names);
 
 }  // namespace vinerow::study

@@ -1,5 +1,5 @@
 #pragma once
-/// What is known of all cells of a study, in memory.
+/// Results of all cells of a study, in memory.
 
 #include <cstddef>
 #include <limits>
@@ -12,12 +12,12 @@
 
 namespace vinerow::study {
 
-/// Stands for a number that a cell does not have or could not measure.
+/// Marks a number that a cell lacks or could not measure.
 inline constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 class Results {
  public:
-  /// All cells wait. @param design  outlives the results
+  /// All cells are waiting. @param design  outlives the results
   explicit Results(const Design& design);
 
   const Design& design() const { return design_; }
@@ -28,13 +28,13 @@ class Results {
   const std::string& digest(std::size_t cell) const { return cells_[cell].digest; }
   const CellCost& cost(std::size_t cell) const { return cells_[cell].cost; }
 
-  /// Names of all numbers that some cell has, sorted.
+  /// Names of all numbers that at least one cell has, sorted.
   std::vector<std::string> names() const;
   bool has(const std::string& name) const { return places_.contains(name); }
-  /// kNoNumber where the cell has none.
+  /// kNoNumber if absent.
   double value(std::size_t cell, const std::string& name) const;
 
-  /// How many cells are in each state.
+  /// Number of cells in each state.
   std::map<CellState, std::size_t> counts() const;
 
  private:
@@ -42,7 +42,7 @@ class Results {
     CellState state = CellState::kWaiting;
     std::string reason, digest;
     CellCost cost;
-    std::vector<double> values;  ///< by places_; may be shorter
+    std::vector<double> values;  ///< indexed by places_; may be shorter
   };
   const Design& design_;
   std::vector<Cell> cells_;

@@ -1,11 +1,11 @@
 #pragma once
-/// Texts as words of a shell.
+/// Quoting of texts for a shell.
 
 #include <string>
 
 namespace vinerow::study {
 
-/// Between single quotes of a POSIX shell.
+/// Text in single quotes of a POSIX shell.
 std::string shell_quoted(const std::string& text);
 
 }  // namespace vinerow::study

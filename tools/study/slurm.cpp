@@ -22,7 +22,7 @@ std::vector<std::string> fields_of(const std::string& line) {
   return fields;
 }
 
-/// In the name of a log '%' begins a pattern.
+/// Path with '%' escaped, which would start a pattern in the name of a log.
 std::string without_patterns(const std::string& path) {
   std::string escaped;
   for (const char c : path) escaped += c == '%' ? std::string("%%") : std::string(1, c);
@@ -35,14 +35,14 @@ void demand_commands() {
   for (const char* command : {"sbatch", "squeue", "scancel"}) {
     if (!has_program(command)) {
       throw ConfigError(
-          fmt::format("there is no Slurm on this machine ('{}' is not in PATH); without "
-                      "'--runner slurm' the study runs here",
+          fmt::format("this machine has no Slurm ('{}' is not in PATH); without "
+                      "'--runner slurm' the study runs locally",
                       command));
     }
   }
 }
 
-std::size_t most_tasks() {
+std::size_t max_tasks() {
   constexpr std::size_t kDefault = 1001;
   if (!has_program("scontrol")) return kDefault;
   std::istringstream lines(run_program({"scontrol", "show", "config"}).output);
@@ -73,7 +73,7 @@ Submitted submit(const Submission& submission) {
   // "12", or "12;cluster".
   const std::string job = answer.output.substr(0, answer.output.find_first_of(";\n"));
   if (answer.succeeded && !job.empty()) return {job, ""};
-  return {"", answer.complaint.empty() ? "sbatch gives no reason" : answer.complaint};
+  return {"", answer.complaint.empty() ? "sbatch gave no reason" : answer.complaint};
 }
 
 bool is_end(const std::string& state) {
@@ -119,7 +119,7 @@ std::string state_in_accounting(const std::string& job, std::size_t index) {
       run_program({"sacct", "--noheader", "--parsable2", "--allocations",
                    fmt::format("--jobs={}_{}", job, index), "--format=State"});
   if (!answer.succeeded) return "";
-  // "CANCELLED by 1000": the first word is the state. The last line is of the last time it ran.
+  // "CANCELLED by 1000": the first word is the state. The last line belongs to the latest start.
   std::string state;
   std::istringstream lines(answer.output);
   for (std::string line; std::getline(lines, line);) {
@@ -133,7 +133,7 @@ void cancel(const std::vector<std::string>& jobs) {
   if (jobs.empty()) return;
   std::vector<std::string> words = {"scancel"};
   words.insert(words.end(), jobs.begin(), jobs.end());
-  static_cast<void>(run_program(words));  // what has ended meanwhile is no fault
+  static_cast<void>(run_program(words));  // jobs that have already ended are not an error
 }
 
 }  // namespace vinerow::study::slurm

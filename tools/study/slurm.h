@@ -1,5 +1,5 @@
 #pragma once
-/// Slurm by its own commands: sbatch, squeue, sacct, scancel, scontrol.
+/// Slurm interface through its commands sbatch, squeue, sacct, scancel, scontrol.
 
 #include <filesystem>
 #include <string>
@@ -7,55 +7,56 @@
 
 namespace vinerow::study::slurm {
 
-/// @throws ConfigError where Slurm's commands are absent
+/// @throws ConfigError if Slurm's commands are absent
 void demand_commands();
 
-/// Tasks of one array at most (MaxArraySize); 1001, Slurm's own default, where it does not say.
-std::size_t most_tasks();
+/// Maximum number of tasks in an array (MaxArraySize); 1001, Slurm's default, if unknown.
+std::size_t max_tasks();
 
-/// A job array; its tasks are numbered from 0.
+/// Job array; its tasks are numbered from 0.
 struct Submission {
   std::string name;
   std::filesystem::path script;
   std::filesystem::path logs;  ///< folder: <task>.log
   std::size_t tasks = 1;
-  double time_limit_s = 0.0;         ///< of a task; 0: the partition's
-  std::vector<std::string> options;  ///< the user's, of sbatch; they win over ours
+  double time_limit_s = 0.0;         ///< limit of a task; 0: that of the partition
+  std::vector<std::string> options;  ///< user's options for sbatch; they override ours
 };
 
 struct Submitted {
-  std::string job;        ///< its number; empty where Slurm refused it
-  std::string complaint;  ///< why
+  std::string job;        ///< number of the job; empty if Slurm refused it
+  std::string complaint;  ///< reason of a refusal
 };
-/// @throws WriteError where sbatch does not start
+/// @throws WriteError if sbatch does not start
 Submitted submit(const Submission& submission);
 
 struct Task {
   std::string job;  ///< number of the array
   std::string name;
   std::size_t index = 0;
-  std::string state;   ///< "RUNNING"
-  std::string reason;  ///< why it waits or failed: "Resources", "NonZeroExitCode"; may be empty
+  std::string state;  ///< "RUNNING"
+  std::string
+      reason;  ///< reason of waiting or failure: "Resources", "NonZeroExitCode"; may be empty
 
   bool is_running() const;
-  /// It will not run again.
+  /// Whether it will not run again.
   bool has_ended() const;
 };
 
 struct Queue {
-  std::vector<Task> tasks;  ///< that Slurm remembers: it forgets what ended minutes ago
-  std::string complaint;    ///< why there is no answer; empty: there is
+  std::vector<Task> tasks;  ///< known tasks; Slurm forgets tasks some minutes after their end
+  std::string complaint;    ///< reason of a missing answer; empty if there is an answer
 };
-/// Tasks of the jobs of these names. @throws WriteError where squeue does not start
+/// Tasks of the jobs with these names. @throws WriteError if squeue does not start
 Queue queue_of(const std::vector<std::string>& names);
 
-/// State of a task that the queue has forgotten: "TIMEOUT"; empty where there is no accounting.
+/// State of a task that the queue has forgotten: "TIMEOUT"; empty without accounting.
 std::string state_in_accounting(const std::string& job, std::size_t index);
 
-/// Whether a task that has this state will not run again.
+/// Whether a task in this state will not run again.
 bool is_end(const std::string& state);
 
-/// Ends the tasks of these jobs that wait or run.
+/// Cancels the waiting and running tasks of these jobs.
 void cancel(const std::vector<std::string>& jobs);
 
 }  // namespace vinerow::study::slurm

@@ -17,15 +17,16 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-/// A cell at which so many tasks have failed is not tried again.
-constexpr int kMostFailures = 3;
-/// So many failed tasks before any result: something is wrong with all of them.
-constexpr int kMostBarrenTasks = 3;
-/// Files of another machine may be seen late.
+/// Failed tasks at a cell after which the cell is not tried again. Chosen.
+constexpr int kMaxFailures = 3;
+/// Failed tasks without any result after which the study stops: the fault affects all tasks.
+/// Chosen.
+constexpr int kMaxBarrenTasks = 3;
+/// Time until files written on another machine are visible. Chosen.
 constexpr auto kGrace = 60s;
-/// Cells that come one by one are gathered, so that few jobs are submitted.
+/// Time in which cells are gathered, so that few jobs are submitted. Chosen.
 constexpr auto kGather = 5s;
-/// After Slurm has refused more jobs while others wait.
+/// Time until the next submission after Slurm refused a job while others wait. Chosen.
 constexpr auto kRetrySubmit = 30s;
 
 EndedCell::How how_of(const std::string& state) {
@@ -40,7 +41,7 @@ SlurmRunner::SlurmRunner(const OpenStudy& open, const StudyFolder& folder,
                          const SlurmOptions& options)
     : open_(open), folder_(folder), options_(options), cells_(folder.cells) {
   slurm::demand_commands();
-  most_tasks_ = slurm::most_tasks();
+  max_tasks_ = slurm::max_tasks();
   adopt();
 }
 
@@ -49,7 +50,7 @@ SlurmRunner::~SlurmRunner() {
   try {
     slurm::cancel(live_jobs());
   } catch (const std::exception&) {
-    // scancel does not start: Slurm ends the tasks after their time.
+    // scancel did not start: Slurm ends the tasks at their time limit.
   }
 }
 
@@ -94,7 +95,7 @@ void SlurmRunner::give(std::size_t cell, const std::string&) {
   }
 }
 
-/// The pending cells as tasks. A cell at which a task failed is alone in its next one.
+/// Pending cells as tasks. A cell at which a task failed gets a task of its own.
 std::vector<Chunk> SlurmRunner::take_chunks() {
   constexpr std::size_t kTasks = 200, kLongest = 100;
   const std::size_t length =
@@ -115,8 +116,8 @@ std::vector<Chunk> SlurmRunner::take_chunks() {
 
 void SlurmRunner::submit() {
   const std::vector<Chunk> chunks = take_chunks();
-  for (std::size_t begin = 0; begin < chunks.size(); begin += most_tasks_) {
-    const std::size_t end = std::min(begin + most_tasks_, chunks.size());
+  for (std::size_t begin = 0; begin < chunks.size(); begin += max_tasks_) {
+    const std::size_t end = std::min(begin + max_tasks_, chunks.size());
     const SubmittedJob job = prepare_job(
         open_, folder_, std::vector<Chunk>(&chunks[begin], &chunks[begin] + (end - begin)));
     slurm::Submission submission;
@@ -126,7 +127,7 @@ void SlurmRunner::submit() {
     submission.tasks = job.chunks.size();
     submission.options = options_.sbatch;
     if (open_.study.budget.time_s > 0.0) {
-      // What starting takes comes on top.
+      // Time for starting a task, in addition to its cells.
       constexpr double kStart_s = 300.0;
       std::size_t longest = 0;
       for (const Chunk& chunk : job.chunks) longest = std::max(longest, chunk.size());
@@ -137,14 +138,14 @@ void SlurmRunner::submit() {
       std::error_code ignored;
       fs::remove_all(job.folder, ignored);
       if (live_.empty()) {
-        throw ConfigError(fmt::format("Slurm refuses the job: {}", answer.complaint));
+        throw ConfigError(fmt::format("Slurm refused the job: {}", answer.complaint));
       }
-      // It takes no more for now, e.g. because of a limit of jobs.
+      // Slurm accepts no more for now, e.g. because of a job limit.
       for (std::size_t k = begin; k < chunks.size(); ++k) {
         pending_.insert(pending_.end(), chunks[k].begin(), chunks[k].end());
       }
       next_submit_ = Clock::now() + kRetrySubmit;
-      status_ = fmt::format("Slurm takes no more: {}", answer.complaint);
+      status_ = fmt::format("Slurm accepts no more jobs: {}", answer.complaint);
       return;
     }
     for (std::size_t k = 0; k < job.chunks.size(); ++k) {
@@ -179,7 +180,7 @@ std::vector<EndedCell> SlurmRunner::wait(double longest_s) {
   std::this_thread::sleep_for(std::clamp(next_poll_ - Clock::now(), Clock::duration{}, longest));
   if (Clock::now() < next_poll_) return ended;
   poll(ended);
-  // Often at first, then seldom: a controller has other users.
+  // Poll often at first, then rarely, to keep the load on Slurm's controller low.
   next_poll_ = Clock::now() + std::clamp<Clock::duration>((Clock::now() - started_) / 30, 1s, 15s);
   return ended;
 }
@@ -232,14 +233,14 @@ void SlurmRunner::poll(std::vector<EndedCell>& ended) {
     }
     if (has_ended || (said && said->is_running())) collect(task, ended);
     if (!has_ended) continue;
-    // A task that says it is complete has stored its cells: they are only not seen yet.
+    // A completed task has stored its cells; the files are only not visible yet.
     const bool may_come = task.state == "COMPLETED" || task.state.empty();
     if (!task.cells.empty() && may_come && Clock::now() - task.ended < kGrace) continue;
     if (!task.cells.empty()) give_back(name, task, ended);
     gone.push_back(name);
   }
   for (const TaskName& name : gone) forget(name);
-  status_ = fmt::format("{} tasks run, {} wait{}", running, waiting,
+  status_ = fmt::format("{} tasks running, {} waiting{}", running, waiting,
                         reason.empty() ? "" : fmt::format(" ({})", reason));
   check_patience();
 }
@@ -248,25 +249,25 @@ void SlurmRunner::give_back(const TaskName& name, LiveTask& task, std::vector<En
   const std::string last =
       last_line_of(read_bytes(task.folder / fmt::format("{}.log", name.second)).value_or(""));
   const std::string words = fmt::format(
-      "Slurm's task {}_{} ended {}{}{}{}", task.job, name.second,
+      "Slurm task {}_{} ended {}{}{}{}", task.job, name.second,
       task.state.empty() ? "without a trace" : "as " + task.state,
       task.reason.empty() ? "" : fmt::format(" ({})", task.reason), last.empty() ? "" : ": ", last);
   kept_.insert(task.folder);
   if (task.state == "CANCELLED") {
     ended.push_back({task.cells.front(), EndedCell::How::kNotStored,
-                     words + "; finished cells are kept, 'vinerow study resume' goes on", 0.0});
+                     words + "; finished cells are kept, 'vinerow study resume' continues", 0.0});
     return;
   }
   const EndedCell::How how = how_of(task.state);
   const bool is_of_cell = how != EndedCell::How::kCrashed;
-  if (!any_stored_ && !is_of_cell && ++barren_tasks_ >= kMostBarrenTasks) {
+  if (!any_stored_ && !is_of_cell && ++barren_tasks_ >= kMaxBarrenTasks) {
     ended.push_back(
         {task.cells.front(), EndedCell::How::kNotStored, "no task has a result: " + words, 0.0});
     return;
   }
-  // It stopped at its first cell that is not stored; those after it have not been tried.
+  // The task stopped at its first cell without a result; the cells after it were not tried.
   const std::size_t suspect = task.cells.front();
-  if (++failures_[suspect] >= kMostFailures) {
+  if (++failures_[suspect] >= kMaxFailures) {
     ended.push_back({suspect, how, words, 0.0});
     task.cells.erase(task.cells.begin());
   }
@@ -288,7 +289,7 @@ void SlurmRunner::check_patience() {
   if (options_.patience_s <= 0.0 || silent.count() < options_.patience_s) return;
   throw WriteError(
       fmt::format("no task has run for {:.0f} s ({}); finished cells are kept, 'vinerow study "
-                  "resume' goes on",
+                  "resume' continues",
                   silent.count(), status_));
 }
 

@@ -1,7 +1,6 @@
 #pragma once
-/// Runs cells as job arrays of Slurm: a task runs a chunk of cells, one after the other, and stores
-/// each. Whatever becomes of a task, what it has stored is there; what it has not is submitted
-/// again.
+/// Runner that submits cells as Slurm job arrays. A task runs a chunk of cells, one after the
+/// other, and stores each. Stored cells stay however a task ends; the others are submitted again.
 
 #include <chrono>
 #include <map>
@@ -20,24 +19,25 @@ namespace vinerow::study {
 
 struct SlurmOptions {
   std::vector<std::string> sbatch;  ///< options of sbatch: "--partition=long"
-  std::size_t chunk = 0;            ///< cells of a task; 0: as many that there are 200 tasks
-  double patience_s = 0.0;  ///< without any running task, until the runner gives up; 0: it waits
-  bool detach = false;      ///< leave the tasks alone once they are submitted
+  std::size_t chunk = 0;            ///< cells per task; 0: enough for 200 tasks
+  double patience_s = 0.0;          ///< time without a running task until giving up; 0: wait
+  bool detach = false;              ///< exit once the tasks are submitted
 };
 
 class SlurmRunner final : public CellRunner {
  public:
-  /// Finds the tasks that an earlier driver left running; ends those of another state of the study.
+  /// Adopts tasks that an earlier driver left running; cancels those of another version of the
+  /// study.
   /// @param open  outlives the runner
-  /// @throws ConfigError where there is no Slurm, or it does not answer
+  /// @throws ConfigError if there is no Slurm, or it does not answer
   SlurmRunner(const OpenStudy& open, const StudyFolder& folder, const SlurmOptions& options);
-  /// Ends the tasks, unless they are to go on.
+  /// Cancels the tasks unless detached.
   ~SlurmRunner() override;
 
-  bool has_room() const override { return true; }
+  bool has_free_slot() const override { return true; }
   bool is_busy() const override { return !pending_.empty() || !live_.empty(); }
   void give(std::size_t cell, const std::string& identity) override;
-  /// @throws ConfigError where Slurm refuses the first job; WriteError where patience is at its end
+  /// @throws ConfigError if Slurm refuses the first job; WriteError if the patience is exceeded
   std::vector<EndedCell> wait(double longest_s) override;
   std::string status() const override { return status_; }
   bool is_detached() const override { return options_.detach && submitted_ && pending_.empty(); }
@@ -49,9 +49,9 @@ class SlurmRunner final : public CellRunner {
   struct LiveTask {
     std::string job;  ///< number of the array
     std::filesystem::path folder;
-    Chunk cells;                ///< that were given and have not ended
-    Clock::time_point ended{};  ///< set: when Slurm said so
-    std::string state, reason;  ///< then
+    Chunk cells;                ///< given cells that have not ended
+    Clock::time_point ended{};  ///< time at which Slurm reported its end
+    std::string state, reason;  ///< at its end
   };
 
   void adopt();
@@ -70,13 +70,13 @@ class SlurmRunner final : public CellRunner {
   StudyFolder folder_;
   SlurmOptions options_;
   CellFiles cells_;
-  std::size_t most_tasks_;
+  std::size_t max_tasks_;
   std::vector<std::size_t> pending_;  ///< in order of submission
   std::map<TaskName, LiveTask> live_;
   std::map<std::size_t, TaskName> adopted_;  ///< by cell
-  std::set<std::filesystem::path> kept_;     ///< folders of jobs that failed: their logs tell why
-  std::map<std::size_t, int> failures_;      ///< of tasks, by the cell that they stopped at
-  int barren_tasks_ = 0;                     ///< failed without a result
+  std::set<std::filesystem::path> kept_;     ///< folders of failed jobs, kept for their logs
+  std::map<std::size_t, int> failures_;      ///< failed tasks by the cell at which they stopped
+  int barren_tasks_ = 0;                     ///< tasks that failed without a result
   bool submitted_ = false, any_stored_ = false;
   Clock::time_point started_ = Clock::now(), next_poll_ = started_, next_submit_ = started_,
                     last_sign_ = started_;

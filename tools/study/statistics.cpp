@@ -20,8 +20,8 @@ bool is_share(double confidence) {
   return confidence > 0.0 && confidence < 1.0;
 }
 
-// The level of the normal distribution at which BCa takes its quantile (14.10 of the book):
-// Φ(z0 + (z0 + z) / (1 - a (z0 + z))). Its limit is 0 or 1 where the denominator reaches 0.
+// Level of the normal distribution at which BCa takes its quantile (14.10 of the book):
+// Φ(z0 + (z0 + z) / (1 - a (z0 + z))). Its limit is 0 or 1 if the denominator reaches 0.
 double corrected_level(double z, double bias, double acceleration) {
   const double shifted = bias + z;
   const double denominator = 1.0 - acceleration * shifted;
@@ -35,8 +35,8 @@ Summary summarise(std::span<const double> values) {
   if (values.empty()) return {0, kUndefined, kUndefined, kUndefined, kUndefined};
   const double n = static_cast<double>(values.size());
 
-  // Differences from the first value are small where the values are nearly equal, and exactly 0
-  // where they are equal.
+  // Differences from the first value are small if the values are nearly equal, and exactly 0 if
+  // they are equal.
   const double first = values.front();
   double sum = 0.0;
   for (const double value : values) {
@@ -50,7 +50,7 @@ Summary summarise(std::span<const double> values) {
   }
   if (values.size() < 2) return summary;
 
-  // √(Σ (x - m)² / (n - 1)), with the mean known: Σ x² - n m² would cancel where m is large.
+  // √(Σ (x - m)² / (n - 1)) in a second pass: Σ x² - n m² would cancel if m is large.
   double squares = 0.0;
   for (const double value : values) {
     const double difference = value - summary.mean;
@@ -75,7 +75,7 @@ Interval t_interval(std::span<const double> values, double confidence) {
   const Summary summary = summarise(values);
   if (summary.count < 2) return kEverything;
   const double n = static_cast<double>(summary.count);
-  // The lower quantile and not the upper: near a confidence of 1, 1 - confidence is exact.
+  // The lower quantile, because 1 - confidence is exact for a confidence near 1.
   const double t = -student_quantile(0.5 * (1.0 - confidence), n - 1.0);
   const double half = t * summary.deviation / std::sqrt(n);
   return {summary.mean - half, summary.mean + half};
@@ -89,13 +89,13 @@ Interval bootstrap_interval(std::span<const double> values, double confidence,
   if (summary.least == summary.greatest) return {summary.least, summary.least};
   const double n = static_cast<double>(summary.count);
 
-  // Deviations from the mean, in parts of the largest: their cubes neither overflow nor vanish.
+  // Deviations from the mean, relative to the largest: their cubes neither overflow nor vanish.
   const double scale = std::max(summary.greatest - summary.mean, summary.mean - summary.least);
   std::vector<double> deviations;
   for (const double value : values) deviations.push_back((value - summary.mean) / scale);
 
   // Means of resamples, drawn with replacement, relative to the sample's mean. A draw is below 1,
-  // and n times it rounds to less than n.
+  // so n times it rounds to less than n.
   RandomStream stream(0, "study", "bootstrap");
   std::vector<double> means(resamples);
   for (double& mean : means) {
@@ -139,10 +139,10 @@ Interval wilson_interval(std::int64_t successes, std::int64_t trials, double con
   if (trials == 0) return {0.0, 1.0};
   const double n = static_cast<double>(trials), k = static_cast<double>(successes);
   const double z = normal_quantile(0.5 * (1.0 - confidence)), z2 = z * z;
-  // The roots p of (k/n - p)² = z² p (1 - p) / n.
+  // Roots p of (k/n - p)² = z² p (1 - p) / n.
   const double centre = (k + 0.5 * z2) / (n + z2);
   const double half = std::sqrt(z2 * (k * (n - k) / n + 0.25 * z2)) / (n + z2);
-  // One root is 0 or 1 where none or all succeeded; rounding keeps the 0 and may miss the 1.
+  // One root is 0 or 1 if none or all succeeded; rounding keeps the 0 but may miss the 1.
   return {std::max(0.0, centre - half), successes == trials ? 1.0 : std::min(1.0, centre + half)};
 }
 
@@ -156,7 +156,7 @@ PairedDifference paired_difference(std::span<const double> a, std::span<const do
                           t_interval(differences, confidence), kUndefined};
   if (summary.count < 2) return result;
 
-  // Without any deviation t is infinite, or undefined where the mean is 0 too.
+  // Without deviation t is infinite, or undefined if the mean is 0 too.
   if (summary.mean == 0.0) {
     result.p_value = 1.0;
   } else {

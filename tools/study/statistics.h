@@ -1,11 +1,11 @@
 #pragma once
 /// Statistics of one metric over the seeds of a setting, and of two settings over the same seeds.
 ///
-/// Values are in the metric's unit, and so are means, deviations and intervals.
-/// Which values count is the caller's decision: a metric that was not applicable, infinite or NaN
-/// is left out before. Everywhere here: @pre all values are finite (a value that is not ends the
-/// program, VINEROW_DEMAND), 0 < confidence < 1.
-/// Cost: no hidden state, thread safe; the same input gives the same bits.
+/// Means, deviations and intervals have the metric's unit.
+/// The caller selects the values and leaves out those that are not applicable, infinite or NaN.
+/// For all functions: @pre all values are finite (otherwise VINEROW_DEMAND ends the program),
+/// 0 < confidence < 1.
+/// No hidden state, thread safe; the same input gives the same bits.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,13 +13,13 @@
 
 namespace vinerow::study {
 
-/// From low to high, both included; infinite where nothing is known.
+/// Closed interval; infinite if nothing is known.
 struct Interval {
   double low = 0.0;
   double high = 0.0;
 };
 
-/// What a sample looks like. NaN stands for what its count does not define.
+/// Summary of a sample. NaN marks values that its count does not define.
 struct Summary {
   std::size_t count = 0;
   double mean = 0.0;       ///< NaN without values
@@ -28,14 +28,14 @@ struct Summary {
   double greatest = 0.0;   ///< NaN without values
 };
 
-/// Mean and deviation are computed in two passes; equal values have exactly their mean and a
-/// deviation of exactly 0.
+/// Computes mean and deviation in two passes; equal values give exactly that mean and a deviation
+/// of exactly 0.
 Summary summarise(std::span<const double> values);
 
-/// The value below which a share of the sample lies; between two values it interpolates.
+/// Quantile: the value below which a share of the sample is, interpolated between two values.
 ///
 /// Source: Hyndman, Fan, "Sample quantiles in statistical packages", The American Statistician 50
-/// (1996), definition 7: at place h = (n - 1) share, counted from 0. As numpy and R do.
+/// (1996), definition 7: at index h = (n - 1) share, counted from 0, as in NumPy and R.
 ///
 /// @param sorted  (n) at least one, ascending (both checked)
 /// @param share   in [0, 1]; 0.5 is the median
@@ -45,61 +45,61 @@ double quantile(std::span<const double> sorted, double share);
 /// Student's distribution with n - 1 degrees of freedom.
 ///
 /// Source: Student, "The probable error of a mean", Biometrika 6 (1908). Exact for normal values,
-/// good for others where n is not small or they are not skewed.
+/// good for others if n is not small or they are not skewed.
 ///
 /// @param values  (n)
 /// @returns the interval; (-infinity, infinity) with fewer than 2 values
 Interval t_interval(std::span<const double> values, double confidence);
 
-/// Confidence interval of the mean by the bootstrap, bias-corrected and accelerated (BCa): follows
-/// the skewness of the values, where the t interval is symmetric.
+/// Bootstrap confidence interval of the mean, bias-corrected and accelerated (BCa). It follows the
+/// skewness of the values; the t interval is symmetric.
 ///
 /// Source: Efron, "Better bootstrap confidence intervals", JASA 82 (1987); Efron, Tibshirani, "An
 /// introduction to the bootstrap" (1993), eq. 14.9 to 14.15.
 ///
-/// Resamples are drawn from one fixed random stream: the same each time, and the same choice of
-/// seeds for every metric with as many values.
+/// Resamples are drawn from one fixed random stream: the same each time, and the same selection for
+/// every metric with equally many values.
 ///
-/// The interval never leaves [least, greatest], so it is too short for few values: one of 95 %
-/// covers the mean of 10 normal values in some 91 % of cases, of 5 in 83 %. There the t interval is
-/// better.
+/// The interval never leaves [least, greatest], so it is too short for few values: a 95 % interval
+/// covers the mean of 10 normal values in about 91 % of cases, of 5 in 83 %. For few values the t
+/// interval is better.
 ///
 /// @param values     (n)
 /// @param resamples  at least 1 (checked); 2000 give the ends of a 95 % interval with a standard
-///                   error of some 2 % of its length. Time grows with n * resamples
-/// @returns the interval; (-infinity, infinity) with fewer than 2 values; [v, v] where all values
-///          equal v
+///                   error of about 2 % of its length. Time grows with n * resamples
+/// @returns the interval; (-infinity, infinity) with fewer than 2 values; [v, v] if all values
+/// equal v
 Interval bootstrap_interval(std::span<const double> values, double confidence,
                             std::size_t resamples = 2000);
 
-/// Confidence interval of a probability, from independent trials (runs that succeeded). Always
-/// within [0, 1], and of some width even where all or none succeeded.
+/// Confidence interval of a probability from independent trials (runs that succeeded). It is always
+/// within [0, 1], and has a width even if all or none succeeded.
 ///
 /// Source: Wilson, "Probable inference, the law of succession, and statistical inference", JASA 22
-/// (1927): the p with |p̂ - p| <= z √(p (1 - p) / n), without correction for continuity.
+/// (1927): all p with |p̂ - p| <= z √(p (1 - p) / n), without continuity correction.
 ///
 /// @pre 0 <= successes <= trials (checked)
 /// @returns the interval; [0, 1] without trials
 Interval wilson_interval(std::int64_t successes, std::int64_t trials, double confidence);
 
-/// How much b lies above a, judged by the differences at the same seeds: what a seed does to both
-/// alike cancels.
+/// Difference b - a at the same seeds: effects of a seed on both cancel.
 struct PairedDifference {
   std::size_t count = 0;   ///< pairs
-  double mean = 0.0;       ///< of b - a; NaN without pairs
-  double deviation = 0.0;  ///< of b - a, divisor count - 1; NaN below 2 pairs
+  double mean = 0.0;       ///< mean of b - a; NaN without pairs
+  double deviation = 0.0;  ///< deviation of b - a, divisor count - 1; NaN below 2 pairs
   Interval interval;       ///< t interval of the mean difference; infinite below 2 pairs
   double p_value = 1.0;    ///< two-sided, of the hypothesis that the mean difference is 0; NaN
                            ///< below 2 pairs
 };
 
-/// Student's paired test: t = mean / (deviation / √n), n - 1 degrees of freedom. Differences that
-/// are all equal have the p value 0, or 1 where they are 0.
+/// Student's paired test: t = mean / (deviation / √n), n - 1 degrees of freedom. If all differences
+/// are equal the p value is 0, or 1 if they are 0.
 ///
-/// The p value is of this one comparison: of twenty that show nothing, one is expected below 0.05.
+/// The p value is for a single comparison: of twenty without any effect, one is expected below
+/// 0.05.
 ///
-/// @param a,b  (n) each, the same seed at the same place
-/// @pre as many in a as in b (checked)
+/// @param a,b  (n) each, the same seed at the same index
+/// @pre a and b have equal sizes (checked)
 PairedDifference paired_difference(std::span<const double> a, std::span<const double> b,
                                    double confidence);
 

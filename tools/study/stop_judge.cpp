@@ -22,7 +22,7 @@ bool StopJudge::is_narrow(std::size_t setting, std::size_t seeds) {
     const double value = numbers_->value(results_.design().cell_of(setting, k), rule.metric);
     if (std::isfinite(value)) values.push_back(value);
   }
-  // Values that are missing make the interval of the others no better.
+  // Missing values do not narrow the interval of the others.
   if (values.size() < static_cast<std::size_t>(rule.at_least)) return false;
   const Interval interval = t_interval(values, rule.confidence);
   const double half_width = 0.5 * (interval.high - interval.low);

@@ -1,5 +1,5 @@
 #pragma once
-/// How many seeds a setting needs.
+/// Stop rule of a study: the number of seeds that a setting needs.
 
 #include <cstddef>
 #include <optional>
@@ -11,16 +11,16 @@
 
 namespace vinerow::study {
 
-/// The rule of `stop`. What it says of a setting depends on the results of its first seeds alone,
-/// and so neither on the number of workers nor on the order in which cells finish.
+/// Judge for the key `stop`. Its result for a setting depends only on the results of the first
+/// seeds, and so neither on the number of workers nor on the order in which cells finish.
 class StopJudge {
  public:
   /// @param results  outlives the judge
   explicit StopJudge(const Results& results);
 
-  /// How many of a setting's seeds are wanted: the fewest, at least `at_least`, over which the
-  /// interval is narrow enough; while some of these are not finished, so many as are known to be
-  /// wanted. All of them without a rule.
+  /// Number of seeds that a setting needs: the smallest number, at least `at_least`, for which the
+  /// interval is narrow enough. While some of these are not finished, the number known to be needed
+  /// so far. Without a rule, all.
   std::size_t wanted(std::size_t setting);
 
  private:
@@ -28,7 +28,7 @@ class StopJudge {
 
   const Results& results_;
   std::vector<std::size_t> wanted_;  ///< by setting; only grows
-  std::optional<Numbers> numbers_;   ///< where there is a rule
+  std::optional<Numbers> numbers_;   ///< set if there is a rule
 };
 
 }  // namespace vinerow::study

@@ -27,7 +27,7 @@ std::optional<CellResult> CellFiles::find(const std::string& identity) const {
 void CellFiles::put(const std::string& identity, const CellResult& result) const {
   const fs::path file = file_of(identity);
   io::make_folder_of(file);
-  // Others may write the same cell at this moment: each under a name of its own, whoever comes last
+  // Other processes may write the same cell now: each uses its own temporary name, and the last one
   // replaces an equal file.
   const fs::path mine = fmt::format("{}.{}.{}", file.string(), host_name(), getpid());
   write_whole_file(mine, cell_json(result));
@@ -44,7 +44,7 @@ void CellFiles::remove(const std::string& identity) const {
 Index::Index(const fs::path& file, const Design& design, const Identity& identity, Access access)
     : file_(file) {
   std::error_code error;
-  if (access == Access::kAnew) {
+  if (access == Access::kRestart) {
     for (const char* tail : {"", "-journal"}) fs::remove(file.string() + tail, error);
   }
   const bool is_there = fs::exists(file, error);
@@ -52,7 +52,8 @@ Index::Index(const fs::path& file, const Design& design, const Identity& identit
                                                : is_there              ? Database::Mode::kWrite
                                                                        : Database::Mode::kCreate);
   if (access != Access::kRead) {
-    // A power cut may cost the index, which the cells make anew; a killed process costs nothing.
+    // A power cut may destroy the index, which can be rebuilt from the cells; a killed process does
+    // not.
     database_->run("PRAGMA synchronous = OFF");
   }
   if (is_there) {
@@ -116,10 +117,10 @@ std::string Index::meta(const std::string& key) {
 void Index::check(const Design& design, const Identity& identity) {
   const std::string file = file_.string();
   const std::string name = meta("name");
-  if (name.empty()) throw ConfigError(fmt::format("'{}' is no index of a study", file));
+  if (name.empty()) throw ConfigError(fmt::format("'{}' is not the index of a study", file));
   if (name != design.study().name) {
     throw ConfigError(
-        fmt::format("'{}' is of another study, '{}'; give another --out", file, name));
+        fmt::format("'{}' belongs to another study, '{}'; give another --out", file, name));
   }
   const char* changed = meta("scenario") != identity.scenario() ? "the scenario or a file it names"
                         : meta("design") != identity.design()   ? "the study's list of cells"
@@ -127,8 +128,8 @@ void Index::check(const Design& design, const Identity& identity) {
                                                                 : nullptr;
   if (!changed) return;
   throw ConfigError(
-      fmt::format("'{}': {} has changed since; 'vinerow study run --fresh' begins anew and takes "
-                  "over the cells that the change does not touch",
+      fmt::format("'{}': {} has changed since; 'vinerow study run --fresh' starts a new index and "
+                  "reuses the cells that the change does not affect",
                   file, changed));
 }
 
@@ -175,7 +176,7 @@ void Index::demand_columns(const CellResult& result) {
   }
 }
 
-/// Preparing one takes longer than running it.
+/// Prepared statement, cached: preparing takes longer than running.
 Statement& Index::statement(const std::string& sql) {
   std::unique_ptr<Statement>& known = statements_[sql];
   if (!known) known = std::make_unique<Statement>(*database_, sql);

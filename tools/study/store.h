@@ -1,9 +1,9 @@
 #pragma once
-/// A study's folder: the finished cells, a file each, and the index study.sqlite.
+/// Storage of a study: one file per finished cell, and the index study.sqlite.
 ///
-/// The cells are the truth: `cells/ab/abcd....json`, named after the cell's identity and written by
-/// rename, so that a cell that ran twice is harmless and any number of machines may write side by
-/// side. The index belongs to one driver at a time and can be made anew from the cells.
+/// The cell files are authoritative: `cells/ab/abcd....json`, named after the cell's identity and
+/// written by rename, so that a cell may run twice and any number of machines may write at the same
+/// time. The index belongs to one driver at a time and can be rebuilt from the cells.
 
 #include <filesystem>
 #include <memory>
@@ -16,12 +16,12 @@
 
 namespace vinerow::study {
 
-/// The finished cells of one or several studies.
+/// Finished cells of one or several studies.
 class CellFiles {
  public:
   explicit CellFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
   std::filesystem::path file_of(const std::string& identity) const;
-  /// @throws ConfigError where the file is damaged
+  /// @throws ConfigError if the file is damaged
   std::optional<CellResult> find(const std::string& identity) const;
   /// @throws WriteError, ConfigError
   void put(const std::string& identity, const CellResult& result) const;
@@ -31,24 +31,25 @@ class CellFiles {
   std::filesystem::path folder_;
 };
 
-/// The index of a study: tables `study` (what it is of), `cells` (factors, seed, state, reason),
-/// `numbers` (a column for each) and `costs` (times and memory, which differ from run to run).
+/// Index of a study: tables `study` (identity), `cells` (factors, seed, state, reason), `numbers`
+/// (a column per number) and `costs` (times and memory, which differ from run to run).
 class Index {
  public:
   enum class Access {
-    kRead,   ///< must be there
-    kWrite,  ///< is made, with all cells waiting, where it is not there
-    kAnew    ///< is made whether it is there or not
+    kRead,    ///< must exist
+    kWrite,   ///< is created, with all cells waiting, if it does not exist
+    kRestart  ///< is created in any case
   };
-  /// @throws ConfigError where the index is of another study, scenario or list of cells, or cannot
+  /// @throws ConfigError if the index belongs to another study, scenario or list of cells, or
+  /// cannot
   ///   be read
   Index(const std::filesystem::path& file, const Design& design, const Identity& identity,
         Access access);
 
-  /// Puts the cells that are not waiting into `results`.
+  /// Loads all cells except waiting ones into `results`.
   void load(Results& results);
   void put(std::size_t cell, const CellResult& result);
-  /// Ends the transaction that put() began. @throws WriteError
+  /// Ends the transaction that put() started. @throws WriteError
   void commit();
 
  private:
@@ -61,9 +62,9 @@ class Index {
 
   std::filesystem::path file_;
   std::unique_ptr<Database> database_;
-  std::map<std::string, std::unique_ptr<Statement>> statements_;  ///< prepared, by their text
+  std::map<std::string, std::unique_ptr<Statement>> statements_;  ///< prepared statements by text
   bool in_transaction_ = false;
-  std::map<std::string, int> columns_;  ///< of `numbers`, from 0 after the cell
+  std::map<std::string, int> columns_;  ///< columns of `numbers`, from 0 after the cell
 };
 
 }  // namespace vinerow::study

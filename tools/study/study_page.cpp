@@ -26,14 +26,14 @@ using tools::report::number_text;
 using tools::report::section;
 using tools::report::table;
 
-constexpr std::size_t kMostDrawn = 8;
+constexpr std::size_t kMaxDrawn = 8;
 
-/// The command that repeats a cell, up to the cell's number; as a shell takes it.
+/// Shell command that repeats a cell, without the cell's number.
 std::string repeat_command(const OpenStudy& open) {
   return "vinerow study repeat " + shell_quoted(open.study.file.string());
 }
 
-/// What happened to all cells, what failed first.
+/// Outcome of all cells, with the first reason of each kind of failure.
 std::string outcome(const OpenStudy& open, const Results& results) {
   const std::map<CellState, std::size_t> counts = results.counts();
   std::size_t failed = 0;
@@ -58,11 +58,11 @@ std::string outcome(const OpenStudy& open, const Results& results) {
                                   counted(static_cast<long>(open.design.seeds()), "seed"));
   if (failed > 0) {
     words += fmt::format(
-        " <strong>{} did not come to their end and count in no number "
+        " <strong>{} did not run to the end and are in no number "
         "below.</strong>",
         counted(static_cast<long>(failed), "run"));
   }
-  return words + "</p>\n" + table({"state", "runs", "reason of the first"}, rows);
+  return words + "</p>\n" + table({"state", "runs", "first reason"}, rows);
 }
 
 std::string interval_cell(const SettingNumber& number) {
@@ -76,7 +76,7 @@ std::string interval_cell(const SettingNumber& number) {
 
 std::string settings_table(const OpenStudy& open, const Results& results,
                            const std::vector<std::string>& names) {
-  constexpr std::size_t kMostRows = 200;
+  constexpr std::size_t kMaxRows = 200;
   std::vector<std::string> heads = {"setting"};
   for (const std::string& column : open.design.columns()) heads.push_back(escaped(column));
   heads.insert(heads.end(), {"runs", "met"});
@@ -86,7 +86,7 @@ std::string settings_table(const OpenStudy& open, const Results& results,
     numbers.push_back(setting_numbers(results, name));
   }
   std::vector<std::vector<std::string>> rows;
-  for (std::size_t setting = 0; setting < std::min(kMostRows, open.design.settings()); ++setting) {
+  for (std::size_t setting = 0; setting < std::min(kMaxRows, open.design.settings()); ++setting) {
     std::vector<std::string> row = {fmt::format("<td><span data-cell=\"{}\">{}</span></td>",
                                                 open.design.cell_of(setting, 0), setting)};
     for (const std::string& text : open.design.texts(setting)) row.push_back(escaped(text));
@@ -96,7 +96,7 @@ std::string settings_table(const OpenStudy& open, const Results& results,
     for (const auto& number : numbers) row.push_back(interval_cell(number[setting]));
     rows.push_back(std::move(row));
   }
-  std::string words = "<p>Mean over the seeds ± half of its 95 % interval. ";
+  std::string words = "<p>Mean over the seeds ± half the width of its 95 % interval. ";
   if (rows.size() < open.design.settings()) {
     words += fmt::format("The first {} of {}. ", rows.size(), open.design.settings());
   }
@@ -104,15 +104,15 @@ std::string settings_table(const OpenStudy& open, const Results& results,
          table(heads, rows);
 }
 
-/// Which factors move a number, by the share of the variance between settings.
+/// Table of the factors' influence on each number: shares of the variance between settings.
 std::string effects_table(const Results& results, const std::vector<std::string>& names) {
   const scenario::Study& study = results.design().study();
-  constexpr std::size_t kMostLevels = 60;
+  constexpr std::size_t kMaxLevels = 60;
   std::vector<int> level_counts;
   std::vector<std::size_t> used;
   for (std::size_t k = 0; k < study.factors.size(); ++k) {
     const std::size_t count = study.factors[k].levels.size();
-    if (count < 2 || count > kMostLevels) continue;
+    if (count < 2 || count > kMaxLevels) continue;
     used.push_back(k);
     level_counts.push_back(static_cast<int>(count));
   }
@@ -151,29 +151,29 @@ std::string effects_table(const Results& results, const std::vector<std::string>
   }
   if (rows.empty()) return "";
   std::string words =
-      "<p>Share of the variance between the settings' means that a factor explains by itself, and "
-      "that two factors explain together beyond that (η²; Montgomery, Design and Analysis of "
+      "<p>Share of the variance between the means of the settings that a factor explains alone, "
+      "and that two factors explain in addition as a pair (η²; Montgomery, Design and Analysis of "
       "Experiments, section 5.3).";
   if (!full) {
     words +=
-        " Settings are missing, so that factors hang together and shares may add up to more "
+        " Settings are missing, so the factors are correlated and the shares may add up to more "
         "than 100 %.";
   }
   return words + "</p>\n" + table(heads, rows);
 }
 
-/// Each level of a factor against its first, everything else and the seed being equal.
+/// Table that compares each level of a factor with its first, at equal other factors and seed.
 std::string differences_table(const Results& results, const std::vector<std::string>& names) {
   const Design& design = results.design();
   const scenario::Study& study = design.study();
-  constexpr std::size_t kMostLevels = 12;
+  constexpr std::size_t kMaxLevels = 12;
   Numbers numbers(results);
   std::vector<std::vector<std::string>> rows;
   std::size_t stride = design.settings();
   for (const scenario::Factor& factor : study.factors) {
     const std::size_t count = factor.levels.size();
-    stride /= count;  // between settings that differ in this factor alone
-    if (count < 2 || count > kMostLevels) continue;
+    stride /= count;  // between settings that differ only in this factor
+    if (count < 2 || count > kMaxLevels) continue;
     for (std::size_t level = 1; level < count; ++level) {
       for (const std::string& name : names) {
         std::vector<double> first, other;
@@ -204,8 +204,8 @@ std::string differences_table(const Results& results, const std::vector<std::str
     }
   }
   if (rows.empty()) return "";
-  return "<p>Each level against the first one, run by run: the other factors and the seed are the "
-         "same in both. The interval is that of Student's t (95 %); with many rows some are far "
+  return "<p>Each level minus the first level, run by run at equal other factors and seed. "
+         "The interval is that of Student's t (95 %); with many rows some are far "
          "from 0 by chance.</p>\n" +
          table({"factor", "level", "minus", "number", "mean difference", "95 % interval", "p",
                 "pairs"},
@@ -228,7 +228,7 @@ std::vector<std::string> drawn_numbers(const OpenStudy& open, const Results& res
   }
   if (names.empty()) names = results.names();
   for (const scenario::DerivedColumn& column : open.study.derived) names.push_back(column.name);
-  if (names.size() > kMostDrawn) names.resize(kMostDrawn);
+  if (names.size() > kMaxDrawn) names.resize(kMaxDrawn);
   return names;
 }
 
@@ -250,7 +250,7 @@ std::string study_page(const OpenStudy& open, const Results& results) {
   }
   page += section("outcome", "Runs", outcome(open, results));
   page += section("plots", "Plots", plots);
-  page += section("effects", "What moves what", effects_table(results, names));
+  page += section("effects", "Effects", effects_table(results, names));
   page += section("differences", "Differences", differences_table(results, names));
   page += section("settings", "Settings", settings_table(open, results, names));
   return page + "</main>\n<script>//<![CDATA[\n" + click_script() +

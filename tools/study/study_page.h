@@ -1,6 +1,6 @@
 #pragma once
-/// The page of a study: what failed, plots, effects, a table of settings. It stands alone, and a
-/// click on a part of a plot shows the command that repeats its run.
+/// Report page of a study: outcome, plots, effects, a table of settings. It is self-contained, and
+/// a click on a mark in a plot shows the command that repeats its run.
 
 #include <string>
 #include <vector>
@@ -10,11 +10,11 @@
 
 namespace vinerow::study {
 
-/// Numbers that are drawn: those that the study lists, else those that the scenario's criteria are
-/// on, then derived columns; at most eight.
+/// Numbers to draw: those that the study lists, otherwise those with a criterion in the scenario,
+/// then derived columns; at most eight.
 std::vector<std::string> drawn_numbers(const OpenStudy& open, const Results& results);
 
-/// HTML that is XML, too.
+/// The page as HTML that is well-formed XML too.
 std::string study_page(const OpenStudy& open, const Results& results);
 
 }  // namespace vinerow::study

@@ -31,7 +31,7 @@ std::vector<Chunk> chunks_in(const std::string& text) {
   return chunks;
 }
 
-/// Names on a cluster are shared: the folder's place tells studies apart.
+/// Unique name of a study's jobs on a shared cluster, made from the path of its folder.
 std::string name_of(const fs::path& folder) {
   Hasher hasher;
   hasher.add(folder.parent_path().string());
@@ -54,7 +54,7 @@ std::string script_of(const OpenStudy& open, const StudyFolder& folder, const Su
   };
   return fmt::format(
       "#!/bin/sh\n"
-      "# Cells of a study: task k of the array runs those of line k of 'chunks', from 0.\n"
+      "# Cells of a study: task k of the array runs the cells in line k of 'chunks', from 0.\n"
       "exec {} study cell {} --out {} --cells {} \\\n"
       "  --chunks {} --task \"$SLURM_ARRAY_TASK_ID\" --expect {} --jobs "
       "\"${{SLURM_CPUS_PER_TASK:-1}}\"\n",

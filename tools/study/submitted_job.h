@@ -1,10 +1,10 @@
 #pragma once
-/// What a study has submitted to a cluster, on the disk: so that the tasks know their cells, and a
-/// driver that comes back finds the tasks that its forerunner left running.
+/// Files of jobs that a study has submitted to a cluster. Tasks read their cells from them, and a
+/// restarted driver finds the tasks that the previous one left running.
 ///
-///   <out>/slurm/<number>/chunks  cells of each task, a line a task
-///                        study   digest of the study that they are of
-///                        job.sh  what a task runs
+///   <out>/slurm/<number>/chunks  cells of each task, one line per task
+///                        study   digest of the study
+///                        job.sh  script of a task
 ///                        <task>.log
 
 #include <filesystem>
@@ -16,25 +16,25 @@
 
 namespace vinerow::study {
 
-using Chunk = std::vector<std::size_t>;  ///< the cells of one task
+using Chunk = std::vector<std::size_t>;  ///< cells of one task
 
 struct SubmittedJob {
   std::filesystem::path folder;
-  std::string name;    ///< in Slurm; no other study on the cluster has it
-  std::string digest;  ///< of the study, Identity::whole()
+  std::string name;    ///< name in Slurm, unique on the cluster
+  std::string digest;  ///< digest of the study, Identity::whole()
   std::vector<Chunk> chunks;
 
   std::filesystem::path script() const { return folder / "job.sh"; }
 };
 
-/// Those of a study's folder, by number. What cannot be read is left out.
+/// Jobs in a study's folder, by number. Unreadable ones are left out.
 std::vector<SubmittedJob> submitted_jobs(const StudyFolder& folder);
 
-/// Writes the files of a further one. @throws WriteError, ConfigError
+/// Writes the files of a new job. @throws WriteError, ConfigError
 SubmittedJob prepare_job(const OpenStudy& open, const StudyFolder& folder,
                          std::vector<Chunk> chunks);
 
-/// Cells of one task. @throws ConfigError where the file has no such line
+/// Cells of one task. @throws ConfigError if the file has no such line
 Chunk read_chunk(const std::filesystem::path& chunks, std::size_t task);
 
 }  // namespace vinerow::study

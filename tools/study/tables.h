@@ -1,5 +1,5 @@
 #pragma once
-/// The tables of a study as comma-separated files, the same bytes wherever it was run.
+/// Tables of a study as comma-separated files, with the same bytes wherever it ran.
 
 #include <filesystem>
 #include <string>
@@ -9,19 +9,19 @@
 
 namespace vinerow::study {
 
-/// Names of the numbers that the study keeps: those it lists, else all; then derived columns.
+/// Names of the numbers that the study keeps: those it lists, otherwise all; then derived columns.
 std::vector<std::string> kept_numbers(const Results& results);
 
-/// A row for each cell, in the order of cells: cell, setting, seed, factors, state, reason, digest
-/// of the run, numbers.
+/// One row per cell, in order: cell, setting, seed, factors, state, reason, digest of the run,
+/// numbers.
 std::string cells_csv(const Results& results);
 
-/// A row for each setting: factors, how many of its cells are finished, met and failed, share that
-/// met with its Wilson interval, and of each number count, mean, deviation, median and the t
-/// interval of the mean, all at 95 %.
+/// One row per setting: factors, numbers of finished, met and failed cells, share that met with its
+/// Wilson interval, and for each number its count, mean, deviation, median and the t interval of
+/// the mean. Intervals are at 95 %.
 std::string settings_csv(const Results& results);
 
-/// A row for each finished cell: times, memory, machine. Differs from run to run.
+/// One row per finished cell: times, memory, machine. Differs from run to run.
 std::string costs_csv(const Results& results);
 
 }  // namespace vinerow::study

@@ -31,7 +31,7 @@ double resident_MB(pid_t process) {
   return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
-/// All that a process wrote to its error stream.
+/// Complete output of a process on its error stream.
 std::string text_of(std::FILE* errors) {
   std::string text;
   std::rewind(errors);
@@ -50,7 +50,7 @@ struct WorkerPool::Worker {
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> errors{nullptr, &std::fclose};
   std::optional<std::size_t> cell;
   Clock::time_point since;
-  std::string answer;  ///< what of a line has been read
+  std::string answer;  ///< part of a line read so far
 };
 
 WorkerPool::WorkerPool(std::vector<std::string> command, int count,
@@ -58,7 +58,7 @@ WorkerPool::WorkerPool(std::vector<std::string> command, int count,
     : command_(std::move(command)), budget_(budget) {
   VINEROW_DEMAND(count >= 1);
   for (int k = 0; k < count; ++k) workers_.push_back(std::make_unique<Worker>());
-  // A worker that is gone is noticed when it is read from.
+  // A dead worker is noticed on reading from it.
   std::signal(SIGPIPE, SIG_IGN);
 }
 
@@ -66,7 +66,7 @@ WorkerPool::~WorkerPool() {
   for (const auto& worker : workers_) stop(*worker);
 }
 
-bool WorkerPool::has_room() const {
+bool WorkerPool::has_free_slot() const {
   return std::any_of(workers_.begin(), workers_.end(), [](const auto& w) { return !w->cell; });
 }
 
@@ -86,7 +86,7 @@ void WorkerPool::start(Worker& worker) {
   const pid_t child = fork();
   if (child < 0) throw WriteError(fmt::format("no worker can be started: {}", strerror(errno)));
   if (child == 0) {
-    // Ctrl-C is the driver's business; a driver that is killed takes its workers along.
+    // The driver handles Ctrl-C; the workers end if the driver is killed.
     std::signal(SIGINT, SIG_IGN);
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(127);
@@ -124,7 +124,7 @@ void WorkerPool::give(std::size_t cell, const std::string& identity) {
   worker.cell = cell;
   worker.since = Clock::now();
   const std::string line = fmt::format("{} {}\n", cell, identity);
-  // Shorter than a pipe holds; where the worker is gone wait() finds out.
+  // The line fits into the pipe; if the worker is dead, wait() notices.
   static_cast<void>(!write(worker.to, line.data(), line.size()));
 }
 
@@ -190,7 +190,7 @@ std::vector<EndedCell> WorkerPool::wait(double longest_s) {
   }
   std::vector<EndedCell> ended;
   if (busy.empty()) return ended;
-  // A budget is looked after ten times a second.
+  // The budget is checked ten times per second.
   const bool is_limited = budget_.time_s > 0.0 || budget_.memory_MB > 0.0;
   const int longest_ms =
       static_cast<int>(1e3 * (is_limited ? std::min(longest_s, 0.1) : longest_s));

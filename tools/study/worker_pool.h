@@ -1,6 +1,6 @@
 #pragma once
-/// Processes that run cells, one at a time each. A cell that crashes, takes too long or too much
-/// memory ends its process and nothing else; the next cell gets a new one.
+/// Pool of processes that each run one cell at a time. A cell that crashes or exceeds its time or
+/// memory budget ends only its process; the next cell gets a new one.
 
 #include <sys/types.h>
 
@@ -17,16 +17,16 @@ namespace vinerow::study {
 
 class WorkerPool final : public CellRunner {
  public:
-  /// @param command  of a worker: `vinerow study cell FILE --serve ...` @param count  >= 1
+  /// @param command  command of a worker: `vinerow study cell FILE --serve ...` @param count  >= 1
   WorkerPool(std::vector<std::string> command, int count, const scenario::CellBudget& budget);
   /// Ends all workers at once.
   ~WorkerPool() override;
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 
-  bool has_room() const override;
+  bool has_free_slot() const override;
   bool is_busy() const override;
-  /// Starts a worker where none has been started.
+  /// Starts a worker if necessary.
   void give(std::size_t cell, const std::string& identity) override;
   std::vector<EndedCell> wait(double longest_s) override;
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Colours of words on a terminal.
+/// Coloured text on a terminal.
 
 #include <string>
 #include <string_view>
@@ -9,11 +9,11 @@ namespace vinerow::tools {
 enum class Colour { kPlain, kGood, kBad, kHeading };
 enum class ColourMode { kAuto, kAlways, kNever };
 
-/// Of everything that is printed from now on. Auto: where standard output is a terminal, unless the
+/// Sets the mode for all later output. Auto: colours if standard output is a terminal, unless the
 /// variable NO_COLOR is set (no-color.org) or TERM is "dumb".
 void set_colour_mode(ColourMode mode);
 
-/// The text, in colour where that is wanted.
+/// The text, in colour if the mode requires it.
 std::string coloured(std::string_view text, Colour colour);
 
 }  // namespace vinerow::tools

@@ -1,12 +1,12 @@
 #pragma once
-/// Ctrl-C ends a command's work so that what it has is stored; a second one ends the program at
-/// once.
+/// Handling of Ctrl-C: the first ends a command's work and keeps its results, the second ends the
+/// program at once.
 
 namespace vinerow::tools {
 
-/// From now on Ctrl-C is noted.
+/// Starts watching for Ctrl-C.
 void watch_for_interrupt();
-/// Whether it was pressed since.
+/// Whether Ctrl-C was pressed since then.
 bool is_interrupted();
 
 }  // namespace vinerow::tools

@@ -21,7 +21,7 @@ void ProgressLine::show(std::string_view stage, double share, const std::string&
   if (terminal_) {
     constexpr int kWidth = 30;
     const int filled = static_cast<int>(share * kWidth);
-    // To the line's end nothing remains of a longer text before.
+    // Clear to the end of the line: the previous text may have been longer.
     fmt::print(stderr, "\r[{:=<{}}{: <{}}] {} {}\x1b[K", "", filled, "", kWidth - filled, stage,
                detail);
     std::fflush(stderr);

@@ -1,5 +1,5 @@
 #pragma once
-/// How far a command is: on a terminal a bar that redraws itself, elsewhere a line each 10 %.
+/// Progress display: a redrawn bar on a terminal, otherwise one line per 10 %.
 
 #include <string>
 #include <string_view>
@@ -9,17 +9,17 @@ namespace vinerow::tools {
 class ProgressLine {
  public:
   explicit ProgressLine(bool quiet);
-  /// Ends a bar that stands.
+  /// Ends an open bar.
   ~ProgressLine() { end(); }
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  /// @param stage  "simulating"; another one than before begins a bar of its own
-  /// @param share  done of it, 0 to 1  @param detail  "12.5 s, 40 x real time"
+  /// @param stage  "simulating"; a new stage starts a new bar
+  /// @param share  finished share of the stage, 0 to 1  @param detail  "12.5 s, 40 x real time"
   void show(std::string_view stage, double share, const std::string& detail);
-  /// Counted things: "pictures 3 of 20".
+  /// Shows a count: "drawing pictures 3 of 20".
   void count(std::string_view stage, int done, int total);
-  /// Ends the bar, so that something else can be printed below it.
+  /// Ends the bar, so that other text can be printed below it.
   void end();
 
  private:

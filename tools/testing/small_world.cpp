@@ -12,7 +12,7 @@
 namespace vinerow::testing {
 namespace {
 
-/// "a", "b: c" -> "a, b: c"; either may be empty.
+/// Joins two lists of keys: "a", "b: c" -> "a, b: c"; either may be empty.
 std::string joined(const std::string& first, const std::string& second) {
   return first + (first.empty() || second.empty() ? "" : ", ") + second;
 }
@@ -36,7 +36,7 @@ struct SmallWorld::Impl {
   std::vector<VehicleText> vehicles;
   std::string phases;
   std::vector<std::filesystem::path> plugins;
-  /// Parts that come as spec and factory, in the order of the calls.
+  /// Functions that register the parts given as spec and factory, in the order of the calls.
   std::vector<std::function<void(Registry&)>> parts;
   std::uint64_t seed = 1;
   double physics_step_s = 0.001;
@@ -52,7 +52,7 @@ struct SmallWorld::Impl {
                                   name, known.empty() ? "none" : join(known)));
   }
 
-  /// Keeps a part of the test's own for the registry. @param add  e.g. &Registry::add_sensor
+  /// Stores a custom part for the registry. @param add  e.g. &Registry::add_sensor
   /// @returns its type
   template <class Factory>
   std::string keep(void (Registry::*add)(PartSpec, Factory), PartSpec spec, Factory make) {

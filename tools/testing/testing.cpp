@@ -42,7 +42,7 @@ std::string TestRun::digest() const {
 }
 
 std::map<std::string, double> TestRun::metrics(const std::string& vehicle) const {
-  static_cast<void>(truth(vehicle));  // says which vehicles there are
+  static_cast<void>(truth(vehicle));  // throws for an unknown vehicle, with the known names
   return session_.metrics().at(vehicle);
 }
 

@@ -33,16 +33,17 @@ void check_cloud_arguments(const CloudArguments& arguments,
                            const mapping::PhotogrammetryJobParams& params) {
   const bool uniform = arguments.uniform_per_m2.has_value();
   if (arguments.scenario.file.empty() && arguments.log.empty()) {
-    throw ConfigError("cloud: give a scenario, or a flown survey by --log");
+    throw ConfigError("cloud: give a scenario, or a flown survey with --log");
   }
   if (uniform && (!arguments.log.empty() || params.options.density_per_m2 ||
                   !params.options.missing_rows.empty())) {
     throw ConfigError(
-        "cloud: --uniform takes no pictures: leave out --log, --density and --missing-rows");
+        "cloud: --uniform uses no pictures, so --log, --density and --missing-rows are not "
+        "allowed");
   }
   if (!uniform && (arguments.noise_m || arguments.weeds_m || arguments.outliers)) {
     throw ConfigError(
-        "cloud: --noise, --weeds and --outliers belong to --uniform; pictures have --match-noise");
+        "cloud: --noise, --weeds and --outliers need --uniform; for pictures use --match-noise");
   }
   const std::string extension = arguments.out.extension().string();
   if (extension != ".las" && extension != ".ply" && extension != ".xyz" && extension != ".txt") {
@@ -71,21 +72,22 @@ void print_cloud(const mapping::WrittenCloud& written, double wall_s, const std:
   };
   fmt::print("points         {} ({:.1f} % ground, {:.1f} % canopy) on {:.3f} ha\n", s.points,
              share(s.ground_points), share(s.canopy_points), 1e-4 * s.area_m2);
-  fmt::print("density        {:.0f} per m2, {:.0f} wanted\n", s.density_per_m2,
+  fmt::print("density        {:.0f} per m2, {:.0f} requested\n", s.density_per_m2,
              s.wanted_density_per_m2);
   if (s.pictures > 0) {
     fmt::print("pictures       {}, GSD {:.1f} mm ({})\n", s.pictures, 1e3 * s.gsd_m, source);
     fmt::print(
-        "views          {:.2f} of a point in the mean; {} of {} pixels left out: {} seen too "
-        "seldom, {} from too close together\n",
+        "views          {:.2f} per point on average; {} of {} pixels rejected: {} with too few "
+        "views, {} with too short a baseline\n",
         s.views_mean, tally.unseen + tally.thin, tally.aims, tally.unseen, tally.thin);
   }
   fmt::print("noise          {:.1f} mm horizontally, {:.1f} mm in height (rms)\n",
              1e3 * s.horizontal_noise_rms_m, 1e3 * s.height_noise_rms_m);
   if (s.georeference != "none") {
     fmt::print(
-        "georeference   {}: {:.1f} mm east, {:.1f} mm north, {:.1f} mm up in the middle, turned by "
-        "{:.4f} deg, tilted by {:.4f} deg\n",
+        "georeference   {}: shifted by {:.1f} mm east, {:.1f} mm north, {:.1f} mm up in the "
+        "middle, "
+        "turned by {:.4f} deg, tilted by {:.4f} deg\n",
         s.georeference, 1e3 * s.georeference_east_m, 1e3 * s.georeference_north_m,
         1e3 * s.georeference_up_m, s.georeference_turn_deg, s.georeference_tilt_deg);
   }
@@ -144,19 +146,19 @@ void add_cloud_command(CLI::App& app, int& exit_status) {
   auto arguments = std::make_shared<CloudArguments>();
   CLI::App* command = app.add_subcommand(
       "cloud",
-      "sample a scenario's world as a point cloud, as photogrammetry of a survey sees it, with the "
-      "truth beside it");
+      "sample a scenario's world as the point cloud that photogrammetry of a survey yields; also "
+      "write the truth");
   add_scenario_arguments(*command, arguments->scenario, "world.canopy_top_m=1.7");
   command->get_option("scenario")
       ->required(false)
-      ->description("scenario file (YAML); default: that of the log");
-  command->add_option("--out", arguments->out, "cloud to write: .las, .ply, .xyz or .txt")
+      ->description("scenario file (YAML); default: the log's scenario");
+  command->add_option("--out", arguments->out, "point cloud to write: .las, .ply, .xyz or .txt")
       ->required();
   command->add_option("--log", arguments->log,
-                      "run with a flown survey (folder or log.mcap): its pictures are used; "
-                      "default: those that the scenario's survey plans");
-  command->add_option("--vehicle", arguments->vehicle, "that surveys, where several do");
-  command->add_option("--sensor", arguments->sensor, "camera_trigger, where it has several");
+                      "run with a flown survey (folder or log.mcap) whose pictures are used "
+                      "(default: the pictures planned by the scenario's survey)");
+  command->add_option("--vehicle", arguments->vehicle, "surveying vehicle, if there are several");
+  command->add_option("--sensor", arguments->sensor, "camera_trigger, if the vehicle has several");
   arguments->method = add_table_flags(*command, mapping::photogrammetry_job_table().specs(),
                                       {.without = {},
                                        .names = {},
@@ -165,7 +167,7 @@ void add_cloud_command(CLI::App& app, int& exit_status) {
   const char* even = "Without pictures";
   command
       ->add_option("--uniform", arguments->uniform_per_m2,
-                   "instead of pictures: points per m2 of all surfaces, hidden ones too")
+                   "instead of pictures: points per m2 of all surfaces, including hidden ones")
       ->group(even);
   command->add_option("--noise", arguments->noise_m, "1 sigma of each coordinate, m (default: 0)")
       ->group(even);

@@ -28,7 +28,7 @@ std::vector<Camera> find_cameras(const record::LogReader& log) {
   for (const record::ChannelInfo& channel : log.info().channels) {
     const auto type = channel.metadata.find("vinerow_type");
     if (type == channel.metadata.end() || type->second != CameraShot::kType ||
-        channel.messages == 0 || playback::is_truth_beside(log, channel.topic)) {
+        channel.messages == 0 || playback::is_truth_of_reading(log, channel.topic)) {
       continue;
     }
     const std::size_t slash = channel.topic.find('/', 1);
@@ -50,11 +50,12 @@ const scenario::NamedPart& part_of(const scenario::Scenario& scenario, const Cam
       fmt::format("{}: its scenario has no sensor '{}'", log.string(), camera.name()));
 }
 
-/// Where the vehicle thought its camera at these times, by the estimate logged last before each.
-/// @returns none where the log has no estimate that is old enough
-std::vector<Eigen::Vector3d> told_places(const record::LogReader& log, const std::string& topic,
-                                         const std::vector<Time>& times,
-                                         const Eigen::Vector3d& p_BS) {
+/// Estimated camera positions at these times, from the latest estimate logged before each.
+/// @returns empty if the log has no estimates, or none before one of the times
+std::vector<Eigen::Vector3d> estimated_places(const record::LogReader& log,
+                                              const std::string& topic,
+                                              const std::vector<Time>& times,
+                                              const Eigen::Vector3d& p_BS) {
   std::vector<Eigen::Vector3d> places;
   playback::Trace<Odometry> estimates;
   const auto& channels = log.info().channels;
@@ -71,7 +72,7 @@ std::vector<Eigen::Vector3d> told_places(const record::LogReader& log, const std
     const auto next = std::upper_bound(estimates.times.begin(), estimates.times.end(), t);
     if (next == estimates.times.begin()) return {};
     const auto k = static_cast<std::size_t>(next - estimates.times.begin()) - 1;
-    places.push_back(told_place(estimates.values[k], (t - estimates.times[k]).s(), p_BS));
+    places.push_back(estimated_place(estimates.values[k], (t - estimates.times[k]).s(), p_BS));
   }
   return places;
 }
@@ -84,7 +85,7 @@ PictureSet pictures_of_log(const std::filesystem::path& log, const Registry& reg
   const std::vector<Camera> all = find_cameras(reader);
   if (all.empty()) {
     throw ConfigError(fmt::format(
-        "{}: holds no survey: no camera_trigger of the run has taken a picture", log.string()));
+        "{}: contains no survey: no camera_trigger of the run took a picture", log.string()));
   }
   std::vector<Camera> chosen;
   std::string names;
@@ -98,10 +99,9 @@ PictureSet pictures_of_log(const std::filesystem::path& log, const Registry& reg
   if (chosen.size() != 1) {
     throw ConfigError(
         chosen.empty()
-            ? fmt::format("{}: camera '{}/{}' has taken no picture there; those that have: {}",
-                          log.string(), vehicle.empty() ? "*" : vehicle,
-                          sensor.empty() ? "*" : sensor, names)
-            : fmt::format("{}: several cameras have taken pictures ({}), choose one by --vehicle "
+            ? fmt::format("{}: camera '{}/{}' took no picture; cameras that did: {}", log.string(),
+                          vehicle.empty() ? "*" : vehicle, sensor.empty() ? "*" : sensor, names)
+            : fmt::format("{}: several cameras took pictures ({}), choose one with --vehicle "
                           "and --sensor",
                           log.string(), names));
   }
@@ -115,8 +115,8 @@ PictureSet pictures_of_log(const std::filesystem::path& log, const Registry& reg
     pictures.X_WS.push_back(shot.X_WS);
     times.push_back(t);
   });
-  pictures.told_W = told_places(reader, "/" + chosen.front().vehicle + "/estimate", times,
-                                place_of_sensor(part.part.parameters));
+  pictures.estimated_W = estimated_places(reader, "/" + chosen.front().vehicle + "/estimate", times,
+                                          place_of_sensor(part.part.parameters));
   pictures.source = fmt::format("{} of {}", chosen.front().name(), log.string());
   return pictures;
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// Where the pictures of a point cloud were taken, and with what camera.
+/// Camera and camera poses of the pictures behind a point cloud.
 
 #include <filesystem>
 #include <string>
@@ -10,15 +10,16 @@
 
 namespace vinerow::tools {
 
-/// As they were flown: true poses at the shots of one camera_trigger.
-/// @param vehicle,sensor  names, or "" where only one has taken pictures
+/// Pictures as flown: true poses at the shots of one camera_trigger.
+/// @param vehicle,sensor  names, or "" if only one took pictures
 /// @throws ConfigError: no pictures, several cameras without a choice, unknown names
 PictureSet pictures_of_log(const std::filesystem::path& log, const Registry& registry,
                            const std::string& vehicle, const std::string& sensor);
 
-/// As they are planned by a vehicle's planner `survey`: straight down, heading along the lane.
+/// Pictures as planned by a vehicle's planner `survey`: camera straight down, heading along the
+/// lane.
 /// @param vehicle  name, or "" for the first that surveys
-/// @throws ConfigError: none does, the survey cannot be planned
+/// @throws ConfigError: no vehicle surveys, the survey cannot be planned
 PictureSet pictures_of_plan(const scenario::Scenario& scenario, const std::filesystem::path& file,
                             const Registry& registry, const std::string& vehicle);
 

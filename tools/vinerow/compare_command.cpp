@@ -26,14 +26,15 @@ enum class FolderKind { kRun, kMap };
 FolderKind kind_of_folder(const std::filesystem::path& folder) {
   if (std::filesystem::is_regular_file(folder / "summary.json")) return FolderKind::kRun;
   if (std::filesystem::is_regular_file(folder / "map.json")) return FolderKind::kMap;
-  throw ConfigError(fmt::format(
-      "{}: holds neither summary.json nor map.json, so it is no folder of a run or of a map",
-      folder.string()));
+  throw ConfigError(
+      fmt::format("{}: contains neither summary.json nor map.json, so it is not the folder of a "
+                  "run or of a map",
+                  folder.string()));
 }
 
 int compare_run_folders(const CompareArguments& arguments) {
   if (!arguments.geojson.empty() || arguments.reach_m > 0.0) {
-    throw ConfigError("compare: --geojson and --reach are for maps, and these are runs");
+    throw ConfigError("compare: --geojson and --reach need two maps, but these are runs");
   }
   const RunComparison comparison = compare_runs(arguments.folders, arguments.tolerance);
   if (arguments.json) {
@@ -41,7 +42,7 @@ int compare_run_folders(const CompareArguments& arguments) {
   } else {
     fmt::print("{}", comparison_text(comparison, arguments.all));
   }
-  // Without --fail-on a difference is an answer and no failure.
+  // Without --fail-on a difference is a result, not a failure.
   const bool worse = !comparison.regressions.empty();
   const bool other = worse || comparison.differences > 0;
   if (arguments.fail_on == "regression") return worse ? 1 : 0;
@@ -50,11 +51,10 @@ int compare_run_folders(const CompareArguments& arguments) {
 
 int compare_map_folders(const CompareArguments& arguments) {
   if (arguments.folders.size() != 2) {
-    throw ConfigError(
-        fmt::format("compare: {} maps are given, must be two", arguments.folders.size()));
+    throw ConfigError(fmt::format("compare: {} maps given, must be 2", arguments.folders.size()));
   }
   if (arguments.fail_on != "none" || arguments.tolerance > 0.0 || arguments.all) {
-    throw ConfigError("compare: --fail-on, --tolerance and --all are for runs, and these are maps");
+    throw ConfigError("compare: --fail-on, --tolerance and --all need runs, but these are maps");
   }
   const MapComparison comparison =
       compare_maps(arguments.folders[0], arguments.folders[1], arguments.reach_m);
@@ -76,41 +76,40 @@ int compare_map_folders(const CompareArguments& arguments) {
 
 void add_compare_command(CLI::App& app, int& exit_status) {
   auto arguments = std::make_shared<CompareArguments>();
-  CLI::App* command = app.add_subcommand(
-      "compare", "compare runs by their metrics and verdicts, or two maps row by row");
+  CLI::App* command =
+      app.add_subcommand("compare", "compare runs by metrics and verdicts, or two maps row by row");
   command
-      ->add_option(
-          "folders", arguments->folders,
-          "folders of runs, the first is what the others are held against; or two folders of maps")
+      ->add_option("folders", arguments->folders,
+                   "folders of runs, of which the first is the reference; or two folders of maps")
       ->required()
       ->expected(2, 1000);
   command->add_flag("--json", arguments->json, "as JSON");
-  command->add_flag("--all", arguments->all, "of runs: also metrics that do not differ");
+  command->add_flag("--all", arguments->all, "runs: also print metrics that do not differ");
   command
       ->add_option("--tolerance", arguments->tolerance,
-                   "of runs: metrics that differ by no more than this fraction are the same")
+                   "runs: metrics that differ by at most this fraction count as equal")
       ->check(CLI::Range(0.0, 1.0));
   command
       ->add_option("--fail-on", arguments->fail_on,
-                   "of runs: end with exit status 1 where a criterion or phase that the first run "
-                   "met is not met (regression), or also where a metric differs (difference)")
+                   "runs: exit with status 1 if a criterion or phase that the first run met is "
+                   "not met (regression), or also if a metric differs (difference)")
       ->check(CLI::IsMember({"none", "regression", "difference"}))
       ->capture_default_str();
   command->add_option("--geojson", arguments->geojson,
-                      "of maps: write the rows with what changed to this file");
+                      "maps: write the rows and their changes to this file");
   command
       ->add_option("--reach", arguments->reach_m,
-                   "of maps: rows no farther apart than this, m, are the same (default: half the "
-                   "distance between rows)")
+                   "maps: rows at most this far apart, m, are the same row (default: half the "
+                   "row spacing)")
       ->check(positive());
   command->callback([arguments, &exit_status] {
     const FolderKind kind = kind_of_folder(arguments->folders.front());
     for (const std::filesystem::path& folder : arguments->folders) {
       if (kind_of_folder(folder) == kind) continue;
-      throw ConfigError(fmt::format("compare: {} is the folder of a {}, {} that of a {}",
-                                    arguments->folders.front().string(),
-                                    kind == FolderKind::kRun ? "run" : "map", folder.string(),
-                                    kind == FolderKind::kRun ? "map" : "run"));
+      throw ConfigError(
+          fmt::format("compare: {} is the folder of a {}, but {} is the folder of a {}",
+                      arguments->folders.front().string(), kind == FolderKind::kRun ? "run" : "map",
+                      folder.string(), kind == FolderKind::kRun ? "map" : "run"));
     }
     exit_status = kind == FolderKind::kRun ? compare_run_folders(*arguments)
                                            : compare_map_folders(*arguments);

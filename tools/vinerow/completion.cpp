@@ -10,22 +10,23 @@
 namespace vinerow::tools {
 namespace {
 
-/// One option of a command, as shells want it.
+/// Option of a command, as completion scripts need it.
 struct CompletedOption {
   std::vector<std::string> names;  ///< "--out", "-o"
   std::string words;
   bool takes_value = false;
-  std::vector<std::string> choices;  ///< of its value; empty: anything
+  std::vector<std::string> choices;  ///< allowed values; empty: any value
 };
 
 struct CompletedCommand {
-  std::string name, words;  ///< of an action the name is "study run"
+  std::string name, words;  ///< name of an action: "study run"
   std::vector<CompletedOption> options;
-  std::vector<std::string> choices;  ///< of its arguments
+  std::vector<std::string> choices;  ///< allowed values of its arguments
   std::vector<std::string> actions;  ///< "run", "resume" of "study": its first argument
 };
 
-/// "bash", "zsh" of "TEXT:{bash,zsh}", where the parser says which values there are.
+/// Allowed values of an option: "bash", "zsh" for "TEXT:{bash,zsh}"; empty if the parser has no
+/// list.
 std::vector<std::string> choices_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   const std::size_t open = type.find(":{"), close = type.rfind('}');
@@ -65,10 +66,10 @@ CompletedCommand command_of(const CLI::App& command, const std::string& name,
   return one;
 }
 
-/// Commands, and behind each its actions.
+/// All commands, each followed by its actions.
 std::vector<CompletedCommand> commands_of(const CLI::App& app) {
   std::vector<CompletedCommand> commands;
-  // Those of the program itself may stand behind a command too.
+  // Options of the program itself may also follow a command.
   std::vector<CompletedOption> common;
   for (CompletedOption& option : options_of(app)) {
     if (option.takes_value) common.push_back(std::move(option));
@@ -106,7 +107,7 @@ std::string fish_quoted(const std::string& text) {
   return out + "'";
 }
 
-/// A description inside zsh's option[description]:message:action.
+/// Description, escaped for zsh's option[description]:message:action.
 std::string zsh_words(const std::string& text) {
   std::string out;
   for (const char c : text) {

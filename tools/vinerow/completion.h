@@ -1,13 +1,13 @@
 #pragma once
-/// Shell completion, written from the parser's own declarations.
+/// Shell completion scripts, generated from the parser's declarations.
 
 #include <CLI/CLI.hpp>
 #include <string>
 
 namespace vinerow::tools {
 
-/// Scripts for the shell to source. They complete commands, options, values that come from a list,
-/// and else names of files.
+/// Scripts for the shell to source. They complete commands, options, values from fixed lists, and
+/// otherwise file names.
 std::string bash_completion(const CLI::App& app);
 std::string zsh_completion(const CLI::App& app);
 std::string fish_completion(const CLI::App& app);

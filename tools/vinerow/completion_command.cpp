@@ -8,7 +8,7 @@ namespace vinerow::tools {
 void add_completion_command(CLI::App& app, int& exit_status) {
   auto shell = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand(
-      "completion", "print the script by which a shell completes this program's words");
+      "completion", "print a script that makes a shell complete commands and options");
   command->add_option("shell", *shell, "bash, zsh or fish")
       ->required()
       ->check(CLI::IsMember({"bash", "zsh", "fish"}));

@@ -34,7 +34,7 @@ void write(const playback::SurveyCoverage& coverage, const std::filesystem::path
   write_whole_file(numbers, playback::coverage_json(coverage));
 }
 
-/// Of several cameras each has its name in its file's.
+/// Picture file of a camera. With several cameras the file name contains the camera's name.
 std::filesystem::path file_of(const playback::SurveyCoverage& coverage,
                               const std::filesystem::path& out, std::size_t cameras) {
   if (cameras == 1) return out;
@@ -67,17 +67,17 @@ void add_coverage_command(CLI::App& app, int& exit_status) {
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
-      "coverage", "map what the pictures of a survey cover, with their overlap, from its log");
+      "coverage", "map the ground that a survey's pictures cover, and their overlap, from its log");
   command->add_option("run", arguments->run, "folder of a run, or its log.mcap")->required();
   command->add_option("--out", arguments->out,
-                      "picture to write, numbers beside it as .json (default: coverage.png beside "
-                      "the log)");
+                      "picture to write, with the numbers next to it as .json (default: "
+                      "coverage.png next to the log)");
   command->add_option(
       "--polygon", arguments->polygon,
-      "parcel instead of the scenario's: x y of each corner in m, east and north of "
+      "parcel to use instead of the scenario's: x y of each corner in m, east and north of "
       "the origin");
   command->add_option("--cell", arguments->cell_m, "size of the cells, m")->check(positive());
-  command->add_option("--plugin", arguments->plugins, "load a plug-in that brought the run's parts")
+  command->add_option("--plugin", arguments->plugins, "load a plug-in whose parts the run used")
       ->allow_extra_args(false);
   command->callback([arguments, &exit_status] {
     const std::filesystem::path log = log_of(arguments->run);
@@ -90,7 +90,7 @@ void add_coverage_command(CLI::App& app, int& exit_status) {
     const auto files = write_coverage(log, registry, choice, out);
     if (files.empty()) {
       throw ConfigError(fmt::format(
-          "{}: holds no picture: no camera_trigger of the run has taken one", log.string()));
+          "{}: contains no picture: no camera_trigger of the run took one", log.string()));
     }
     for (const std::filesystem::path& file : files) fmt::print("{}\n", file.string());
     exit_status = 0;

@@ -26,7 +26,7 @@ struct ExportArguments {
   double to_s = std::numeric_limits<double>::infinity();
 };
 
-/// The topics of a log by name; one that stands twice (several writers) is joined.
+/// Topics of a log by name. A topic with several channels (several writers) is one entry.
 std::map<std::string, std::vector<const record::McapChannel*>> topics_of(
     const record::McapReader& log) {
   std::map<std::string, std::vector<const record::McapChannel*>> topics;
@@ -34,7 +34,7 @@ std::map<std::string, std::vector<const record::McapChannel*>> topics_of(
   return topics;
 }
 
-/// Whether a channel only holds what the standard type of another cannot.
+/// Whether a channel only carries the fields that the standard type of another channel lacks.
 bool is_exact_twin(const record::McapChannel& channel) {
   return std::any_of(channel.metadata.begin(), channel.metadata.end(),
                      [](const auto& entry) { return entry.first == "exact_of"; });
@@ -62,7 +62,7 @@ std::vector<ChosenTopic> chosen_topics(const record::McapReader& log,
                                        const ExportArguments& arguments) {
   std::vector<std::string> known;
   std::vector<ChosenTopic> chosen;
-  // Exact twins are taken where they are named.
+  // Exact twins are exported only if named.
   std::vector<std::string> shown;
   for (const auto& [topic, channels] : topics_of(log)) {
     known.push_back(topic);
@@ -101,12 +101,12 @@ MessageTable table_of(record::McapReader& log, const std::string& topic,
     if (channel->encoding != "cdr" || found == log.schemas().end() ||
         found->second.encoding != "ros2msg") {
       throw ConfigError(
-          fmt::format("{}: topic '{}' holds messages of encoding '{}', must be 'cdr' "
+          fmt::format("{}: topic '{}' has messages of encoding '{}', must be 'cdr' "
                       "with a definition of encoding 'ros2msg'",
                       arguments.log.string(), topic, channel->encoding));
     }
     if (schema && found->second.data != schema->data) {
-      throw ConfigError(fmt::format("{}: topic '{}' holds messages of two types, {} and {}",
+      throw ConfigError(fmt::format("{}: topic '{}' has messages of two types, {} and {}",
                                     arguments.log.string(), topic, schema->name,
                                     found->second.name));
     }
@@ -123,13 +123,14 @@ MessageTable table_of(record::McapReader& log, const std::string& topic,
     undecoded += table.add(stamp_ns, logged_ns, message.data) ? 0 : 1;
   });
   if (undecoded > 0) {
-    fmt::print(stderr, "vinerow: {}: {} messages of topic '{}' do not hold {} and were left out\n",
+    fmt::print(stderr,
+               "vinerow: {}: {} messages of topic '{}' are not of type {} and were left out\n",
                arguments.log.string(), undecoded, topic, schema->name);
   }
   return table;
 }
 
-/// "rover_follower" of "/rover/follower", each once.
+/// Unique file stem of a topic: "rover_follower" for "/rover/follower".
 std::string file_stem(const std::string& topic, std::set<std::string>& taken) {
   std::string stem;
   for (const char c : topic.substr(topic.starts_with('/') ? 1 : 0)) {
@@ -143,19 +144,20 @@ std::string file_stem(const std::string& topic, std::set<std::string>& taken) {
   return name;
 }
 
-/// What -o says of the format. @returns whether it names one file
+/// Derives the format from -o. @returns whether -o names one file
 bool read_out(ExportArguments& arguments) {
   const std::string ending = lower_extension(arguments.out);
   const bool to_stdout = arguments.out == "-";
   const bool one_file = to_stdout || ending == ".csv" || ending == ".npz";
   if (ending == ".csv" && arguments.npz) {
-    throw ConfigError("export: --npz and a file .csv (-o) do not fit, must be a folder or .npz");
+    throw ConfigError("export: -o is a .csv file, with --npz it must be a folder or a .npz file");
   }
   if (ending == ".npz" && arguments.csv) {
-    throw ConfigError("export: --csv and a file .npz (-o) do not fit, must be a folder or .csv");
+    throw ConfigError("export: -o is a .npz file, with --csv it must be a folder or a .csv file");
   }
   if (to_stdout && arguments.npz) {
-    throw ConfigError("export: --npz cannot go to the terminal, -o must be a file or a folder");
+    throw ConfigError(
+        "export: --npz cannot be printed to the terminal, -o must be a file or a folder");
   }
   if (ending == ".npz") arguments.npz = true;
   if (!arguments.npz) arguments.csv = true;
@@ -169,16 +171,16 @@ void write_table(const MessageTable& table, const std::filesystem::path& file,
   fmt::print("{}  {} rows\n", file.string(), table.rows().size());
 }
 
-/// @throws ConfigError if no message can lie between --from and --to
+/// @throws ConfigError if no message can be between --from and --to
 void check_span(const record::McapReader& log, const ExportArguments& arguments) {
   if (arguments.from_s > arguments.to_s) {
     throw ConfigError(
         fmt::format("export: --from {} s is after --to {} s", arguments.from_s, arguments.to_s));
   }
-  // A message is never logged before it is published, so none is of a later time than this.
+  // A message is never logged before it is published, so this is the latest possible time.
   const double end_s = static_cast<double>(log.end_time()) / 1e9;
   if (arguments.from_s > end_s) {
-    throw ConfigError(fmt::format("export: --from {} s is after the end of '{}', which is at {} s",
+    throw ConfigError(fmt::format("export: --from {} s is after the end of '{}' at {} s",
                                   arguments.from_s, arguments.log.string(), end_s));
   }
 }
@@ -210,7 +212,7 @@ void export_topics(ExportArguments arguments) {
     try {
       export_one(topic.name);
     } catch (const TableTooLarge& error) {
-      // Whoever asks for everything wants what can be had.
+      // A pattern exports every topic that can be exported.
       if (!topic.by_pattern) throw;
       fmt::print(stderr, "vinerow: left out {}\n", error.what());
     }
@@ -225,22 +227,23 @@ void export_topics(ExportArguments arguments) {
 void add_export_command(CLI::App& app, int& exit_status) {
   auto arguments = std::make_shared<ExportArguments>();
   CLI::App* command =
-      app.add_subcommand("export", "write topics of a log as tables: CSV, or arrays for numpy");
+      app.add_subcommand("export", "write topics of a log as tables: CSV, or arrays for NumPy");
   command->add_option("log", arguments->log, "log.mcap of a run, or the run's folder")->required();
   command
-      ->add_option("--topic", arguments->topics,
-                   "this topic, or all that fit a pattern: '/rover/*' (may be given several times)")
+      ->add_option(
+          "--topic", arguments->topics,
+          "this topic, or all that match a pattern: '/rover/*' (may be given several times)")
       ->required()
       ->allow_extra_args(false);
   command->add_flag("--csv", arguments->csv, "comma-separated (the default)");
-  command->add_flag("--npz", arguments->npz, "arrays for numpy.load()");
+  command->add_flag("--npz", arguments->npz, "NumPy arrays, for numpy.load()");
   command->add_option("-o,--out", arguments->out,
-                      "file .csv or .npz, - for the terminal, or a folder (default: export beside "
+                      "file .csv or .npz, - for the terminal, or a folder (default: export next to "
                       "the log)");
-  command->add_option("--from", arguments->from_s, "no earlier than this simulated time, s");
-  command->add_option("--to", arguments->to_s, "no later than this, s");
+  command->add_option("--from", arguments->from_s, "only messages from this simulated time on, s");
+  command->add_option("--to", arguments->to_s, "only messages up to this simulated time, s");
   command->add_flag("--long", arguments->long_form,
-                    "a row for each element of a message's sequences, also of numbers");
+                    "one table row per element of a message's sequences, also of numbers");
   command->callback([arguments, &exit_status] {
     export_topics(*arguments);
     exit_status = 0;

@@ -60,7 +60,7 @@ void add_grid_command(CLI::App& app, int& exit_status) {
     }
     mapping::OccupancyReport report;
     const ParameterSet& parameters = scenario.world.parameters;
-    // A map from a file has the walls that it has.
+    // A map from a file gets no virtual walls: it already contains its own.
     if (mapping::has_map_parameters(parameters) && !parameters.find("occupancy_file")) {
       report = mapping::plan_occupancy(world->rows, mapping::read_map_options(parameters));
     }

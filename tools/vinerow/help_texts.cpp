@@ -13,8 +13,8 @@ namespace {
 struct HelpText {
   std::string_view command;
   const char* group;
-  std::string_view examples;  ///< a line each, without "vinerow"
-  std::string_view statuses;  ///< "": as most commands
+  std::string_view examples;  ///< one per line, without "vinerow"
+  std::string_view statuses;  ///< "": the usual ones
 };
 
 constexpr const char* kSimulate = "Simulate";
@@ -24,21 +24,21 @@ constexpr const char* kSurvey = "Surveys and maps";
 constexpr const char* kParts = "Parts and files";
 
 constexpr std::string_view kUsualStatuses =
-    "0 done, 2 bad input (one sentence says what and where), 3 it broke off or could not be stored";
+    "0 done, 2 bad input (the message names place and fault), 3 broke off or output not written";
 
 constexpr std::array kHelpTexts = {
     HelpText{"run", kSimulate,
              "run assets/scenarios/riseholme_rover.yaml --out runs/x\n"
              "run my.yaml --set rover.controller.speed_mps=0.8 --seed 3 --no-pictures",
              "0 all criteria met, 1 a criterion or a phase failed or a vehicle crashed, 2 bad "
-             "input, 3 the simulation broke off or something could not be stored"},
+             "input, 3 the simulation broke off or output was not written"},
     HelpText{"validate", kSimulate, "validate my.yaml\nvalidate my.yaml --files-only",
-             "0 valid, 2 not valid (one sentence says what and where)"},
+             "0 valid, 2 not valid (the message names place and fault)"},
     HelpText{"study", kSimulate,
              "study run my_study.yaml --jobs 8\nstudy table my_study.yaml\n"
              "study list my_study.yaml --state waiting",
              "0 all cells met their criteria, 1 some did not, 2 bad input, 3 some did not run to "
-             "their end or something could not be stored"},
+             "the end or output was not written"},
     HelpText{"report", kLook, "report runs/x\nreport runs/x --out page.html", ""},
     HelpText{"replay", kLook, "replay runs/x --out replay.html", ""},
     HelpText{"render", kLook,
@@ -58,7 +58,7 @@ constexpr std::array kHelpTexts = {
     HelpText{"compare", kTables,
              "compare runs/before runs/after --fail-on regression\n"
              "compare maps/may maps/august --geojson growth.geojson",
-             "0 done, 1 what --fail-on asks for, 2 bad input"},
+             "0 done, 1 a difference that --fail-on selects, 2 bad input"},
     HelpText{"survey", kSurvey,
              "survey assets/scenarios/survey_still.yaml --out plans\n"
              "survey --polygon field.geojson --dem dem.tif --height_m 60 --rotorcraft",
@@ -70,11 +70,12 @@ constexpr std::array kHelpTexts = {
     HelpText{"trim", kParts, "trim assets/vehicles/mh900_like.yaml --json", ""},
     HelpText{"list", kParts, "list\nlist controller\nlist pure_pursuit", ""},
     HelpText{"schema", kParts, "schema > vinerow.schema.json", ""},
+    HelpText{"docs", kParts, "docs --out docs/reference", ""},
     HelpText{"completion", kParts,
              "completion bash > ~/.local/share/bash-completion/completions/vinerow", ""},
 };
 
-/// "Examples:", the lines, and the exit statuses.
+/// Footer of a command's help: "Examples:", the example lines, and the exit statuses.
 std::string footer_of(const HelpText& text) {
   std::string footer = "Examples:\n";
   for (std::string_view rest = text.examples; !rest.empty();) {
@@ -98,10 +99,11 @@ void add_help_texts(CLI::App& app) {
     command->group(found->group);
     command->footer(footer_of(*found));
   }
-  app.footer(fmt::format(
-      "Begin with:\n  vinerow run assets/scenarios/riseholme_rover.yaml --out runs/x\n"
-      "  vinerow COMMAND --help\n\nExit status: {}; of 'run' 1 where a criterion or phase failed\n",
-      kUsualStatuses));
+  app.footer(
+      fmt::format("Start with:\n  vinerow run assets/scenarios/riseholme_rover.yaml --out runs/x\n"
+                  "  vinerow COMMAND --help\n\nExit status: {}; 'run' returns 1 if a criterion or "
+                  "phase failed\n",
+                  kUsualStatuses));
 }
 
 }  // namespace vinerow::tools

@@ -1,11 +1,11 @@
 #pragma once
-/// What the help says beside the options: groups of commands, examples, exit statuses.
+/// Groups of commands, examples and exit statuses for the help texts.
 
 #include <CLI/CLI.hpp>
 
 namespace vinerow::tools {
 
-/// @pre all commands are added; each has its line in the table
+/// Adds them to every command. @pre all commands are added, and each has an entry in the table
 void add_help_texts(CLI::App& app);
 
 }  // namespace vinerow::tools

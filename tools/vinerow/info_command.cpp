@@ -7,9 +7,8 @@ namespace vinerow::tools {
 
 void add_info_command(CLI::App& app, int& exit_status) {
   auto file = std::make_shared<std::filesystem::path>();
-  CLI::App* command =
-      app.add_subcommand("info", "summarise a log: topics, types, how many messages");
-  command->add_option("log", *file, "log.mcap of a run, complete or cut off, or its folder")
+  CLI::App* command = app.add_subcommand("info", "summarise a log: topics, types, message counts");
+  command->add_option("log", *file, "log.mcap of a run, complete or truncated, or its folder")
       ->required();
   command->callback([file, &exit_status] {
     const std::filesystem::path log = log_of(*file);
@@ -21,7 +20,7 @@ void add_info_command(CLI::App& app, int& exit_status) {
     for (const auto& [key, value] : info.metadata) fmt::print("  {}: {}\n", key, value);
     const double span_s = (info.last - info.first).s();
     for (const record::ChannelInfo& channel : info.channels) {
-      // The lossless twin of a channel whose standard type cannot hold everything.
+      // Lossless twin of a channel whose standard type cannot hold all fields.
       if (channel.metadata.contains("exact_of")) continue;
       const double rate_Hz = channel.messages > 1 && span_s > 0.0
                                  ? static_cast<double>(channel.messages - 1) / span_s

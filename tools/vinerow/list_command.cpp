@@ -29,13 +29,17 @@ void print_part(const Registry& registry, PartKind kind, const std::string& name
   if (spec.default_rate_Hz > 0.0) fmt::print("    rate_Hz: default {:g}\n", spec.default_rate_Hz);
   if (!spec.reads.empty()) fmt::print("    reads:  {}\n", join(spec.reads));
   if (!spec.writes.empty()) fmt::print("    writes: {}\n", join(spec.writes));
+  for (const ResultSpec& result : spec.results) {
+    fmt::print("      {:<30} {:<8} {:<20} {}\n", result.name, result.unit, result.range.text(),
+               result.title);
+  }
   print_parameters(spec.parameters, 6);
 }
 
-/// The first sentence, cut where a line of a terminal ends.
+/// First sentence of a description, cut to one line of a terminal.
 std::string in_one_line(const std::string& description) {
-  constexpr std::size_t kMost = 100;
-  // A full stop before a small letter or a number is an abbreviation's: "eq. 8".
+  constexpr std::size_t kMax = 100;
+  // A full stop before a lower-case letter or a digit belongs to an abbreviation: "eq. 8".
   std::size_t end = description.find(". ");
   while (end != std::string::npos && end + 2 < description.size() &&
          !(description[end + 2] >= 'A' && description[end + 2] <= 'Z')) {
@@ -43,10 +47,10 @@ std::string in_one_line(const std::string& description) {
   }
   std::string line = description.substr(0, end);
   if (line.ends_with('.')) line.pop_back();
-  if (line.size() <= kMost) return line;
-  // At a blank, so that no character of several bytes is cut.
-  const std::size_t blank = line.rfind(' ', kMost - 4);
-  return line.substr(0, blank == std::string::npos ? kMost - 4 : blank) + " ...";
+  if (line.size() <= kMax) return line;
+  // Cut at a blank: never inside a multi-byte character.
+  const std::size_t blank = line.rfind(' ', kMax - 4);
+  return line.substr(0, blank == std::string::npos ? kMax - 4 : blank) + " ...";
 }
 
 void print_names(const Registry& registry, PartKind kind, const std::vector<std::string>& names) {
@@ -62,7 +66,7 @@ struct ListArguments {
   bool markdown = false, json = false, full = false;
 };
 
-/// The parts that are asked for, by kind. @throws ConfigError where there is none of that name
+/// Requested parts by kind. @throws ConfigError if there is no part or kind of that name
 std::vector<std::pair<PartKind, std::vector<std::string>>> chosen_parts(const Registry& registry,
                                                                         const std::string& wanted) {
   std::vector<std::pair<PartKind, std::vector<std::string>>> chosen;
@@ -110,7 +114,7 @@ void list_parts(const ListArguments& arguments) {
     fmt::print("{}\n", json.dump(1));
   } else if (short_form) {
     fmt::print(
-        "\n'vinerow list NAME' tells all of one part, 'vinerow list KIND' of all parts of a "
+        "\n'vinerow list NAME' prints all about one part, 'vinerow list KIND' about all parts of a "
         "kind.\n");
   }
 }
@@ -119,16 +123,17 @@ void list_parts(const ListArguments& arguments) {
 
 void add_list_command(CLI::App& app, int& exit_status) {
   auto arguments = std::make_shared<ListArguments>();
-  CLI::App* command = app.add_subcommand("list", "list the parts a scenario can name");
+  CLI::App* command = app.add_subcommand("list", "list the parts that a scenario can use");
   command->add_option("part", arguments->part,
-                      "with all parameters: this part (pure_pursuit), or all of a kind (world, "
-                      "sensor, ...)");
+                      "print all parameters of this part (pure_pursuit), or of all parts of a kind "
+                      "(world, sensor, ...)");
   command->add_option("--plugin", arguments->plugins, "include the parts of a plug-in")
       ->allow_extra_args(false);
-  command->add_flag("--full", arguments->full, "all parts with all their parameters");
-  CLI::Option* markdown =
-      command->add_flag("--markdown", arguments->markdown, "as a page of tables (docs/reference/parts.md)");
-  command->add_flag("--json", arguments->json, "as JSON, with all parameters")->excludes(markdown);
+  command->add_flag("--full", arguments->full, "all parts with all parameters");
+  CLI::Option* markdown = command->add_flag("--markdown", arguments->markdown,
+                                            "print the page docs/reference/parts.md");
+  command->add_flag("--json", arguments->json, "print JSON, with all parameters")
+      ->excludes(markdown);
   command->callback([arguments, &exit_status] {
     list_parts(*arguments);
     exit_status = 0;

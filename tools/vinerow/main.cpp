@@ -1,4 +1,4 @@
-/// The command `vinerow` with its sub-commands; help_texts.cpp has the list of them.
+/// The command `vinerow` with its sub-commands; help_texts.cpp lists them.
 
 #include <fmt/format.h>
 
@@ -23,7 +23,7 @@ namespace {
 constexpr int kBadInput = 2;
 constexpr int kBrokenOff = 3;
 
-/// The parser would say no more of a misspelt command than that one is needed.
+/// Rejects a misspelt command. The parser would only report that a command is missing.
 void check_command(const CLI::App& app, const std::string& word) {
   std::vector<std::string> known;
   for (const CLI::App* command : app.get_subcommands(nullptr)) known.push_back(command->get_name());
@@ -39,24 +39,24 @@ void add_colour_option(CLI::App& app) {
   app.add_option_function<std::string>(
          "--color",
          [](const std::string& mode) { vinerow::tools::set_colour_mode(kModes.at(mode)); },
-         "words in colour; auto: on a terminal, where NO_COLOR is not set")
+         "coloured output; auto: on a terminal, unless NO_COLOR is set")
       ->check(CLI::IsMember({"auto", "always", "never"}))
       ->default_str("auto")
       ->trigger_on_parse();
-  // It may stand behind a command too.
+  // The option may also follow a command.
   for (CLI::App* command : app.get_subcommands(nullptr)) command->fallthrough();
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  // Beyond a limit on the size of files a write shall fail and be told, not end the program.
+  // Beyond a file size limit a write fails and is reported; the signal would end the program.
   std::signal(SIGXFSZ, SIG_IGN);
   CLI::App app{"Vinerow: simulation of robots that work in vineyards and orchards"};
   app.set_version_flag("--version", "vinerow " + vinerow::run::program_version());
   app.require_subcommand(1);
   int exit_status = 0;
-  // The help lists groups and commands in this order.
+  // Order of groups and commands in the help.
   vinerow::tools::add_run_command(app, exit_status);
   vinerow::tools::add_validate_command(app, exit_status);
   vinerow::tools::add_study_command(app, exit_status);
@@ -75,6 +75,7 @@ int main(int argc, char** argv) {
   vinerow::tools::add_trim_command(app, exit_status);
   vinerow::tools::add_list_command(app, exit_status);
   vinerow::tools::add_schema_command(app, exit_status);
+  vinerow::tools::add_docs_command(app, exit_status);
   vinerow::tools::add_completion_command(app, exit_status);
   vinerow::tools::add_help_texts(app);
   add_colour_option(app);

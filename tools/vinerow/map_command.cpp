@@ -7,12 +7,12 @@
 #include <optional>
 #include <system_error>
 
-#include "controllers/planning/survey/survey_area.h"
 #include "engine/api/parameter_table.h"
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "engine/core/whole_file.h"
 #include "engine/io/files/output_folder.h"
+#include "engine/io/geo/area_file.h"
 #include "engine/io/meshes/mesh_scene_writer.h"
 #include "engine/io/meshes/mesh_writer.h"
 #include "engine/math/angles.h"
@@ -45,7 +45,7 @@ struct MapArguments {
   std::shared_ptr<const ParameterSet> method;  ///< rows of cloud_map_job_table()
 };
 
-/// Wall time and peak memory, phase by phase.
+/// Wall time and peak memory of each phase.
 class Stopwatch {
  public:
   void end_phase(const std::string& name) {
@@ -65,7 +65,7 @@ class Stopwatch {
 
 std::optional<GeoOrigin> find_map_origin(const MapArguments& arguments) {
   if (!arguments.origin.empty() && !arguments.scenario.empty()) {
-    throw ConfigError("map: give --origin or --scenario, one of them");
+    throw ConfigError("map: give either --origin or --scenario, not both");
   }
   if (!arguments.scenario.empty()) {
     ScenarioArguments of_scenario;
@@ -96,20 +96,19 @@ std::vector<Eigen::Vector2d> read_boundary(const fs::path& file, const GeoOrigin
   }
   if (file.extension() != ".csv" && !has_origin) {
     throw ConfigError(fmt::format(
-        "--boundary: '{}' is in degrees, but the cloud has no place on Earth: give --crs with or "
-        "without --origin, or the boundary as CSV in metres",
+        "--boundary: '{}' is in degrees, but the cloud has no geographic position: give --crs "
+        "(--origin is optional), or the boundary as CSV in metres",
         file.string()));
   }
-  controllers::Polygon2 polygon =
-      controllers::clean_polygon(controllers::read_survey_area(file.string(), origin));
-  if (const auto fault = controllers::find_polygon_fault(polygon)) {
+  Polygon polygon = io::read_area(file.string(), origin);
+  if (const auto fault = io::find_area_fault(polygon)) {
     throw ConfigError(fmt::format("--boundary: '{}': {}", file.string(), *fault));
   }
-  if (controllers::polygon_area_m2(polygon) < 0.0) std::reverse(polygon.begin(), polygon.end());
+  if (signed_area_m2(polygon) < 0.0) std::reverse(polygon.begin(), polygon.end());
   return polygon;
 }
 
-/// All row meshes in one file of each kind, for other programs.
+/// Writes all row meshes into one file of each kind, for other programs.
 void export_meshes(const std::vector<RowMesh>& meshes, const std::vector<std::string>& kinds,
                    const fs::path& folder) {
   std::vector<io::NamedMesh> named;
@@ -167,13 +166,13 @@ void print_phases(const std::vector<mapping::MapPhase>& phases) {
     line += fmt::format("{}{} {:.2f}", line.empty() ? "" : ", ", phase.name, phase.wall_s);
   }
   fmt::print("time           {:.2f} s: {}\n", total_s, line);
-  fmt::print("memory         {:.0f} MB at most\n",
+  fmt::print("memory         {:.0f} MB peak\n",
              phases.empty() ? 0.0 : phases.back().peak_memory_MB);
 }
 
 void make_map(const MapArguments& arguments) {
   Stopwatch watch;
-  // Faults that can be seen before the long work are told before it.
+  // Report faults of the options before the long computation.
   const mapping::CloudMapJobParams params =
       mapping::cloud_map_job_table().read(*arguments.method, "map");
   mapping::CloudMapOptions options = params.options;
@@ -225,26 +224,26 @@ void add_map_command(CLI::App& app, int& exit_status) {
   CLI::App* command = app.add_subcommand(
       "map", "turn a point cloud of a vineyard into a low-complexity map: rows, meshes, grid");
   command->add_option("cloud", a.cloud, "point cloud: LAS, PLY, PCD, XYZ or CSV")->required();
-  command->add_option("--out", a.out, "folder of the map (default: maps/<name of the cloud>)");
-  command->add_option("--title", a.title, "of the report (default: the name of the cloud)");
+  command->add_option("--out", a.out, "folder for the map (default: maps/<name of the cloud>)");
+  command->add_option("--title", a.title, "title of the report (default: the name of the cloud)");
   command
       ->add_option("--origin", a.origin,
-                   "latitude,longitude[,altitude] of the map's x = y = z = 0 (default: the middle "
-                   "of the cloud)")
+                   "latitude,longitude[,altitude] of the map's origin x = y = z = 0 (default: the "
+                   "middle of the cloud)")
       ->delimiter(',');
-  command->add_option("--scenario", a.scenario, "takes the origin of this scenario's world");
+  command->add_option("--scenario", a.scenario, "use the origin of this scenario's world");
   command->add_option("--plugin", a.plugins, "load a plug-in for the scenario")
       ->allow_extra_args(false);
   command->add_option("--boundary", a.boundary,
-                      "the parcel: GeoJSON, or CSV with x,y in metres of the map");
+                      "boundary of the parcel: GeoJSON, or CSV with x,y in metres in the map");
   command->add_option("--truth", a.truth,
-                      "compare with the truth that `vinerow cloud` kept (.truth.json)");
+                      "compare with the truth that `vinerow cloud` wrote (.truth.json)");
   command
       ->add_option("--export", a.exports,
-                   "all row meshes in one file, too: rows.obj, rows.glb, rows.ply")
+                   "also write all row meshes into one file: rows.obj, rows.glb, rows.ply")
       ->delimiter(',')
       ->check(CLI::IsMember({"obj", "glb", "ply"}));
-  // A boundary comes from a file here, and there is no world that rows could be counted as.
+  // The boundary comes from a file here, and there is no world whose rows could be counted.
   a.method = add_table_flags(*command, mapping::cloud_map_job_table().specs(),
                              {.without = {"boundary", "numbering"},
                               .names = {{"row_spacing_m", "--spacing"},

@@ -20,7 +20,7 @@ std::string markdown_text(std::string_view text) {
   std::string escaped;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
-    // Within a word an underscore is plain; keys in descriptions stay legible so.
+    // An underscore within a word needs no escape, so keys in descriptions stay legible.
     const bool in_word =
         c == '_' && i > 0 && is_letter_or_digit(text, i - 1) && is_letter_or_digit(text, i + 1);
     if (!in_word && std::string_view("\\`*_|<&[]~$").find(c) != std::string_view::npos) {
@@ -41,7 +41,8 @@ std::string markdown_code(std::string_view text) {
     if (c == '|') content += '\\';
     content += is_control(c) ? ' ' : c;
   }
-  // A fence longer than any run of backticks inside; spaces part it from those at the ends.
+  // The fence is longer than any run of backticks inside; spaces separate it from backticks at the
+  // ends.
   const std::string fence(longest + 1, '`');
   const char* space = longest > 0 ? " " : "";
   return fence + space + content + space + fence;

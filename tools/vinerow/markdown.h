@@ -1,15 +1,15 @@
 #pragma once
-/// Texts of others in Markdown, so that none of them opens a cell, a code span or an element.
+/// Escaping of foreign texts in Markdown: no text opens a cell, a code span or an element.
 
 #include <string>
 #include <string_view>
 
 namespace vinerow::tools {
 
-/// A text as it reads, on one line; fit for a cell of a table.
+/// Plain text on one line, fit for a table cell.
 std::string markdown_text(std::string_view text);
 
-/// A code span, on one line; fit for a cell of a table. "" stays empty.
+/// Code span on one line, fit for a table cell. "" stays empty.
 std::string markdown_code(std::string_view text);
 
 }  // namespace vinerow::tools

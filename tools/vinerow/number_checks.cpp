@@ -10,7 +10,7 @@ CLI::Validator check(const char* words, const char* name, Holds holds) {
   return CLI::Validator(
       [words, holds](const std::string& text) {
         double value = 0.0;
-        // NaN holds nothing.
+        // NaN fulfils no condition.
         const bool is_good = CLI::detail::lexical_cast(text, value) && holds(value);
         return is_good ? std::string() : fmt::format("must be {}, is '{}'", words, text);
       },

@@ -1,5 +1,5 @@
 #pragma once
-/// What numbers of options may be. CLI11's own checks name the largest double there is.
+/// Range checks for numeric options. The messages of CLI11's own checks print the largest double.
 
 #include <CLI/CLI.hpp>
 

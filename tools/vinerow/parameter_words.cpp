@@ -9,7 +9,7 @@ namespace vinerow::tools {
 
 namespace {
 
-/// All digits of what somebody wrote; six of what was computed, such as 148.96902673401405.
+/// All digits of a written number; six of a computed one, such as 148.96902673401405.
 std::string number_words(double value) {
   const std::string exact = fmt::format("{}", value), rounded = fmt::format("{:.6g}", value);
   return exact.size() <= rounded.size() + 2 ? exact : rounded;

@@ -67,6 +67,13 @@ nlohmann::ordered_json part_json(const Registry& registry, PartKind kind, const 
   if (spec.default_rate_Hz > 0.0) json["rate_Hz"] = spec.default_rate_Hz;
   json["reads"] = spec.reads;
   json["writes"] = spec.writes;
+  for (const ResultSpec& result : spec.results) {
+    PartJson one = {{"name", result.name}, {"unit", result.unit}, {"values", result.range.text()}};
+    one["title"] = result.title;
+    one["definition"] = result.definition;
+    one["source"] = result.source;
+    json["results"].push_back(std::move(one));
+  }
   json["parameters"] = parameters_json(spec.parameters);
   return json;
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// A part with its parameters, for programs.
+/// JSON description of a part and its parameters, for programs.
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace vinerow::tools {
 
-/// Limits and defaults that a parameter does not have are left out. @pre the registry has the part
+/// Limits and defaults that a parameter lacks are left out. @pre the registry has the part
 nlohmann::ordered_json part_json(const Registry& registry, PartKind kind, const std::string& name);
 
 }  // namespace vinerow::tools

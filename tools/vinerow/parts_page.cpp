@@ -93,10 +93,10 @@ std::string ports_of(const PartSpec& spec) {
 
 std::string parts_page_opening() {
   return "# Parts\n\n"
-         "All parts that a scenario can name, with their parameters. `vinerow list --markdown` "
+         "All parts that a scenario can use, with their parameters. `vinerow list --markdown` "
          "prints this page; do not edit it by hand.\n\n"
          "A key without default is absent unless given; \"required\" must be given. `a.b` is the "
-         "key `b` of the mapping `a`, `a[].b` that of each mapping in the list `a`.\n";
+         "key `b` of the mapping `a`, `a[].b` is the key `b` of each mapping in the list `a`.\n";
 }
 
 std::string kind_heading(PartKind kind) {
@@ -115,10 +115,24 @@ std::string part_markdown(const Registry& registry, PartKind kind, const std::st
   add_line("writes", code_list(spec.writes), lines);
   add_line("takes", ports_of(spec), lines);
   if (spec.gives) add_line("gives", to_string(*spec.gives), lines);
+  if (!spec.results.empty()) {
+    lines += fmt::format("- results: {} in [metrics.md](metrics.md)\n", spec.results.size());
+  }
   if (!lines.empty()) page += "\n" + lines;
   if (spec.parameters.empty()) return page + "\nNo parameters.\n";
   page += "\n| key | unit | default | values | meaning |\n|---|---|---|---|---|\n";
   add_rows(spec.parameters, "", page);
+  return page;
+}
+
+std::string parts_page(const Registry& registry) {
+  std::string page = parts_page_opening();
+  for (const PartKind kind : kAllPartKinds) {
+    const std::vector<std::string> names = registry.names(kind);
+    if (names.empty()) continue;
+    page += kind_heading(kind);
+    for (const std::string& name : names) page += part_markdown(registry, kind, name);
+  }
   return page;
 }
 

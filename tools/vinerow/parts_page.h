@@ -7,14 +7,17 @@
 
 namespace vinerow::tools {
 
-/// Title, and how the tables are read.
+/// Title, and how to read the tables.
 std::string parts_page_opening();
 
 std::string kind_heading(PartKind kind);
 
-/// Heading "world vineyard", description, signals, and a table of the parameters. Keys of groups
-/// follow their group: `gusts[].at_s` of a list, `motor.torque_Nm` of one mapping.
+/// Section of one part: heading "world vineyard", description, signals, and a parameter table. Keys
+/// of groups follow their group: `gusts[].at_s` in a list, `motor.torque_Nm` in a mapping.
 /// @pre the registry has the part
 std::string part_markdown(const Registry& registry, PartKind kind, const std::string& name);
+
+/// The whole page.
+std::string parts_page(const Registry& registry);
 
 }  // namespace vinerow::tools

@@ -8,7 +8,7 @@
 namespace vinerow::tools {
 namespace {
 
-/// Parts between commas that stand outside of brackets.
+/// Parts between commas; commas inside brackets do not split.
 std::vector<std::string> split_outside_brackets(const std::string& text) {
   std::vector<std::string> parts(1);
   int depth = 0;
@@ -24,7 +24,7 @@ std::vector<std::string> split_outside_brackets(const std::string& text) {
   return parts;
 }
 
-/// Adds a camera of keys and values to the scenario. @returns its name
+/// Adds a camera given as keys and values to the scenario. @returns its name
 std::string add_own_camera(const std::string& text, const std::string& default_name,
                            std::vector<std::string>& sets) {
   std::string name = default_name, keys;
@@ -50,20 +50,23 @@ std::string add_own_camera(const std::string& text, const std::string& default_n
 }  // namespace
 
 void add_picture_arguments(CLI::App& command, PictureArguments& arguments) {
-  command.add_option("log", arguments.log, "log.mcap of a run, complete or cut off, or its folder")
+  command
+      .add_option("log", arguments.log, "log.mcap of a run, complete or truncated, or its folder")
       ->required();
   command
       .add_option("--camera", arguments.cameras,
-                  "only this camera of the scenario, or one of your own, such as "
+                  "only this camera of the scenario, or a new one as key=value, such as "
                   "kind=chase,vehicle=rover,distance_m=4 (may be given several times)")
       ->allow_extra_args(false);
-  command.add_option("--from", arguments.from_s, "no frame before this simulated time, s")
+  command.add_option("--from", arguments.from_s, "first simulated time of a frame, s")
       ->check(not_negative());
-  command.add_option("--to", arguments.to_s, "no frame after this simulated time, s")
+  command.add_option("--to", arguments.to_s, "last simulated time of a frame, s")
       ->check(not_negative());
-  command.add_option("--width", arguments.width, "pixels")->check(CLI::Range(16, 8192));
-  command.add_option("--height", arguments.height, "pixels")->check(CLI::Range(16, 8192));
-  command.add_option("--plugin", arguments.plugins, "load a plug-in that brought the run's parts")
+  command.add_option("--width", arguments.width, "width of the frames, pixels")
+      ->check(CLI::Range(16, 8192));
+  command.add_option("--height", arguments.height, "height of the frames, pixels")
+      ->check(CLI::Range(16, 8192));
+  command.add_option("--plugin", arguments.plugins, "load a plug-in whose parts the run used")
       ->allow_extra_args(false);
 }
 
@@ -91,7 +94,7 @@ playback::PictureReport render_pictures(const std::filesystem::path& log,
   try {
     return playback::render_log(log, out, registry, options);
   } catch (const ConfigError& error) {
-    // Nobody typed the override that stands for the camera.
+    // The camera was passed on as an override that the user did not type.
     const std::string words = error.what();
     for (const std::string& set : options.overrides.sets) {
       const std::string prefix = fmt::format("--set {}: pictures.cameras.", set);

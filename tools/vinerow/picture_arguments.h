@@ -1,5 +1,5 @@
 #pragma once
-/// What `vinerow render` and `vinerow video` share: which log, cameras, span and size.
+/// Arguments shared by `vinerow render` and `vinerow video`: log, cameras, time span and size.
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -19,13 +19,13 @@ struct PictureArguments {
 };
 void add_picture_arguments(CLI::App& command, PictureArguments& arguments);
 
-/// A camera is a name of the scenario's, or keys and values: "kind=chase,vehicle=rover". Those
-/// become cameras `view`, `view2`, ... of the log's scenario, or are called by their key `name`,
-/// and are checked as a scenario's.
+/// A camera is the name of a camera in the scenario, or keys and values:
+/// "kind=chase,vehicle=rover". The latter are added to the log's scenario as `view`, `view2`, ...
+/// or under their key `name`, and are checked like cameras of a scenario.
 /// @throws ConfigError "--camera kind: must be key=value, ..."
 playback::PictureOptions picture_options(const PictureArguments& arguments);
 
-/// render_log(); where a camera of one's own is at fault, the sentence names --camera.
+/// render_log(). If a camera given as keys and values is invalid, the message names --camera.
 playback::PictureReport render_pictures(const std::filesystem::path& log,
                                         const std::filesystem::path& out, const Registry& registry,
                                         const playback::PictureOptions& options);

@@ -21,15 +21,15 @@ void add_render_command(CLI::App& app, int& exit_status) {
       app.add_subcommand("render", "draw frames from a log, without simulating again");
   add_picture_arguments(*command, arguments->pictures);
   command->add_option("-o,--out", arguments->out,
-                      "folder for the frames (default: frames beside the log)");
+                      "folder for the frames (default: frames next to the log)");
   command
       ->add_option("--time", arguments->times_s,
-                   "a frame at this simulated time, s (may be given several times)")
+                   "draw a frame at this simulated time, s (may be given several times)")
       ->allow_extra_args(false);
-  command->add_option("--every", arguments->every_s, "a frame every so many simulated seconds")
+  command->add_option("--every", arguments->every_s, "simulated seconds between frames")
       ->check(positive());
   command->add_flag("--digest", arguments->digest,
-                    "print the MD5 of each frame's pixels before its name");
+                    "print the MD5 sum of each frame's pixels before its name");
   command->callback([arguments, &exit_status] {
     const Registry registry = make_registry(arguments->pictures.plugins);
     playback::PictureOptions options = picture_options(arguments->pictures);
@@ -42,7 +42,7 @@ void add_render_command(CLI::App& app, int& exit_status) {
     if (!report.write_failure.empty()) throw WriteError(report.write_failure);
     if (!report.note.empty()) throw ConfigError("no pictures: " + report.note);
     if (report.files.empty()) {
-      throw ConfigError(fmt::format("no frame: none of the times lies within {}", log.string()));
+      throw ConfigError(fmt::format("no frame: none of the times is within {}", log.string()));
     }
     for (std::size_t i = 0; i < report.files.size(); ++i) {
       fmt::print("{}{}\n", arguments->digest ? report.digests[i] + "  " : "",

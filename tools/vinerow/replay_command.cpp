@@ -15,10 +15,12 @@ void add_replay_command(CLI::App& app, int& exit_status) {
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
-      "replay", "write a page that shows a run in three dimensions, to orbit, scrub and follow");
+      "replay",
+      "write a web page that replays a run in 3D, with time slider, free and following cameras");
   command->add_option("run", arguments->run, "folder of a run, or its log.mcap")->required();
-  command->add_option("--out", arguments->out, "the page (default: replay.html beside the log)");
-  command->add_option("--plugin", arguments->plugins, "load a plug-in that brought the run's parts")
+  command->add_option("--out", arguments->out,
+                      "page to write (default: replay.html next to the log)");
+  command->add_option("--plugin", arguments->plugins, "load a plug-in whose parts the run used")
       ->allow_extra_args(false);
   command->callback([arguments, &exit_status] {
     if (!has_replay()) throw ConfigError("no replay: " + replay_absence());

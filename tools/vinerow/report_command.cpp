@@ -34,12 +34,14 @@ void add_report_command(CLI::App& app, int& exit_status) {
   command->add_option("--out", arguments->out,
                       "page to write (default: report.html in the folder)");
   command->add_option("--plots", arguments->plots,
-                      "folder for each plot and map as a file of its own (SVG)");
-  command->add_option("--plugin", arguments->plugins, "load a plug-in beside those the run names")
+                      "folder for each plot and map as a separate file (SVG)");
+  command
+      ->add_option("--plugin", arguments->plugins,
+                   "load a plug-in in addition to those the run names")
       ->allow_extra_args(false);
   command->callback([arguments, &exit_status] {
     if (!std::filesystem::is_directory(arguments->run)) {
-      throw ConfigError(fmt::format("{}: is no folder", arguments->run.string()));
+      throw ConfigError(fmt::format("{}: is not a folder", arguments->run.string()));
     }
     Registry registry = make_registry(arguments->plugins);
     const std::filesystem::path scenario = arguments->run / "scenario.resolved.yaml";

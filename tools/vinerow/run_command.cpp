@@ -17,7 +17,7 @@
 namespace vinerow::tools {
 namespace {
 
-/// Thrown out of work that Ctrl-C ends.
+/// Thrown to leave work that Ctrl-C ends.
 struct Interrupted {};
 
 void show_simulation(ProgressLine& line, const run::Progress& progress) {
@@ -29,7 +29,7 @@ void show_simulation(ProgressLine& line, const run::Progress& progress) {
                         factor, left_s));
 }
 
-/// "succeeded  survey        0.0 to 288.9 s", and why where it did not.
+/// Prints "succeeded  survey        0.0 to 288.9 s", and the reason if the phase did not succeed.
 void print_phase(const PhaseReport& phase) {
   const bool bad = phase.state == PhaseState::kFailed || phase.state == PhaseState::kBlocked;
   fmt::print("{}  {:16}",
@@ -68,7 +68,7 @@ void print_verdict(const run::RunResult& result, const std::filesystem::path& ou
     const bool broke_off = result.status == run::RunStatus::kBrokenOff;
     fmt::print(stderr, "vinerow: {}{}\n", broke_off ? "the run broke off: " : "", result.error);
   }
-  // Whoever reads this through a pipe wants it now, not behind the pictures.
+  // A reader at the other end of a pipe needs the verdict now, not after the pictures are drawn.
   std::fflush(stdout);
 }
 
@@ -83,7 +83,7 @@ void print_pictures(const run::RunResult& result, const std::filesystem::path& o
   }
 }
 
-/// Tells what could not be stored. Takes nothing from the run's verdict; the exit status is 3.
+/// Reports output that could not be written. The run's verdict stays; the exit status becomes 3.
 class Unwritten {
  public:
   bool any() const { return any_; }
@@ -92,7 +92,7 @@ class Unwritten {
     any_ = true;
     fmt::print(stderr, "vinerow: {}\n", sentence);
   }
-  /// Draws or tells more of a run that is over. @param what  for people: "report"
+  /// Writes further output of a finished run. @param what  for messages: "report"
   template <class F>
   void try_to_write(const char* what, F&& write) {
     try {
@@ -114,8 +114,8 @@ void print_files(const char* what, const std::vector<std::filesystem::path>& fil
 
 }  // namespace
 
-run::RunStatus run_and_tell(const scenario::Scenario& scenario, const Registry& registry,
-                            const RunChoice& choice) {
+run::RunStatus run_and_report(const scenario::Scenario& scenario, const Registry& registry,
+                              const RunChoice& choice) {
   run::RunOptions options;
   options.out = choice.out.empty() ? std::filesystem::path("runs") / scenario.name : choice.out;
   options.log = !choice.no_log;
@@ -142,7 +142,7 @@ run::RunStatus run_and_tell(const scenario::Scenario& scenario, const Registry& 
   try {
     if (drawing_interrupted) throw Interrupted();
     if (with_log && options.pictures) {
-      // Where the vehicles took pictures of the ground, and the maps that jobs made.
+      // Ground covered by the vehicles' pictures, and maps made by jobs.
       unwritten.try_to_write("coverage", [&] {
         print_files("coverage", write_coverage(options.out / "log.mcap", registry, {},
                                                options.out / "coverage.png"));
@@ -154,7 +154,7 @@ run::RunStatus run_and_tell(const scenario::Scenario& scenario, const Registry& 
       unwritten.try_to_write("report", [&] {
         const std::filesystem::path report = options.out / "report.html";
         write_report(options.out, registry, report, [&](int done, int total) {
-          // After Ctrl-C in the simulation the report is still wanted.
+          // Ctrl-C during the simulation still writes the report.
           if (is_interrupted() && !broke_off) throw Interrupted();
           line.count("writing the report", done, total);
         });
@@ -179,19 +179,19 @@ void add_run_command(CLI::App& app, int& exit_status) {
     RunChoice choice;
   };
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
-      app.add_subcommand("run", "run a scenario headless and write log, summary and pictures");
+  CLI::App* command = app.add_subcommand(
+      "run", "run a scenario without display; write log, summary, pictures and report");
   add_scenario_arguments(*command, arguments->scenario, "rover.controller.speed_mps=0.8");
   command->add_option("--out", arguments->choice.out,
                       "folder for the results (default: runs/<scenario name>)");
   command->add_flag("--no-log", arguments->choice.no_log, "write no log (and so no pictures)");
   command->add_flag("--no-pictures", arguments->choice.no_pictures, "draw no pictures");
   command->add_flag("--no-report", arguments->choice.no_report, "write no report.html");
-  command->add_flag("--quiet", arguments->choice.quiet, "no progress");
+  command->add_flag("--quiet", arguments->choice.quiet, "show no progress");
   command->callback([arguments, &exit_status] {
     Registry registry;
     const scenario::Scenario scenario = load(arguments->scenario, registry);
-    exit_status = static_cast<int>(run_and_tell(scenario, registry, arguments->choice));
+    exit_status = static_cast<int>(run_and_report(scenario, registry, arguments->choice));
   });
 }
 

@@ -12,7 +12,8 @@ namespace vinerow::tools {
 namespace {
 
 std::uint64_t read_seed(const std::string& text) {
-  constexpr std::int64_t kLargest = std::numeric_limits<std::int64_t>::max();  // of a scenario's
+  constexpr std::int64_t kLargest =
+      std::numeric_limits<std::int64_t>::max();  // of a scenario's seed
   std::int64_t seed = -1;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
   if (error != std::errc() || end != text.data() + text.size() || seed < 0) {
@@ -35,7 +36,8 @@ void add_scenario_arguments(CLI::App& command, ScenarioArguments& arguments,
       [&arguments](const std::string& text) { arguments.overrides.seed = read_seed(text); },
       "seed of all random streams, a whole number from 0");
   command
-      .add_option("--plugin", arguments.plugins, "load a plug-in beside those the scenario names")
+      .add_option("--plugin", arguments.plugins,
+                  "load a plug-in in addition to those the scenario names")
       ->allow_extra_args(false);
 }
 

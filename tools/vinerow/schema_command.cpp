@@ -10,8 +10,7 @@ void add_schema_command(CLI::App& app, int& exit_status) {
   auto plugins = std::make_shared<std::vector<std::filesystem::path>>();
   auto of = std::make_shared<std::string>("scenario");
   CLI::App* command = app.add_subcommand(
-      "schema",
-      "print the JSON Schema of scenario files, of study files, or of the files of a map");
+      "schema", "print the JSON Schema of scenario files, study files, or the files of a map");
   command->add_option("of", *of, "scenario, study, or map.json or report.json of a map")
       ->capture_default_str()
       ->check(CLI::IsMember({"scenario", "study", "map.json", "report.json"}));

@@ -33,7 +33,7 @@ struct StudyArguments {
   bool fresh = false, retry = false, quiet = false, serve = false;
   std::string runner = "local";
   study::SlurmOptions slurm;
-  std::vector<std::size_t> numbers;  ///< of cells
+  std::vector<std::size_t> numbers;  ///< cell numbers
   std::filesystem::path chunks;
   std::size_t task = 0;
   std::string expected, state;
@@ -51,13 +51,13 @@ CLI::App* add_action(CLI::App& study, const char* name, const char* words,
   CLI::App* action = study.add_subcommand(name, words);
   action->add_option("study", arguments->file, "study file (YAML)")->required();
   action->add_option("--out", arguments->out,
-                     "folder of index, tables and kept runs (default: runs/<study name>)");
+                     "folder for index, tables and kept runs (default: runs/<study name>)");
   action->add_option("--cells", arguments->cells,
-                     "folder of finished cells, which studies may share (default: <out>/cells)");
+                     "folder for finished cells, may be shared by studies (default: <out>/cells)");
   return action;
 }
 
-/// Exit status of a study by its cells: the worst of them.
+/// Exit status of a study: that of its worst cell.
 run::RunStatus status_of(const Results& results) {
   const auto counts = results.counts();
   const auto count = [&](CellState state) {
@@ -78,7 +78,8 @@ Colour state_colour(CellState state) {
   return Colour::kBad;
 }
 
-/// How many cells are in each state, and of each kind of failure the first cells with their reason.
+/// Prints the number of cells in each state, and the first cells of each kind of failure with their
+/// reasons.
 void print_counts(const OpenStudy& open, const Results& results) {
   fmt::print("study    {}: {} settings x {} seeds = {} cells\n", open.study.name,
              open.design.settings(), open.design.seeds(), open.design.cells());
@@ -96,7 +97,7 @@ void print_counts(const OpenStudy& open, const Results& results) {
   }
 }
 
-/// Exit status of a cell: that of `vinerow run`.
+/// Exit status of a cell, as `vinerow run` returns it.
 int exit_status_of(CellState state) {
   if (state == CellState::kMet) return 0;
   if (state == CellState::kNotMet) return 1;
@@ -105,8 +106,8 @@ int exit_status_of(CellState state) {
 
 void check_cell(const OpenStudy& open, std::size_t cell) {
   if (cell < open.design.cells()) return;
-  throw ConfigError(
-      fmt::format("there is no cell {}, the study's are 0 to {}", cell, open.design.cells() - 1));
+  throw ConfigError(fmt::format("there is no cell {}, the study has cells 0 to {}", cell,
+                                open.design.cells() - 1));
 }
 
 void write_report(const OpenStudy& open, const Results& results, const study::StudyFolder& folder) {
@@ -149,7 +150,7 @@ void run_study(const StudyArguments& arguments, bool must_be_there, int& exit_st
   if (must_be_there && !std::filesystem::exists(options.folder.index(), error)) {
     throw ConfigError(
         fmt::format("'{}' does not exist: there is nothing to resume; 'vinerow study "
-                    "run {}' begins the study",
+                    "run {}' starts the study",
                     options.folder.index().string(), arguments.file.string()));
   }
   check_study(open);
@@ -160,7 +161,7 @@ void run_study(const StudyArguments& arguments, bool must_be_there, int& exit_st
   if (arguments.runner == "slurm") {
     options.slurm = slurm;
   } else if (!slurm.sbatch.empty() || slurm.chunk > 0 || slurm.patience_s > 0.0 || slurm.detach) {
-    throw ConfigError("--sbatch, --chunk, --patience and --detach are of '--runner slurm'");
+    throw ConfigError("--sbatch, --chunk, --patience and --detach need '--runner slurm'");
   }
   options.fresh = arguments.fresh;
   options.retry = arguments.retry;
@@ -171,7 +172,7 @@ void run_study(const StudyArguments& arguments, bool must_be_there, int& exit_st
   const study::DriveResult result = study::drive(open, options);
   line.end();
   print_counts(open, result.results);
-  fmt::print("run      {} cells in {:.1f} s, {} were finished before\n", result.run, result.wall_s,
+  fmt::print("run      {} cells in {:.1f} s, {} were already finished\n", result.run, result.wall_s,
              result.taken);
   if (result.detached) {
     fmt::print("detached {}\n'vinerow study resume {} --runner slurm' collects the results\n",
@@ -182,43 +183,45 @@ void run_study(const StudyArguments& arguments, bool must_be_there, int& exit_st
   write_tables(result.results, options.folder);
   write_report(open, result.results, options.folder);
   if (result.interrupted) {
-    fmt::print(stderr,
-               "vinerow: interrupted: finished cells are kept; 'vinerow study resume {}' goes on\n",
-               arguments.file.string());
+    fmt::print(
+        stderr,
+        "vinerow: interrupted: finished cells are kept; 'vinerow study resume {}' continues\n",
+        arguments.file.string());
   }
   exit_status = static_cast<int>(status_of(result.results));
 }
 
 void add_slurm_options(CLI::App& action, StudyArguments& arguments) {
-  action.add_option("--runner", arguments.runner, "who runs the cells: local, slurm (local)")
+  action
+      .add_option("--runner", arguments.runner,
+                  "where the cells run: local or slurm (default: local)")
       ->group("On a cluster (Slurm)")
       ->check(CLI::IsMember({"local", "slurm"}));
   study::SlurmOptions& slurm = arguments.slurm;
-  action
-      .add_option("--chunk", slurm.chunk, "cells of a task of Slurm (as many that there are 200)")
+  action.add_option("--chunk", slurm.chunk, "cells per Slurm task (default: enough for 200 tasks)")
       ->check(positive())
       ->group("On a cluster (Slurm)");
   action
       .add_option("--sbatch", slurm.sbatch,
-                  "an option of sbatch, e.g. --sbatch=--partition=long; may be given again")
+                  "option for sbatch, e.g. --sbatch=--partition=long (may be given several times)")
       ->allow_extra_args(false)
       ->group("On a cluster (Slurm)");
   action
       .add_option("--patience", slurm.patience_s,
-                  "seconds without any running task until the study gives up (it waits)")
+                  "give up after this many seconds without a running task (default: wait)")
       ->check(positive())
       ->group("On a cluster (Slurm)");
-  action.add_flag("--detach", slurm.detach, "end once the tasks are submitted")
+  action.add_flag("--detach", slurm.detach, "exit once the tasks are submitted")
       ->group("On a cluster (Slurm)");
 }
 
-/// Cells that a driver of its own names: by their numbers, or as a task of an array.
+/// Runs cells that an external driver names, by their numbers or as a task of a job array.
 void run_named_cells(const StudyArguments& arguments, const OpenStudy& open, int& exit_status) {
   const study::StudyFolder folder = arguments.folder(open);
   const bool is_task = !arguments.chunks.empty();
   if (!arguments.expected.empty() && arguments.expected != open.identity.whole()) {
     throw ConfigError(
-        fmt::format("'{}', a file it names or the program is not what it was when the job was "
+        fmt::format("'{}', a file it names or the program has changed since the job was "
                     "submitted",
                     open.study.file.string()));
   }
@@ -233,7 +236,7 @@ void run_named_cells(const StudyArguments& arguments, const OpenStudy& open, int
                      std::fflush(stdout);
                      worst = std::max(worst, exit_status_of(result.state));
                    });
-  // For a task it is enough that all results are stored.
+  // A task succeeds if all results are stored.
   exit_status = is_task ? 0 : worst;
 }
 
@@ -241,27 +244,28 @@ void run_named_cells(const StudyArguments& arguments, const OpenStudy& open, int
 
 void add_study_command(CLI::App& app, int& exit_status) {
   CLI::App* study = app.add_subcommand(
-      "study", "run a scenario many times with other values and seeds, and make one table of it");
+      "study", "run a scenario many times with varied values and seeds, and tabulate the results");
   study->require_subcommand(1);
   auto arguments = std::make_shared<StudyArguments>();
   for (const bool resumes : {false, true}) {
     CLI::App* action =
-        resumes ? add_action(*study, "resume", "go on with a study that was begun", arguments)
+        resumes ? add_action(*study, "resume", "continue a study", arguments)
                 : add_action(*study, "run", "run the cells that are not finished", arguments);
-    action->add_option("--jobs", arguments->jobs, "cells at a time (default: one for each core)")
+    action
+        ->add_option("--jobs", arguments->jobs, "number of parallel cells (default: one per core)")
         ->check(positive());
     if (!resumes) {
       action->add_flag("--fresh", arguments->fresh,
-                       "begin a new index; cells that nothing has changed are taken over");
+                       "start a new index; results of unchanged cells are reused");
     }
     action->add_flag("--retry", arguments->retry,
-                     "run cells again that crashed or went over their budget");
-    action->add_flag("--quiet", arguments->quiet, "no progress");
+                     "rerun cells that crashed or exceeded their budget");
+    action->add_flag("--quiet", arguments->quiet, "show no progress");
     add_slurm_options(*action, *arguments);
     action->callback(
         [arguments, resumes, &exit_status] { run_study(*arguments, resumes, exit_status); });
   }
-  add_action(*study, "check", "check the study and what it names; run nothing", arguments)
+  add_action(*study, "check", "check the study and the files it names; run nothing", arguments)
       ->callback([arguments, &exit_status] {
         const OpenStudy open(arguments->file);
         check_study(open);
@@ -269,7 +273,7 @@ void add_study_command(CLI::App& app, int& exit_status) {
                    open.design.settings(), open.design.seeds(), open.design.cells());
         exit_status = 0;
       });
-  add_action(*study, "status", "tell how many cells are finished, failed, waiting", arguments)
+  add_action(*study, "status", "print how many cells are finished, failed, waiting", arguments)
       ->callback([arguments, &exit_status] {
         const OpenStudy open(arguments->file);
         const Results results = look(open, arguments->folder(open));
@@ -307,7 +311,8 @@ void add_study_command(CLI::App& app, int& exit_status) {
         exit_status = 0;
       });
   CLI::App* list = add_action(*study, "list", "print the numbers of cells", arguments);
-  list->add_option("--state", arguments->state, "of this state, e.g. waiting (default: all)");
+  list->add_option("--state", arguments->state,
+                   "only cells in this state, e.g. waiting (default: all)");
   list->callback([arguments, &exit_status] {
     const OpenStudy open(arguments->file);
     const bool all = arguments->state.empty();
@@ -319,21 +324,23 @@ void add_study_command(CLI::App& app, int& exit_status) {
     exit_status = 0;
   });
   CLI::App* cell =
-      add_action(*study, "cell", "run one cell or several and store their results", arguments);
+      add_action(*study, "cell", "run one or several cells and store their results", arguments);
   CLI::Option* numbers =
-      cell->add_option("number", arguments->numbers, "of cells, from 0")->expected(1, -1);
-  cell->add_option("--jobs", arguments->jobs, "cells at a time (1)")->check(positive());
-  cell->add_flag("--serve", arguments->serve, "run cells that a driver names")->group("");
+      cell->add_option("number", arguments->numbers, "cell numbers, from 0")->expected(1, -1);
+  cell->add_option("--jobs", arguments->jobs, "number of parallel cells (default: 1)")
+      ->check(positive());
+  cell->add_flag("--serve", arguments->serve, "run cells named by a driver")->group("");
   CLI::Option* chunks =
-      cell->add_option("--chunks", arguments->chunks, "file with the cells of tasks")->group("");
-  cell->add_option("--task", arguments->task, "line of that file, from 0")->group("");
+      cell->add_option("--chunks", arguments->chunks, "file that lists the cells of each task")
+          ->group("");
+  cell->add_option("--task", arguments->task, "line of the file of --chunks, from 0")->group("");
   cell->add_option("--expect", arguments->expected, "digest of the study")->group("");
   cell->callback([arguments, numbers, chunks, &exit_status] {
     const OpenStudy open(arguments->file);
     exit_status = 0;
     if (arguments->serve) return serve(open, arguments->folder(open));
     if (numbers->count() == 0 && chunks->count() == 0) {
-      throw ConfigError("the number of the cell must be given");
+      throw ConfigError("a cell number must be given");
     }
     run_named_cells(*arguments, open, exit_status);
   });
@@ -341,8 +348,8 @@ void add_study_command(CLI::App& app, int& exit_status) {
       *study, "repeat",
       "run one cell as 'vinerow run' does, with log, pictures and report in <out>/repeat/<cell>",
       arguments);
-  repeat->add_option("number", arguments->numbers, "of the cell, from 0")->required()->expected(1);
-  repeat->add_flag("--quiet", arguments->quiet, "no progress");
+  repeat->add_option("number", arguments->numbers, "cell number, from 0")->required()->expected(1);
+  repeat->add_flag("--quiet", arguments->quiet, "show no progress");
   repeat->callback([arguments, &exit_status] {
     const OpenStudy open(arguments->file);
     const std::size_t number = arguments->numbers.front();
@@ -352,7 +359,7 @@ void add_study_command(CLI::App& app, int& exit_status) {
     choice.quiet = arguments->quiet;
     const scenario::Scenario scenario =
         open.source.load(open.registry, open.design.overrides(number));
-    exit_status = static_cast<int>(run_and_tell(scenario, open.registry, choice));
+    exit_status = static_cast<int>(run_and_report(scenario, open.registry, choice));
   });
 }
 

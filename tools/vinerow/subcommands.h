@@ -1,6 +1,5 @@
 #pragma once
-/// The sub-commands of `vinerow`. Each adds itself to the parser; its callback sets the exit
-/// status.
+/// Sub-commands of `vinerow`. Each adds itself to the parser; its callback sets the exit status.
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -14,12 +13,13 @@
 
 namespace vinerow::tools {
 
-/// Adds one command. @param exit_status  set by the command when it has run
+/// Each adds one command. @param exit_status  set by the command when it has run
 void add_run_command(CLI::App& app, int& exit_status);
 void add_validate_command(CLI::App& app, int& exit_status);
 void add_study_command(CLI::App& app, int& exit_status);
 void add_list_command(CLI::App& app, int& exit_status);
 void add_schema_command(CLI::App& app, int& exit_status);
+void add_docs_command(CLI::App& app, int& exit_status);
 void add_render_command(CLI::App& app, int& exit_status);
 void add_info_command(CLI::App& app, int& exit_status);
 void add_export_command(CLI::App& app, int& exit_status);
@@ -36,38 +36,38 @@ void add_report_command(CLI::App& app, int& exit_status);
 
 void add_completion_command(CLI::App& app, int& exit_status);
 
-/// Options that every command which reads a scenario has.
+/// Options of every command that reads a scenario.
 struct ScenarioArguments {
   std::filesystem::path file;
   scenario::Overrides overrides;
   std::vector<std::filesystem::path> plugins;
 };
-/// @param set_example  what the help of --set shows: a value that means something to this command
+/// @param set_example  example in the help of --set, with a key that matters to this command
 void add_scenario_arguments(CLI::App& command, ScenarioArguments& arguments,
                             const std::string& set_example);
 
-/// What `vinerow run` writes.
+/// Selection of the output of `vinerow run`.
 struct RunChoice {
   std::filesystem::path out;  ///< empty: runs/<scenario name>
   bool no_log = false, no_pictures = false, no_report = false, quiet = false;
 };
-/// Runs a scenario as `vinerow run` does: progress, verdict, pictures, report. @returns the exit
+/// Runs a scenario like `vinerow run`: progress, verdict, pictures, report. @returns the exit
 /// status
-run::RunStatus run_and_tell(const scenario::Scenario& scenario, const Registry& registry,
-                            const RunChoice& choice);
+run::RunStatus run_and_report(const scenario::Scenario& scenario, const Registry& registry,
+                              const RunChoice& choice);
 
-/// RUN/log.mcap of a folder, else the file itself.
+/// RUN/log.mcap for a folder, otherwise the file itself.
 std::filesystem::path log_of(const std::filesystem::path& run_or_log);
 
-/// Draws the coverage of every camera that took pictures in a run, numbers beside it as .json.
-/// @param out  the picture; of several cameras each has its name added
-/// @returns the pictures; none where the log holds no shots
+/// Draws the coverage of every camera that took pictures in a run, and writes its numbers as .json.
+/// @param out  the picture; with several cameras the camera's name is added
+/// @returns the pictures; empty if the log has no shots
 std::vector<std::filesystem::path> write_coverage(const std::filesystem::path& log,
                                                   const Registry& registry,
                                                   const playback::CoverageChoice& choice,
                                                   const std::filesystem::path& out);
 
-/// Built-in parts plus those of the scenario's and the command line's plug-ins.
+/// Registry with the built-in parts and the parts of the plug-ins.
 Registry make_registry(const std::vector<std::filesystem::path>& plugins);
 /// Loads plug-ins, then the scenario against them. @throws ConfigError
 scenario::Scenario load(const ScenarioArguments& arguments, Registry& registry);

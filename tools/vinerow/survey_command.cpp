@@ -44,25 +44,25 @@ void print_survey(const SurveyTask& task, const controllers::SurveyPlan& plan) {
   const auto n = [&](const char* name) { return plan.numbers.at(name); };
   const SurveyCamera& camera = task.request.camera;
   fmt::print(
-      "area             {:.2f} ha, {:.2f} % covered, every place on {:.0f} pictures or more "
-      "({:.1f} in the mean)\n",
+      "area             {:.2f} ha, {:.2f} % covered, every point on at least {:.0f} pictures "
+      "({:.1f} on average)\n",
       n("area_ha"), 100.0 * n("covered_share"), n("views_min"), n("views_mean"));
-  fmt::print("camera           {} ({:g} mm, {} x {}), a picture shows {:.1f} x {:.1f} m\n",
+  fmt::print("camera           {} ({:g} mm, {} x {}), footprint {:.1f} x {:.1f} m\n",
              camera.name, camera.focal_length_mm, camera.columns, camera.rows,
              n("footprint_width_m"), n("footprint_length_m"));
   fmt::print("height           {:.1f} m above the ground ({:.1f} to {:.1f} m on lanes)\n",
              n("height_m"), n("height_above_ground_min_m"), n("height_above_ground_max_m"));
   fmt::print(
-      "GSD              {:.1f} mm at {:.1f} m; {:.1f} to {:.1f} mm at the lanes' lowest and "
-      "highest\n",
+      "GSD              {:.1f} mm at {:.1f} m; {:.1f} to {:.1f} mm at the lowest and highest "
+      "points of the lanes\n",
       n("gsd_mm"), n("height_m"), n("gsd_min_mm"), n("gsd_max_mm"));
   fmt::print(
-      "overlap          {:.1f} % forward, {:.1f} % sideways ({:.1f} %, {:.1f} % where the flight is "
+      "overlap          {:.1f} % forward, {:.1f} % side ({:.1f} %, {:.1f} % where the flight is "
       "lowest)\n",
       100.0 * n("forward_overlap"), 100.0 * n("side_overlap"), 100.0 * n("forward_overlap_min"),
       100.0 * n("side_overlap_min"));
   fmt::print(
-      "pictures         {:.0f}, one each {:.2f} m: each {:.2f} s at {:.1f} m/s over ground\n",
+      "pictures         {:.0f}, one every {:.2f} m: every {:.2f} s at {:.1f} m/s over ground\n",
       n("shots"), n("photo_distance_m"), n("photo_interval_s"), n("ground_speed_max_mps"));
   fmt::print("lanes            {:.0f}, {:.1f} m apart, bearing {:.1f} deg\n", n("lanes"),
              n("lane_spacing_m"), n("lane_bearing_deg"));
@@ -72,16 +72,16 @@ void print_survey(const SurveyTask& task, const controllers::SurveyPlan& plan) {
   }
   fmt::print("order            lanes {} (numbers as in waypoints.csv)\n", order);
   if (plan.rotorcraft) {
-    fmt::print("turns            on the spot; {:.1f} m beyond the pictures to slow down\n",
+    fmt::print("turns            on the spot; {:.1f} m beyond the last picture to slow down\n",
                n("run_out_m"));
   } else {
     fmt::print("turns            {:.1f} m radius; {:.0f} pass over lanes, {:.0f} swing wide\n",
                n("turn_radius_m"), n("skipping_turns"), n("wide_turns"));
   }
   fmt::print(
-      "waypoints        {:.0f}, of them {:.0f} corners of lanes and {:.0f} for the terrain\n",
+      "waypoints        {:.0f}, of which {:.0f} are lane corners and {:.0f} follow the terrain\n",
       n("waypoints"), n("corners"), n("ramp_points"));
-  fmt::print("ramps            {:.2f} m off the wanted height at most, slope up to {:.1f} %\n",
+  fmt::print("ramps            at most {:.2f} m off the requested height, slope up to {:.1f} %\n",
              n("ramp_error_m"), 100.0 * n("slope_max"));
   if (plan.rotorcraft) {
     fmt::print("climb            straight up above the start\n");
@@ -92,13 +92,13 @@ void print_survey(const SurveyTask& task, const controllers::SurveyPlan& plan) {
              n("flight_time_s"), n("lane_way_m"), n("turn_way_m"));
   if (n("steep_terrain_extra_m") > task.request.ramp_error_m) {
     fmt::print(
-        "note: up to {:.1f} m higher than wanted, where the terrain is steeper than {:.0f} %; {} "
+        "note: up to {:.1f} m higher than requested where the terrain is steeper than {:.0f} %; {} "
         "keeps the height\n",
         n("steep_terrain_extra_m"), 100.0 * task.request.max_slope,
         plan.rotorcraft ? "a slower flight, or a larger --max_slope," : "a larger --max_slope");
   }
   if (n("samples_beyond_terrain") > 0.0) {
-    fmt::print("note: turns leave the terrain; its height at the edge goes on there\n");
+    fmt::print("note: turns leave the terrain; they use its height at the edge\n");
   }
 }
 
@@ -131,7 +131,7 @@ void add_survey_command(CLI::App& app, int& exit_status) {
   arguments->heading_deg = std::numeric_limits<double>::quiet_NaN();
   CLI::App* command = app.add_subcommand(
       "survey",
-      "plan a survey from the air, of a scenario or of a polygon; write missions and a "
+      "plan an aerial survey of a scenario or a polygon; write missions, waypoints and a "
       "picture");
   add_scenario_arguments(*command, arguments->scenario, "plane.planner.height_m=60");
   command->get_option("scenario")->required(false);
@@ -144,14 +144,15 @@ void add_survey_command(CLI::App& app, int& exit_status) {
                    "latitude,longitude[,altitude] of x = y = 0 (default: the polygon's first "
                    "corner)")
       ->delimiter(',');
-  command->add_option("--dem", arguments->dem, "elevation model (GeoTIFF); without it flat ground");
-  command->add_option("--crs", arguments->crs, "of the elevation model, like EPSG:32632");
+  command->add_option("--dem", arguments->dem, "elevation model (GeoTIFF) (default: flat ground)");
+  command->add_option("--crs", arguments->crs,
+                      "coordinate system of the elevation model, e.g. EPSG:32632");
   command
       ->add_option("--start", arguments->start,
                    "x,y of the start (default: the polygon's first corner)")
       ->delimiter(',');
   command->add_option("--heading", arguments->heading_deg,
-                      "of the start, degrees clockwise from north");
+                      "bearing at the start, degrees clockwise from north");
   command->add_option("--out", arguments->out,
                       "folder for survey.plan, survey.waypoints, waypoints.csv and survey.png "
                       "(default: surveys/<name>)");
@@ -168,7 +169,7 @@ void add_survey_command(CLI::App& app, int& exit_status) {
   command->callback([arguments, &exit_status] {
     const bool has_scenario = !arguments->scenario.file.empty();
     if (has_scenario == !arguments->polygon.empty()) {
-      throw ConfigError("survey: give a scenario or --polygon, one of them");
+      throw ConfigError("survey: give either a scenario or --polygon");
     }
     if (has_scenario) {
       Registry registry;

@@ -22,12 +22,12 @@ double read_number(const std::string& name, const std::string& text) {
     std::size_t used = 0;
     const double value = std::stod(text, &used);
     if (used == text.size()) return value;
-  } catch (const std::exception&) {  // no number at all, or too large a one
+  } catch (const std::exception&) {  // not a number, or too large
   }
   throw ConfigError(fmt::format("--{}: '{}' is not a number", name, text));
 }
 
-/// Puts values of the command line into the planner's parameters, checked as a file's are.
+/// Copies values of the command line into the planner's parameters, with the checks for files.
 void set_values(const std::map<std::string, std::string>& values, ParameterSet& parameters) {
   for (const ParameterSpec& spec : controllers::survey_spec().parameters) {
     const auto found = values.find(spec.name);
@@ -52,7 +52,7 @@ void set_values(const std::map<std::string, std::string>& values, ParameterSet& 
   }
 }
 
-/// A place on the command line, "--origin 44.7,8.03".
+/// Origin from the command line ("--origin 44.7,8.03") or from the polygon's first corner.
 GeoOrigin find_survey_origin(const SurveyArguments& arguments) {
   GeoOrigin origin;
   if (!arguments.origin.empty()) {
@@ -66,9 +66,9 @@ GeoOrigin find_survey_origin(const SurveyArguments& arguments) {
     return origin;
   }
   if (arguments.polygon.extension() == ".csv") {
-    throw ConfigError(
-        fmt::format("'{}' is in metres: --origin latitude,longitude must say where its (0, 0) is",
-                    arguments.polygon.string()));
+    throw ConfigError(fmt::format(
+        "'{}' is in metres: give the position of its (0, 0) with --origin latitude,longitude",
+        arguments.polygon.string()));
   }
   for (const io::GeoFeature& feature : io::read_features(arguments.polygon)) {
     if (feature.kind != io::GeometryKind::kPolygon) continue;
@@ -79,7 +79,7 @@ GeoOrigin find_survey_origin(const SurveyArguments& arguments) {
   return origin;
 }
 
-/// Swapped coordinates lie far away, where "outside" alone would not tell what is wrong.
+/// Rejects a first corner outside the terrain and suggests swapped coordinates as the cause.
 void refuse_swapped_corner(const SurveyArguments& arguments, const io::ElevationLookup& lookup) {
   if (arguments.polygon.extension() == ".csv") return;  // in metres
   for (const io::GeoFeature& feature : io::read_features(arguments.polygon)) {
@@ -93,7 +93,7 @@ void refuse_swapped_corner(const SurveyArguments& arguments, const io::Elevation
       if (!is_swapped) continue;
       throw ConfigError(
           fmt::format("--polygon: point {} of '{}' at latitude {:.6f} deg, longitude {:.6f} deg "
-                      "lies outside the terrain of '{}'; are latitude and longitude swapped?",
+                      "is outside the terrain of '{}'; are latitude and longitude swapped?",
                       i + 1, arguments.polygon.string(), deg_from_rad(latitude_rad),
                       deg_from_rad(longitude_rad), arguments.dem.string()));
     }
@@ -101,7 +101,7 @@ void refuse_swapped_corner(const SurveyArguments& arguments, const io::Elevation
   }
 }
 
-/// Flat ground, or that of an elevation model.
+/// Ground height: flat, or from an elevation model.
 controllers::GroundHeight find_ground(const SurveyArguments& arguments, GeoOrigin& origin) {
   if (arguments.dem.empty()) return controllers::make_ground(nullptr, 0.0);
   const auto lookup =
@@ -148,11 +148,11 @@ SurveyTask task_of_polygon(const SurveyArguments& arguments) {
   if (std::isfinite(arguments.heading_deg)) yaw_rad = rad_from_deg(90.0 - arguments.heading_deg);
   const auto ground_m = task.ground(start);
   if (!ground_m) {
-    // The polygon's own fault is the better sentence where it lies outside, too.
+    // If the polygon is outside too, its own message is clearer.
     for (const Eigen::Vector2d& p : task.request.polygon_W) {
       if (!task.ground(p)) return task;
     }
-    throw ConfigError(fmt::format("--start: ({:.1f}, {:.1f}) lies outside the terrain of '{}'",
+    throw ConfigError(fmt::format("--start: ({:.1f}, {:.1f}) is outside the terrain of '{}'",
                                   start.x(), start.y(), arguments.dem.string()));
   }
   task.start_W = {quaternion_from_rpy({0, 0, yaw_rad}), {start.x(), start.y(), *ground_m}};
@@ -182,7 +182,7 @@ const scenario::VehicleConfig& find_vehicle(const scenario::Scenario& scenario,
                         : fmt::format("{}: there is no vehicle '{}'", file, arguments.vehicle));
 }
 
-/// The simulation must outlive the task, whose ground it is.
+/// The simulation must outlive the task, which uses its ground.
 }  // namespace
 
 SurveyTask task_of_scenario(const SurveyArguments& arguments, const scenario::Scenario& scenario,

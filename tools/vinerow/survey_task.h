@@ -1,5 +1,5 @@
 #pragma once
-/// What `vinerow survey` is asked to plan, from a scenario or from a polygon.
+/// Planning task of `vinerow survey`, from a scenario or from a polygon.
 
 #include <filesystem>
 #include <map>
@@ -13,7 +13,7 @@
 
 namespace vinerow::tools {
 
-/// What the command line of `vinerow survey` says.
+/// Command-line arguments of `vinerow survey`.
 struct SurveyArguments {
   ScenarioArguments scenario;
   std::string vehicle;
@@ -24,7 +24,7 @@ struct SurveyArguments {
   std::map<std::string, std::string> values;  ///< parameters of the planner, as texts
 };
 
-/// All that a survey needs, wherever it comes from.
+/// All data that planning a survey needs.
 struct SurveyTask {
   std::string title;
   controllers::SurveyRequest request;
@@ -33,11 +33,12 @@ struct SurveyTask {
   Pose start_W;
 };
 
-/// Of the area in `polygon`, above flat ground or an elevation model. @throws ConfigError
+/// Task for the area in `polygon`, above flat ground or an elevation model. @throws ConfigError
 SurveyTask task_of_polygon(const SurveyArguments& arguments);
 
-/// Of a vehicle whose planner is `survey`. @param simulation  must outlive the task, whose ground
-/// it is @throws ConfigError
+/// Task of a vehicle whose planner is `survey`.
+/// @param simulation  must outlive the task, which uses its ground
+/// @throws ConfigError
 SurveyTask task_of_scenario(const SurveyArguments& arguments, const scenario::Scenario& scenario,
                             Simulation& simulation);
 

@@ -16,7 +16,7 @@ bool has_key(const std::vector<std::string>& keys, const std::string& key) {
   return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
-/// As keys spell a unit: "m/s" is "mps", "1/m2" is "per_m2".
+/// Unit as spelt in keys: "mps" for "m/s", "per_m2" for "1/m2".
 std::string unit_suffix(const std::string& unit) {
   if (unit.starts_with("1/")) return "per_" + unit.substr(2);
   std::string suffix = unit;
@@ -33,7 +33,7 @@ std::string words_of(const ParameterSpec& spec) {
   return limits.empty() ? spec.description : fmt::format("{} ({})", spec.description, limits);
 }
 
-/// Sets one key of the values, and says in errors which flag was at fault.
+/// Sets one key of the values, and names the flag in errors.
 struct Setter {
   std::shared_ptr<ParameterSet> values;
   std::string key, flag;

@@ -11,7 +11,7 @@
 namespace vinerow::tools {
 namespace {
 
-/// How the vehicle is called in the scenario that reads it, and so in errors.
+/// Name of the vehicle in the scenario that includes it, and so in errors.
 constexpr const char* kName = "plane";
 
 struct TrimArguments {
@@ -31,20 +31,20 @@ void refuse_scenario(const std::filesystem::path& file) {
   for (std::string line; std::getline(in, line);) {
     if (!line.starts_with("vehicles:")) continue;
     throw ConfigError(
-        fmt::format("trim: '{}' is a scenario, must be the file of one vehicle, as the scenario's "
-                    "vehicle includes it (e.g. assets/vehicles/mh900_like.yaml)",
+        fmt::format("trim: '{}' is a scenario, must be the file of one vehicle, as a scenario "
+                    "includes it (e.g. assets/vehicles/mh900_like.yaml)",
                     file.string()));
   }
 }
 
-/// The vehicle of a file as a scenario's `include` reads it.
+/// Loads a vehicle from a file as `include` in a scenario does.
 scenario::VehicleConfig load_vehicle(const TrimArguments& arguments, const Registry& registry) {
   refuse_scenario(arguments.file);
   std::string quoted;
   for (const char c : std::filesystem::absolute(arguments.file).string()) {
     quoted += c == '\'' ? std::string("''") : std::string(1, c);
   }
-  // What stands around the vehicle is read but not built.
+  // The world around the vehicle is read but not built.
   const std::string scenario = fmt::format(
       "vinerow: 1\nname: trim\nworld: {{type: vineyard}}\nvehicles:\n  {}:\n"
       "    include: '{}'\n    spawn: {{x_m: 0, y_m: 0}}\n",
@@ -73,7 +73,7 @@ int trim(const TrimArguments& arguments) {
   check_option(arguments.speed_mps >= 0.0, "speed", arguments.speed_mps,
                "> 0 m/s (0: the vehicle's cruise speed)");
   check_option(arguments.air_density_kgm3 >= 0.0, "air-density", arguments.air_density_kgm3,
-               "> 0 kg/m3 (0: the vehicle's own)");
+               "> 0 kg/m3 (0: that of the vehicle)");
   const Registry registry = make_registry(arguments.plugins);
   const scenario::VehicleConfig config = load_vehicle(arguments, registry);
   VehicleContext context;
@@ -99,16 +99,17 @@ int trim(const TrimArguments& arguments) {
 void add_trim_command(CLI::App& app, int& exit_status) {
   auto arguments = std::make_shared<TrimArguments>();
   CLI::App* command = app.add_subcommand(
-      "trim", "steady flight, modes, linear models and limits of a vehicle on wings");
+      "trim", "compute steady flight, modes, linear models and limits of a fixed-wing vehicle");
   command->add_option("vehicle", arguments->file, "vehicle file (YAML), as scenarios include it")
       ->required();
   command->add_option("--speed", arguments->speed_mps,
                       "true airspeed, m/s (default: the vehicle's cruise speed)");
   command->add_option("--climb", arguments->climb_deg, "climb angle of the path, deg");
   command->add_option("--bank", arguments->bank_deg, "bank of the turn, deg, right > 0");
-  command->add_option("--period", arguments->period_s, "of the sampled models, s (default 0.05)");
+  command->add_option("--period", arguments->period_s,
+                      "sampling period of the discrete models, s (default: 0.05)");
   command->add_option("--air-density", arguments->air_density_kgm3,
-                      "kg/m3 (default: the vehicle's own, 1.225)");
+                      "air density, kg/m3 (default: that of the vehicle, 1.225)");
   command->add_option("--set", arguments->sets,
                       "override a value of the vehicle, e.g. --set mass_kg=1.3 (may be given "
                       "several times)");

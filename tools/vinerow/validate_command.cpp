@@ -12,11 +12,11 @@ void add_validate_command(CLI::App& app, int& exit_status) {
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand("validate",
-                                         "check a scenario as a run does before its first step: "
+                                         "check a scenario like a run before its first step: "
                                          "files, values, wiring, metrics, plans");
   add_scenario_arguments(*command, arguments->scenario, "rover.controller.speed_mps=0.8");
   command->add_flag("--files-only", arguments->files_only,
-                    "do not build the world and the vehicles, and so make no plans");
+                    "build no world and no vehicles, and so make no plans");
   command->callback([arguments, &exit_status] {
     Registry registry;
     const scenario::Scenario scenario = load(arguments->scenario, registry);

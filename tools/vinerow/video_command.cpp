@@ -33,7 +33,7 @@ int make_video(const VideoArguments& arguments) {
   const std::filesystem::path log = log_of(arguments.pictures.log);
   playback::PictureOptions options = picture_options(arguments.pictures);
   if (options.cameras.size() > 1) {
-    throw ConfigError("video: --camera is given several times, must be one camera");
+    throw ConfigError("video: --camera given several times, must be one camera");
   }
   if (options.cameras.empty()) {
     const scenario::Scenario scenario = playback::scenario_of_log(log, registry);
@@ -44,7 +44,7 @@ int make_video(const VideoArguments& arguments) {
   const std::filesystem::path out = arguments.out.empty()
                                         ? log.parent_path() / (options.cameras.front() + ".mp4")
                                         : arguments.out;
-  // Before any frame: it refuses where ffmpeg is not installed.
+  // Before any frame is drawn: the constructor throws if ffmpeg is not installed.
   VideoEncoder encoder(out, arguments.fps);
   io::make_folder_of(out);
   ProgressLine line(arguments.quiet);
@@ -61,7 +61,7 @@ int make_video(const VideoArguments& arguments) {
   if (!report.write_failure.empty()) throw WriteError(report.write_failure);
   if (video_interrupted != 0) throw WriteError("interrupted: there is no video");
   if (!report.note.empty()) throw ConfigError("no video: " + report.note);
-  if (frames == 0) throw ConfigError("no video: the camera has no frame in this span");
+  if (frames == 0) throw ConfigError("no video: the camera has no frame in this time span");
   encoder.finish();
   fmt::print("{}  {} frames, {:g} s at {:g} frames per second{}\n", out.string(), frames,
              frames / arguments.fps, arguments.fps,
@@ -74,17 +74,18 @@ int make_video(const VideoArguments& arguments) {
 void add_video_command(CLI::App& app, int& exit_status) {
   auto arguments = std::make_shared<VideoArguments>();
   CLI::App* command =
-      app.add_subcommand("video", "make a video from a log, by ffmpeg, without simulating again");
+      app.add_subcommand("video", "make a video from a log with ffmpeg, without simulating again");
   add_picture_arguments(*command, arguments->pictures);
-  command->add_option("-o,--out", arguments->out,
-                      "the video: .mp4, .mkv, .webm, .gif (default: <camera>.mp4 beside the log)");
+  command->add_option(
+      "-o,--out", arguments->out,
+      "video to write: .mp4, .mkv, .webm, .gif (default: <camera>.mp4 next to the log)");
   command->add_option("--fps", arguments->fps, "frames per second of the video")
       ->check(CLI::Range(1.0, 240.0))
       ->capture_default_str();
-  command->add_option("--speed", arguments->speed, "simulated seconds in a second of the video")
+  command->add_option("--speed", arguments->speed, "simulated seconds per second of the video")
       ->check(CLI::Range(0.01, 1000.0))
       ->capture_default_str();
-  command->add_flag("--quiet", arguments->quiet, "no progress");
+  command->add_flag("--quiet", arguments->quiet, "show no progress");
   command->callback([arguments, &exit_status] { exit_status = make_video(*arguments); });
 }
 

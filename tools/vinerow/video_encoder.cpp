@@ -29,12 +29,12 @@ VideoEncoder::VideoEncoder(std::filesystem::path out, double fps)
   }
   if (out_.extension().empty()) {
     throw ConfigError(fmt::format(
-        "'{}': a video needs an ending that says its format, such as .mp4", out_.string()));
+        "'{}': a video needs a file extension that gives its format, such as .mp4", out_.string()));
   }
-  // ffmpeg goes by the ending, so it stays last.
+  // ffmpeg derives the format from the extension, so the extension stays last.
   temporary_ = out_.parent_path() / fmt::format(".{}.{}.part{}", out_.stem().string(), ::getpid(),
                                                 out_.extension().string());
-  // A broken pipe shall be told, not end the program.
+  // A broken pipe is reported as an error; the signal would end the program.
   std::signal(SIGPIPE, SIG_IGN);
 }
 
@@ -67,11 +67,11 @@ void VideoEncoder::start(int width, int height) {
                                     "pipe:0"};
   const std::string ending = lower_extension(out_);
   if (ending == ".mp4" || ending == ".mov" || ending == ".mkv" || ending == ".webm") {
-    // What every player shows; it needs even sizes.
+    // Every player shows this pixel format. It needs even sizes.
     words.insert(words.end(), {"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"});
   }
   if (ending == ".mp4" || ending == ".mov") words.insert(words.end(), {"-movflags", "+faststart"});
-  // A name that begins with '-' is no option: "./-x.mp4" is the same file.
+  // The prefix keeps a name that begins with '-' from being read as an option.
   words.push_back("file:" + temporary_.string());
 
   int ends[2];
@@ -102,8 +102,8 @@ void VideoEncoder::add(const std::vector<std::uint8_t>& rgb, int width, int heig
     if (count < 0) {
       wait_for_success();
       throw WriteError(
-          fmt::format("'{}' cannot be written: ffmpeg ended early, its own words "
-                      "stand above",
+          fmt::format("'{}' cannot be written: ffmpeg ended early, its messages are "
+                      "above",
                       out_.string()));
     }
     done += static_cast<std::size_t>(count);
@@ -121,7 +121,7 @@ bool VideoEncoder::wait_for_success() {
 
 void VideoEncoder::finish() {
   if (!wait_for_success()) {
-    throw WriteError(fmt::format("'{}' cannot be written: ffmpeg failed, its own words stand above",
+    throw WriteError(fmt::format("'{}' cannot be written: ffmpeg failed, its messages are above",
                                  out_.string()));
   }
   std::error_code failed;

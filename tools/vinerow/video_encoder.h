@@ -1,6 +1,5 @@
 #pragma once
-/// Frames into a video by ffmpeg, where that is installed: a process of its own that takes raw
-/// pixels.
+/// Video encoder that pipes raw frames into a separate ffmpeg process.
 
 #include <sys/types.h>
 
@@ -12,18 +11,18 @@ namespace vinerow::tools {
 
 class VideoEncoder {
  public:
-  /// @param out  its ending says the format: .mp4, .mkv, .webm, .gif
-  /// @throws ConfigError where there is no ffmpeg
+  /// @param out  its extension gives the format: .mp4, .mkv, .webm, .gif
+  /// @throws ConfigError if ffmpeg is not installed
   VideoEncoder(std::filesystem::path out, double fps);
-  /// Removes what is not finished.
+  /// Removes an unfinished video.
   ~VideoEncoder();
   VideoEncoder(const VideoEncoder&) = delete;
   VideoEncoder& operator=(const VideoEncoder&) = delete;
 
-  /// @param rgb  top row first; all frames have the first one's size
-  /// @throws WriteError where ffmpeg ended
+  /// @param rgb  top row first; all frames must have the size of the first
+  /// @throws WriteError if ffmpeg has ended
   void add(const std::vector<std::uint8_t>& rgb, int width, int height);
-  /// Waits for ffmpeg and gives the video its name. @throws WriteError
+  /// Waits for ffmpeg and moves the video to its final name. @throws WriteError
   void finish();
 
  private:

@@ -1,8 +1,8 @@
 #pragma once
-/// Paper B's rover: four driven wheels, no steering, turned by the difference of its sides.
+/// Rover of paper B: four driven wheels and skid steering.
 ///
 /// Actuators: wheel_fl_speed_radps, wheel_fr_..., wheel_rl_..., wheel_rr_..., positive forward.
-/// Kinematic fidelity takes the mean of each side. Signals: "wheels" (NamedValues), "battery".
+/// Kinematic fidelity uses the mean of each side. Signals: "wheels" (NamedValues), "battery".
 /// B: centre of mass, in the middle between the wheels, com_height_m above level ground.
 
 #include <memory>
@@ -17,7 +17,7 @@
 
 namespace vinerow::vehicles {
 
-/// Body, wheels and battery of the rover; without collision shapes.
+/// Body, wheels and battery of the rover, without collision shapes.
 WheeledPlatformParams diff_drive_platform_params(const DiffDriveRoverParams& params,
                                                  double gravity_mps2 = 9.80665);
 
@@ -41,8 +41,8 @@ class DiffDriveRover final : public PlatformVehicle {
   void make_links();
 
   DiffDriveRoverParams params_;
-  // Kinematic fidelity: this one instead of the platform; the wheels turn as commanded (their
-  // speeds are the actuator states) and the battery pays rolling resistance.
+  // Kinematic fidelity: replaces the platform. The wheels turn as commanded (their speeds are the
+  // actuator states), and rolling resistance drains the battery.
   std::optional<KinematicPlatform> kinematic_;
   std::array<double, 4> angle_rad_{};
   BatteryState battery_;

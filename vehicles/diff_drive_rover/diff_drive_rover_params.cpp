@@ -15,9 +15,9 @@ const ParameterTable<DiffDriveRoverParams>& diff_drive_rover_table() {
           .choice("fidelity", &P::kinematic, {{"physics", false}, {"kinematic", true}},
                   "forces and slip, or the paper's pure kinematic model")
           .number("max_speed_kmh", "km/h", &P::max_speed_mps, kPositive,
-                  "reference speed told to controllers", kKmh)
+                  "reference speed for controllers", kKmh)
           .number("min_turning_radius_m", "m", &P::min_turning_radius_m, between(0.0, 1e3),
-                  "smallest turning radius told to planners and controllers")
+                  "smallest turning radius for planners and controllers")
           .include(chassis_of, chassis_table());
   return table;
 }
@@ -32,8 +32,8 @@ PartSpec diff_drive_rover_spec() {
   PartSpec spec;
   spec.name = "diff_drive_rover";
   spec.description =
-      "Four-wheel skid-steered rover of paper B (table 1), on the shared wheel or, with fidelity: "
-      "kinematic, as the paper's pure rolling model (eq. 1-2)";
+      "Four-wheel skid-steered rover of paper B (table 1), with wheel and tyre forces or, with "
+      "fidelity: kinematic, the paper's pure rolling model (eq. 1-2)";
   spec.writes = {"wheels", "battery"};
   spec.parameters = diff_drive_rover_table().specs();
   return spec;

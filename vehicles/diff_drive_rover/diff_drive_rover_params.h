@@ -1,5 +1,5 @@
 #pragma once
-/// Numbers of paper B's rover. Sources: assets/vehicles/rover_paper_b.yaml.
+/// Parameters of paper B's rover. Sources: assets/vehicles/rover_paper_b.yaml.
 
 #include "engine/api/part.h"
 #include "vehicles/parts/chassis.h"
@@ -16,7 +16,7 @@ struct DiffDriveRoverParams : ChassisParams {
   void validate() const;
 };
 
-/// The spec that `vinerow list` shows.
+/// Specification, as `vinerow list` shows it.
 PartSpec diff_drive_rover_spec();
 
 /// @param parameters  of diff_drive_rover_spec()

@@ -1,6 +1,6 @@
 #pragma once
-/// The rover's body as drawn: steel frame, white shell with green panels, battery box, sensor bar,
-/// mast with GNSS antenna. Decoration only; the hull that collides is in diff_drive_rover.cpp.
+/// Mesh of the rover's body for display: steel frame, white shell with green panels, battery box,
+/// sensor bar, mast with GNSS antenna. The collision hull is in diff_drive_rover.cpp.
 
 #include "engine/api/mesh.h"
 

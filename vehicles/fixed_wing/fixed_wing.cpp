@@ -46,7 +46,7 @@ FixedWing::FixedWing(const FixedWingParams& params, const VehicleContext& contex
 }
 
 void FixedWing::spawn(physics::PhysicsWorld& world, const Pose& X_WB) {
-  demand_step(world.settings().step, kMostFlightStep, params_.name, "its wings");
+  demand_step(world.settings().step, kMaxFlightStep, params_.name, "its wings");
   world_ = &world;
   const Vector3d ground_W = X_WB.p - params_.shape.belly_m * (X_WB.q * Vector3d::UnitZ());
   launcher_.hold(params_.launch, ground_W, yaw_from_quaternion(X_WB.q));
@@ -77,10 +77,10 @@ void FixedWing::start_in_air(const Pose& X_WB, const Vector3d& ground_W) {
   const auto flight =
       find_level_flight(params_, speed_mps, gravity_mps2_, probe_->air_density_kgm3());
   if (!flight) {
-    throw ConfigError(fmt::format(
-        "{}: no level flight at start_speed_mps = {:.4g} to start with: it stalls below {:.1f} "
-        "m/s, or throttle or elevons do not reach",
-        params_.name, speed_mps, params_.stall_speed_mps(gravity_mps2_)));
+    throw ConfigError(
+        fmt::format("{}: start_speed_mps = {:.4g} allows no level flight: it stalls below {:.1f} "
+                    "m/s, or throttle or elevons do not suffice",
+                    params_.name, speed_mps, params_.stall_speed_mps(gravity_mps2_)));
   }
   const double yaw_rad = yaw_from_quaternion(X_WB.q);
   const double pitch_rad = params_.launch.start_pitch_rad.value_or(flight->alpha_rad);

@@ -1,18 +1,18 @@
 #pragma once
-/// A flying wing as a rigid body: lift, drag and moments by coefficients with stall
-/// (parts/wing_aerodynamics.h), propeller on a motor, elevons on servos.
+/// Flying wing as a rigid body: lift, drag and moments by coefficients with stall
+/// (parts/wing_aerodynamics.h), a propeller with motor, elevons with servos.
 ///
 /// Actuators: throttle (0..1), elevon_left_rad, elevon_right_rad (trailing edge down > 0). Signals:
-/// "air" (NamedValues: airspeed, angles, where the actuators stand, thrust, wind felt), "battery",
+/// "air" (NamedValues: airspeed, angles, actuator states, thrust, wind), "battery",
 /// "vehicle_event".
 ///
-/// Loads are those of the middle of a step: throttle and servos in closed form, motion carried on
-/// by half a step from its last change: second order in the step.
+/// Loads are evaluated in the middle of a step: throttle and servos in closed form, motion
+/// extrapolated by half a step from its last change. The integration is second order in the step.
 ///
-/// When spawned it rests on its launcher above the place of the spawn, until the throttle command
-/// first exceeds `launch_throttle`; then it is pushed, evenly accelerated, and flies. With
-/// `launch: air` it flies from the start, trimmed. It lands on its belly. Once wrecked (crash())
-/// the motor stops and physics goes on. B: centre of mass, x forward, y left, z up.
+/// It spawns on its launcher above the spawn point and stays there until the throttle command first
+/// exceeds `launch_throttle`; then it is accelerated evenly and flies. With `launch: air` it flies
+/// from the start, trimmed. It lands on its belly. Once wrecked (crash()) the motor stops and
+/// physics goes on. B: centre of mass, x forward, y left, z up.
 
 #include <array>
 #include <memory>
@@ -46,7 +46,7 @@ class FixedWing final : public Vehicle {
 
   const VehicleDescription& description() const override { return description_; }
   const std::vector<VehicleLink>& links() const override { return links_; }
-  /// @throws ConfigError "plane: no level flight at 7 m/s to start with: ..."
+  /// @throws ConfigError "plane: start_speed_mps = 7 allows no level flight: ..."
   void spawn(physics::PhysicsWorld& world, const Pose& X_WB) override;
   void connect(Ports& ports) override;
   void actuate(std::span<const double> values) override;
@@ -60,7 +60,7 @@ class FixedWing final : public Vehicle {
   void read_links(std::vector<Pose>& X_WL) const override;
   void publish(Time now) override;
 
-  /// A start in flight. @param actuators  where they stand, and commanded
+  /// Starts in flight. @param actuators  states and commands
   void set_motion(const physics::BodyState& body, const Actuators& actuators);
 
   const FixedWingParams& params() const { return params_; }
@@ -73,12 +73,12 @@ class FixedWing final : public Vehicle {
 
  private:
   void describe();
-  /// The air where it starts, which its numbers hold for.
+  /// Adds the air density at the start, for which the described numbers are valid.
   void describe_air(double density_kgm3);
   void make_links();
   void start_in_air(const Pose& X_WB, const Eigen::Vector3d& ground_W);
   void meet_faults(Time now);
-  /// Motor and servos through the step. @returns the mean of the throttle squared
+  /// Advances motor and servos. @returns the mean of the throttle squared over the step
   double move_actuators(Duration dt, Elevons& middle);
   void tell(Event::Level level, std::string text);
   double wanted_throttle() const;
@@ -107,12 +107,12 @@ class FixedWing final : public Vehicle {
   std::array<bool, 2> stuck_{};  // elevons, left and right
   bool motor_runs_ = true;
   double thrust_N_ = 0.0;
-  double propeller_rad_ = 0.0;  // for pictures
+  double propeller_rad_ = 0.0;  // for display
   std::vector<bool> fault_met_;
   BatteryState battery_;
   std::string crash_;
 
-  std::vector<Event> news_;  // not told yet
+  std::vector<Event> news_;  // not reported yet
   NamedValues air_message_;
   SignalWriter<NamedValues> air_writer_;
   SignalWriter<BatteryState> battery_writer_;

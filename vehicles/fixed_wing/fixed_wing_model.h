@@ -1,6 +1,5 @@
 #pragma once
-/// Flight mechanics of the flying wing for those who work with it: trim, linear models, the
-/// vehicle's own physics.
+/// Flight mechanics of the flying wing, for its physics, for trim and for linear models.
 
 #include <optional>
 
@@ -22,7 +21,7 @@ class FixedWingModel final : public FlightModel {
   double mass_kg() const override { return mass_kg_; }
   Eigen::Matrix3d inertia_B() const override { return inertia_B_; }
 
-  /// The same with the mean of the throttle squared over a step.
+  /// Load with the mean of the throttle squared over a step.
   AirLoad load(const AirPoint& air, double throttle_square, const Elevons& elevons) const;
 
  private:
@@ -39,8 +38,8 @@ struct LevelFlight {
   double elevator_rad = 0.0;
 };
 
-/// By bisection over the angle of attack below stall.
-/// @returns nothing where lift, throttle or elevons do not reach
+/// Finds level flight by bisection over the angle of attack below stall.
+/// @returns null if lift, throttle or elevons do not suffice
 std::optional<LevelFlight> find_level_flight(const FixedWingParams& params, double airspeed_mps,
                                              double gravity_mps2, double air_density_kgm3);
 

@@ -17,8 +17,8 @@ std::string find_fault_in_wing_inertia(const FixedWingParams& p) {
   const Eigen::Vector3d& inertia = p.inertia_kgm2;
   if (2.0 * inertia.maxCoeff() > inertia.sum()) {
     return fmt::format(
-        "inertia_kgm2 = [{:.4g}, {:.4g}, {:.4g}] is that of no body: one of them is larger than "
-        "the other two together",
+        "inertia_kgm2 = [{:.4g}, {:.4g}, {:.4g}] is not possible for a rigid body: one moment is "
+        "larger than the sum of the other two",
         inertia.x(), inertia.y(), inertia.z());
   }
   const double most = std::sqrt(inertia.x() * inertia.z());
@@ -40,7 +40,7 @@ const ParameterTable<FixedWingFault>& wing_fault_table() {
           .number("at_s", "s", &F::at_s, between(0.0, 1e9), "when")
           .required()
           .choice("elevon", &F::left, {{"left", true}, {"right", false}},
-                  "which elevon stays where it stands");
+                  "elevon that stays at its present deflection");
   return table;
 }
 
@@ -63,7 +63,7 @@ const ParameterTable<LaunchParams>& launch_table() {
           .number("launch_speed_mps", "m/s", &P::speed_mps, kPositive,
                   "at the end of the push, over ground")
           .number("launch_throttle", "", &P::throttle, between(0.0, 0.99),
-                  "the push begins when more throttle is commanded")
+                  "throttle command above which the push starts")
           .number("start_height_m", "m", &P::start_height_m, kPositive,
                   "launch: air; above the ground below")
           .number("start_speed_mps", "m/s", &P::start_speed_mps, kPositive,
@@ -77,8 +77,8 @@ const ParameterTable<AirframeShape>& airframe_table() {
   using P = AirframeShape;
   static const ParameterTable<P> table =
       ParameterTable<P>()
-          .number("root_chord_m", "m", &P::root_chord_m, kPositive, "drawn, and what touches")
-          .number("tip_chord_m", "m", &P::tip_chord_m, kPositive, "drawn, and what touches")
+          .number("root_chord_m", "m", &P::root_chord_m, kPositive, "of mesh and collision shape")
+          .number("tip_chord_m", "m", &P::tip_chord_m, kPositive, "of mesh and collision shape")
           .degrees("sweep_deg", &P::sweep_rad, between(-45.0, 70.0), "of the leading edge")
           .degrees("dihedral_deg", &P::dihedral_rad, between(-20.0, 20.0), "as drawn")
           .number("leading_edge_m", "m", &P::leading_edge_m, between(-10.0, 10.0),
@@ -86,7 +86,7 @@ const ParameterTable<AirframeShape>& airframe_table() {
           .number("fin_height_m", "m", &P::fin_height_m, between(0.01, 10.0),
                   "of the fins at the tips")
           .number("belly_height_m", "m", &P::belly_m, kPositive,
-                  "centre of mass above the ground when it lies there");
+                  "height of the centre of mass when it rests on the ground");
   return table;
 }
 
@@ -109,16 +109,16 @@ const ParameterTable<FixedWingParams>& fixed_wing_table() {
           .include(&P::battery, battery_table())
           .reword("electronics_W", "power drawn by autopilot, servos, camera and radio")
           .number("cruise_speed_mps", "m/s", &P::cruise_speed_mps, kPositive,
-                  "through the air, told to controllers")
-          .number("max_speed_mps", "m/s", &P::max_speed_mps, kPositive, "told to controllers")
-          .degrees("max_bank_deg", &P::max_bank_rad, between(1.0, 80.0), "told to controllers")
+                  "airspeed, for controllers")
+          .number("max_speed_mps", "m/s", &P::max_speed_mps, kPositive, "for controllers")
+          .degrees("max_bank_deg", &P::max_bank_rad, between(1.0, 80.0), "for controllers")
           .number("landing_sink_limit_mps", "m/s", &P::landing_sink_limit_mps, kPositive,
                   "meeting the ground faster than this, along its normal, is a crash")
           .degrees("landing_tilt_limit_deg", &P::landing_tilt_limit_rad, between(1.0, 90.0),
                    "touching the ground tilted more than this is a crash")
           .number("belly_friction", "", &P::belly_friction, between(0.0, 10.0),
                   "Coulomb, on the ground")
-          .groups("faults", &P::faults, wing_fault_table(), "what goes wrong during the flight")
+          .groups("faults", &P::faults, wing_fault_table(), "faults during the flight")
           .include(&P::launch, launch_table())
           .include(&P::shape, airframe_table())
           .rule(find_fault_in_wing_inertia);

@@ -1,5 +1,5 @@
 #pragma once
-/// Numbers of a flying wing. Defaults: assets/vehicles/mh900_like.yaml, where the sources are.
+/// Parameters of a flying wing. Defaults and their sources: assets/vehicles/mh900_like.yaml.
 
 #include <Eigen/Core>
 #include <optional>
@@ -20,7 +20,7 @@ enum class LaunchMode {
   kAir        ///< flies from the start
 };
 
-/// How it gets into the air.
+/// Launch.
 struct LaunchParams {
   LaunchMode mode = LaunchMode::kHand;
   double height_m = 1.7;                      ///< of B above the ground, before the push
@@ -28,13 +28,13 @@ struct LaunchParams {
   double incidence_rad = rad_from_deg(7.0);   ///< of body x above the push
   double length_m = 1.2;                      ///< of the push
   double speed_mps = 10.0;                    ///< at its end, over ground
-  double throttle = 0.3;                      ///< the push begins when more is commanded
+  double throttle = 0.3;                      ///< command above which the push starts
   double start_height_m = 60.0;               ///< kAir: of B above the ground
   double start_speed_mps = 12.0;              ///< kAir: through the air, level
   std::optional<double> start_pitch_rad;      ///< kAir: nose up > 0; else that of level flight
 };
 
-/// Sizes of what is drawn and what touches; root leading edge ahead of B.
+/// Dimensions of the meshes and collision shapes. The root's leading edge is ahead of B.
 struct AirframeShape {
   double root_chord_m = 0.40;
   double tip_chord_m = 0.20;
@@ -49,7 +49,7 @@ struct AirframeShape {
   double belly_m = 0.06;                        ///< lowest point below B
 };
 
-/// What goes wrong during a flight, as the scenario says.
+/// Fault during a flight, from the scenario.
 struct FixedWingFault {
   enum class Kind { kMotorFailure, kElevonStuck, kBatteryEmpty };
   Kind kind = Kind::kMotorFailure;
@@ -68,9 +68,9 @@ struct FixedWingParams {
   double elevon_lag_s = 0.04;
   double elevon_rate_radps = 0.0;  ///< 0: no limit
   BatteryParams battery{22.2, 6.0};
-  double cruise_speed_mps = 12.0;            ///< told to controllers
-  double max_speed_mps = 20.0;               ///< told to controllers
-  double max_bank_rad = rad_from_deg(45.0);  ///< told to controllers
+  double cruise_speed_mps = 12.0;            ///< in the description, for controllers
+  double max_speed_mps = 20.0;               ///< in the description, for controllers
+  double max_bank_rad = rad_from_deg(45.0);  ///< in the description, for controllers
   LaunchParams launch;
   double landing_sink_limit_mps = 2.5;
   double landing_tilt_limit_rad = rad_from_deg(40.0);
@@ -80,18 +80,18 @@ struct FixedWingParams {
 
   /// @throws ConfigError
   void validate() const;
-  /// In B (z up), so that J_xz changes its sign.
+  /// Inertia in B (z up), so that J_xz changes its sign.
   Eigen::Matrix3d inertia_B() const;
-  /// Level flight with the moments in balance, propeller's pull left out, at 1.225 kg/m3; infinite
-  /// where there is no lift.
+  /// Lowest speed of level flight with balanced moments, without the propeller's pull, at 1.225
+  /// kg/m3; infinite if there is no lift.
   double stall_speed_mps(double gravity_mps2) const;
 };
 
-/// The spec that `vinerow list` shows.
+/// Specification, as `vinerow list` shows it.
 PartSpec fixed_wing_spec();
 
 /// @param parameters  of fixed_wing_spec()
-/// @throws ConfigError also where it cannot fly at its cruise speed
+/// @throws ConfigError also if it cannot fly at its cruise speed
 FixedWingParams read_fixed_wing_params(const ParameterSet& parameters, const std::string& name,
                                        double gravity_mps2);
 

@@ -1,6 +1,6 @@
 #pragma once
-/// What of a flying wing touches: fuselage, wings and fins, for the physics, for the leaves and as
-/// an outline; and when that wrecks it. The propeller folds away.
+/// Collision shapes of a flying wing (fuselage, wings and fins) for physics, canopy and outline,
+/// and the rule by which contacts wreck it. The propeller folds away.
 
 #include <string>
 
@@ -11,10 +11,10 @@
 
 namespace vinerow::vehicles {
 
-/// A half wing's section.
+/// Section of a half wing.
 struct WingStation {
   Eigen::Vector3d leading_B;  ///< leading edge
-  double chord_m = 0.0;       ///< straight back from there
+  double chord_m = 0.0;       ///< straight back from the leading edge
 };
 
 /// @param share  of the half span, 0 root to 1 tip  @param side  +1 left, -1 right
@@ -33,8 +33,8 @@ FoliageWatch make_foliage_watch(const FixedWingParams& params);
 void describe_outline(const FixedWingParams& params, VehicleDescription& description);
 
 /// @param before  state at the start of the step whose contacts are judged
-/// @returns why it is wrecked, e.g. "hit the ground with its nose, sinking at 4.1 m/s"; empty if it
-/// is not. No heap while it is not.
+/// @returns the reason for a wreck, e.g. "hit the ground with its nose, sinking at 4.1 m/s"; empty
+/// without a wreck, and then no heap
 std::string judge_fixed_wing(const physics::PhysicsWorld& world, physics::BodyId body,
                              const physics::BodyState& before, const FixedWingParams& params);
 

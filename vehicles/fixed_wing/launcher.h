@@ -1,7 +1,7 @@
 #pragma once
-/// A hand or a catapult: holds the vehicle, then pushes it evenly along a straight way. The push
-/// takes a whole number of steps, so that its end falls on one: its length is off by at most one
-/// step of the way.
+/// Launch by hand or catapult: holds the vehicle, then accelerates it evenly along a straight path.
+/// The push takes a whole number of steps, so that its length is off by at most the distance of one
+/// step.
 
 #include "engine/physics/physics_world.h"
 #include "vehicles/fixed_wing/fixed_wing_params.h"
@@ -10,20 +10,20 @@ namespace vinerow::vehicles {
 
 class Launcher {
  public:
-  /// Lets go of everything: a start in the air.
+  /// Releases the vehicle: a start in the air.
   void release() { phase_ = Phase::kFree; }
-  /// @param ground_W  below the launcher  @param yaw_rad  where it points
+  /// @param ground_W  ground below the launcher  @param yaw_rad  direction of the launch
   void hold(const LaunchParams& params, const Eigen::Vector3d& ground_W, double yaw_rad);
 
   bool holds() const { return phase_ != Phase::kFree; }
-  /// Begins the push. @pre holds()
+  /// Starts the push. @pre holds()
   void push(double dt_s);
   bool is_pushing() const { return phase_ == Phase::kPush; }
 
-  /// Goes through a step. @returns the state at its end. @pre holds()
+  /// Advances by one step. @returns the state at its end. @pre holds()
   const physics::BodyState& advance();
   const physics::BodyState& state() const { return state_; }
-  /// While pushed, else zero.
+  /// During the push, else zero.
   const Eigen::Vector3d& acceleration_W() const { return acceleration_W_; }
 
  private:

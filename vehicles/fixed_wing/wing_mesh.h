@@ -1,5 +1,5 @@
 #pragma once
-/// Wing, elevons and fins as drawn: sections of four digits with a little reflex, lofted.
+/// Meshes of wing, elevons and fins for display: lofted four-digit sections with a little reflex.
 
 #include "vehicles/fixed_wing/fixed_wing_params.h"
 #include "vehicles/parts/mesh_builder.h"

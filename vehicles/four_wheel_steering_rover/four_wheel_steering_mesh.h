@@ -1,7 +1,7 @@
 #pragma once
-/// Paper A's rover as drawn: portal frame over the axles, battery tub, spray tank with nozzle
-/// columns, GNSS mast, ultrasonic pods, and one steering knuckle with hub motor and mudguard per
-/// wheel. Decoration only; the hull that collides is in four_wheel_steering_rover.cpp.
+/// Meshes of paper A's rover for display: portal frame over the axles, battery tub, spray tank with
+/// nozzle columns, GNSS mast, ultrasonic pods, and one steering knuckle with hub motor and mudguard
+/// per wheel. The collision hull is in four_wheel_steering_rover.cpp.
 
 #include "engine/api/mesh.h"
 #include "vehicles/parts/chassis.h"
@@ -12,7 +12,7 @@ namespace vinerow::vehicles {
 /// chassis.
 TriangleMesh make_four_wheel_steering_body(const ChassisParams& params);
 
-/// What steers with a wheel and does not turn with it; origin at the hub, kingpin along z.
+/// Knuckle, which steers with a wheel but does not spin; origin at the hub, kingpin along z.
 TriangleMesh make_steering_knuckle(const ChassisParams& params, const Corner& corner);
 
 }  // namespace vinerow::vehicles

@@ -1,16 +1,17 @@
 #pragma once
-/// Paper A's electric rover: an Ackermann mechanism on both axles, a hub motor in each wheel.
+/// Electric rover of paper A: an Ackermann mechanism on both axles, a hub motor in each wheel.
 ///
 /// Actuators: axle_front_steer_rad, axle_rear_steer_rad (bicycle angle of each axle, positive to
-/// the left), wheel_fl_speed_radps, ..._fr_, ..._rl_, ..._rr_ (positive forward). The wheels'
-/// directions follow from both axle angles (parts/double_ackermann.h) behind servos with a lag and
-/// a rate limit; wheel speeds are commanded one by one, so a controller may let them fight.
-/// Signals: "wheels" (NamedValues), "battery".
+/// the left), wheel_fl_speed_radps, ..._fr_, ..._rl_, ..._rr_ (positive forward). The directions of
+/// the wheels follow from both axle angles (parts/double_ackermann.h), which servos with a lag and
+/// a rate limit set. Wheel speeds are commanded one by one, so that inconsistent commands make the
+/// wheels work against each other. Signals: "wheels" (NamedValues), "battery".
 ///
-/// What it can do: straight; crab (both axles alike, to max_axle_steer_rad); two-wheel steering
-/// (one axle at 0); and double Ackermann (axles opposite), the tightest turn: min_turning_radius_m
-/// about a point beside B. A turn on the spot would need wheels at right angles to their levers
-/// (60 deg here), beyond the steering range: "pivot-like" means the double Ackermann turn.
+/// Motions: straight; crab (equal axle angles, to max_axle_steer_rad); two-wheel steering (one axle
+/// at 0); and double Ackermann (opposite axle angles), the tightest turn, with
+/// min_turning_radius_m about a point beside B. A turn on the spot would need wheels at right
+/// angles to their levers (60 deg here), beyond the steering range: "pivot-like" means the double
+/// Ackermann turn.
 ///
 /// B: centre of mass, in the middle between the wheels, com_height_m above level ground.
 

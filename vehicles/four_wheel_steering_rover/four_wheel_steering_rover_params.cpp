@@ -22,10 +22,10 @@ const ParameterTable<FourWheelSteeringRoverParams>& four_wheel_steering_rover_ta
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .degrees("max_steer_deg", &P::max_steer_rad, between(1.0, 45.0),
-                   "steering range, both ways")
+                   "steering range to each side")
           .choice("steer_limit", &P::limits_wheels, {{"axle", false}, {"wheel", true}},
-                  "whose range that is: of the axle's (bicycle) angle, or of the inner wheel in "
-                  "the tightest turn")
+                  "angle that the range limits: the axle's (bicycle) angle, or the inner wheel's "
+                  "in the tightest turn")
           .include(&P::servo, steering_servo_table())
           .include(chassis_of, chassis_table())
           .rule(find_fault_in_tightest_turn);
@@ -74,8 +74,8 @@ PartSpec four_wheel_steering_rover_spec() {
   PartSpec spec;
   spec.name = "four_wheel_steering_rover";
   spec.description =
-      "Paper A's rover with Ackermann steering on both axles and four hub motors, on the shared "
-      "wheel";
+      "Paper A's rover with Ackermann steering on both axles and four hub motors, with wheel and "
+      "tyre forces";
   spec.writes = {"wheels", "battery"};
   spec.parameters = four_wheel_steering_rover_table().specs();
   return spec;

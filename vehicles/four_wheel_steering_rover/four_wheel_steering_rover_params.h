@@ -1,5 +1,5 @@
 #pragma once
-/// Numbers of paper A's four-wheel-steering rover. Sources: assets/vehicles/rover_paper_a.yaml.
+/// Parameters of paper A's four-wheel-steering rover. Sources: assets/vehicles/rover_paper_a.yaml.
 
 #include "engine/api/part.h"
 #include "engine/math/angles.h"
@@ -19,15 +19,15 @@ struct FourWheelSteeringRoverParams : ChassisParams {
   void validate() const;
 
   TwoAxles axles() const;
-  /// Largest axle angle, both ways on both axles. With `limits_wheels` the one at which the inner
-  /// wheel of the tightest turn (axles opposite) is at max_steer_rad: no other pair of axle angles
-  /// inside it turns a wheel further.
+  /// Largest axle angle, to both sides and for both axles. With `limits_wheels` it is the angle at
+  /// which the inner wheel of the tightest turn (axles opposite) is at max_steer_rad: no other pair
+  /// of axle angles within it turns a wheel further.
   double max_axle_steer_rad() const;
   /// Radius of that turn, at B: half wheel base / tan(max axle angle).
   double min_turning_radius_m() const;
 };
 
-/// The spec that `vinerow list` shows.
+/// Specification, as `vinerow list` shows it.
 PartSpec four_wheel_steering_rover_spec();
 
 /// @param parameters  of four_wheel_steering_rover_spec()

@@ -1,5 +1,5 @@
 #pragma once
-/// Where the parts of the four-wheel-steering rover's meshes stand, and their colours.
+/// Layout and colours of the four-wheel-steering rover's meshes.
 
 #include "engine/math/angles.h"
 #include "vehicles/parts/chassis.h"
@@ -22,7 +22,7 @@ inline constexpr unsigned kLamp = 0xfff3c8;
 inline constexpr unsigned kCream = 0xf7f8f4;
 }  // namespace livery
 
-/// Heights above the ground, in wheel radii where the wheels decide.
+/// Heights above the ground, in wheel radii if they depend on the wheels.
 struct MeshLayout {
   double half_base, half_track, radius, tyre, ground;
 
@@ -33,14 +33,14 @@ struct MeshLayout {
         tyre(p.tyre_width_m),
         ground(p.com_height_m) {}
 
-  /// Middle of the portal beams: clear of the mudguards on full spring travel.
+  /// Middle of the portal beams, clear of the mudguards at full spring travel.
   double beam() const { return 2.68 * radius; }
   double deck() const { return beam() + 0.035; }
   /// Frame F at (x, y, z), z from the ground.
   Pose at(double x, double y, double z) const {
     return {Eigen::Quaterniond::Identity(), {x, y, z - ground}};
   }
-  /// The same with F's y axis upwards: lathes and cylinders stand.
+  /// The same with F's y axis upwards, for upright lathes and cylinders.
   Pose upright(double x, double y, double z) const {
     Pose pose = at(x, y, z);
     pose.q = Eigen::AngleAxisd(kPi / 2, Eigen::Vector3d::UnitX());

@@ -13,11 +13,12 @@ const ParameterTable<AirDragParams>& air_drag_table() {
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .number("drag_area_m2", "m2", &P::drag_area_m2, between(0.0, 1e3),
-                  "drag coefficient times frontal area, in wind only; 0: wind does not push")
+                  "drag coefficient times frontal area, in wind only; 0: no wind force")
           .number("side_drag_area_m2", "m2", &P::side_drag_area_m2, between(0.0, 1e3),
                   "the same from the side; default: drag_area_m2")
           .number("pressure_centre_height_m", "m", &P::pressure_height_m, between(0.0, 100.0),
-                  "where the wind's force acts, above level ground; default: the centre of mass");
+                  "height of the wind force's point of action above level ground; default: the "
+                  "centre of mass");
   return table;
 }
 

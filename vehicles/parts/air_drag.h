@@ -1,12 +1,12 @@
 #pragma once
-/// What the wind does to a ground vehicle: drag of its hull, along and across.
+/// Air drag of a ground vehicle's hull, along and across.
 ///
 ///   f_B = 1/2 rho |v| (A_x v_x, A_y v_y, 0)
 ///
-/// with the air's velocity v relative to the vehicle, in B's plane, and drag areas A = C_d times
-/// area. It acts at the centre of pressure. Left out: lift, yaw moment beyond that lever, the
-/// lee of other bodies, and all of it where the world is calm: at 2 m/s the drag of still air on
-/// 1 m2 is 2.5 N, a fortieth of the rolling resistance of 180 kg on dry grass.
+/// with the velocity v of the air relative to the vehicle, in B's plane, and drag areas A = C_d
+/// times area. The force acts at the centre of pressure. Left out are lift, a yaw moment beyond
+/// that lever and the lee of other bodies. In a calm world there is no drag at all: at 2 m/s the
+/// drag of still air on 1 m2 is 2.5 N, a fortieth of the rolling resistance of 180 kg on dry grass.
 
 #include <Eigen/Core>
 #include <optional>
@@ -19,7 +19,7 @@ namespace vinerow::vehicles {
 struct AirDragParams {
   double drag_area_m2 = 0.0;                ///< wind from ahead or behind; 0: none
   std::optional<double> side_drag_area_m2;  ///< wind from the side; absent: drag_area_m2
-  /// Of the centre of pressure above level ground; absent: the centre of mass.
+  /// Height of the centre of pressure above level ground; absent: the centre of mass.
   std::optional<double> pressure_height_m;
 
   /// @throws ConfigError

@@ -1,5 +1,5 @@
 #pragma once
-/// Battery as an energy count.
+/// Battery model: a store of energy.
 
 #include <string>
 
@@ -10,7 +10,7 @@ namespace vinerow::vehicles {
 
 struct BatteryParams {
   double capacity_Wh = 1000.0;  ///< > 0
-  double electronics_W = 30.0;  ///< computers, sensors, radio; always drawn, >= 0
+  double electronics_W = 30.0;  ///< constant load of computers, sensors and radio, >= 0
   double initial_charge = 1.0;  ///< share of the capacity at the start, 0..1
 
   /// @throws ConfigError
@@ -20,8 +20,8 @@ struct BatteryParams {
 /// battery_capacity_Wh, electronics_W, initial_charge
 const ParameterTable<BatteryParams>& battery_table();
 
-/// Draws power for a while; energy won back raises the charge, up to full.
-/// @param motors_W  sum of the motors, negative when braking wins energy
+/// Draws power for dt_s. Recovered energy raises the charge, up to full.
+/// @param motors_W  sum of the motors, negative if braking recovers energy
 void advance_battery(const BatteryParams& params, double motors_W, double dt_s,
                      BatteryState& state);
 

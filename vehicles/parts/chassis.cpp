@@ -20,7 +20,7 @@ const ParameterTable<ChassisParams>& chassis_table() {
           .number("wheel_radius_m", "m", &P::wheel_radius_m, kPositive, "rolling radius")
           .number("tyre_width_m", "m", &P::tyre_width_m, kPositive, "for the picture and the hull")
           .number("wheel_speed_limit_radps", "rad/s", &P::wheel_speed_limit_radps, kPositive,
-                  "largest wheel speed command, both ways")
+                  "largest wheel speed command in both directions")
           .number("mass_kg", "kg", &P::mass_kg, kPositive, "wheels included")
           .number("com_height_m", "m", &P::com_height_m, kPositive,
                   "centre of mass above level ground")

@@ -1,6 +1,6 @@
 #pragma once
-/// A body on four equal driven wheels at the corners of a rectangle, the centre of mass above its
-/// middle: numbers, scenario parameters, mechanics and wheel links of such a vehicle.
+/// Chassis with four equal driven wheels at the corners of a rectangle and the centre of mass above
+/// its middle: values, scenario parameters, mechanics and wheel links.
 
 #include <array>
 #include <string>
@@ -14,13 +14,13 @@
 
 namespace vinerow::vehicles {
 
-/// One corner: the wheel's name, its side along x and along y.
+/// Corner of the chassis: name of the wheel, and the signs of its x and y.
 struct Corner {
   const char* name;
   double along;
   double across;
 };
-/// Front left, front right, rear left, rear right: the order of wheels everywhere.
+/// Front left, front right, rear left, rear right. Wheels always have this order.
 inline constexpr std::array<Corner, 4> kCorners = {
     {{"fl", 1.0, 1.0}, {"fr", 1.0, -1.0}, {"rl", -1.0, 1.0}, {"rr", -1.0, -1.0}}};
 
@@ -42,24 +42,25 @@ struct ChassisParams {
   MotorParams motor{.max_power_W = 1200.0};
   TyreParams tyre;
   BatteryParams battery;
-  AirDragParams air;  ///< none: set it to feel the wind
+  AirDragParams air;  ///< default: no drag, so that wind has no effect
 
   /// Centre of a wheel in B, as drawn.
   Eigen::Vector3d hub_B(const Corner& corner) const;
 };
 
-/// Sizes, masses, springs, then motor, tyre, battery and air drag. A vehicle whose params derive
-/// from ChassisParams includes it by chassis_of.
+/// Table of sizes, masses and springs, then motor, tyre, battery and air drag. A vehicle whose
+/// parameters derive from ChassisParams includes it with chassis_of.
 const ParameterTable<ChassisParams>& chassis_table();
 inline constexpr auto chassis_of = [](auto& params) -> ChassisParams& { return params; };
 
-/// Body, wheels and battery; without collision shapes.
+/// Body, wheels and battery, without collision shapes.
 WheeledPlatformParams chassis_platform_params(const ChassisParams& params, double gravity_mps2);
 
-/// "wheel_<name>_speed_radps" of each corner, both ways.
+/// Appends "wheel_<name>_speed_radps" for each corner, forward and backward.
 void append_wheel_speed_actuators(const ChassisParams& params, std::vector<ActuatorSpec>& out);
 
-/// Four links "wheel_<name>" in the corners' order. @param wheel  `left` is set here
+/// Appends four links "wheel_<name>" in the order of the corners.
+/// @param wheel  its `left` is ignored and set for each wheel
 void append_wheel_links(WheelMeshParams wheel, const Material& material,
                         std::vector<VehicleLink>& out);
 

@@ -1,10 +1,10 @@
 #pragma once
-/// Two steered axles: the angles of four wheels that all roll about one centre.
+/// Double Ackermann steering: angles of four wheels that all roll about one centre.
 ///
-/// An axle angle is that of a bicycle's wheel in the middle of the axle. Both together fix the
-/// instantaneous centre of rotation and so every wheel's direction (ideal Ackermann mechanism on
-/// both axles, linked through the steering computer). For a body that moves with the direction
-/// s = v_y / v_x and the curvature k = w / v_x of its origin,
+/// An axle angle is that of a bicycle's wheel in the middle of the axle. The two axle angles
+/// determine the instantaneous centre of rotation and so the direction of every wheel (ideal
+/// Ackermann mechanism on both axles, linked by the steering computer). For a body that moves with
+/// the direction s = v_y / v_x and the curvature k = w / v_x of its origin,
 ///
 ///   k = (tan d_F - tan d_R) / (a + b),   s = (b tan d_F + a tan d_R) / (a + b),
 ///   tan d_ij = (s + k x_ij) / (1 - k y_ij).

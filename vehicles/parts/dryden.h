@@ -1,5 +1,5 @@
 #pragma once
-/// Dryden turbulence of MIL-F-8785C (1980), section 3.7, low altitude, along a way through frozen
+/// Dryden turbulence of MIL-F-8785C (1980), section 3.7, low altitude, along a path through frozen
 /// air.
 ///
 /// One-sided spectra over the wave number W in rad/m, with the variance as their integral:
@@ -9,9 +9,9 @@
 /// 304.8 m: below and above, the values at the limits hold):
 ///   L_w = h, L_u = L_v = h / (0.177 + 0.000823 h)^1.2
 ///   s_w = 0.1 W20, s_u = s_v = s_w / (0.177 + 0.000823 h)^0.4
-/// The shaping filters run in x = way / L with unit variance and are discretised exactly, so that
-/// neither the step nor a changing airspeed or height alters variance or spectrum: only the scales
-/// change. No heap.
+/// The shaping filters run in x = distance / L with unit variance and are discretised exactly, so
+/// that neither the step nor a change of airspeed or height alters variance or spectrum: only the
+/// scales change. No heap.
 
 #include <Eigen/Core>
 
@@ -26,7 +26,7 @@ struct DrydenScales {
   double sigma_w_mps = 0.0;
 };
 
-/// @param height_m  above the ground, any  @param wind_20ft_mps  >= 0
+/// @param height_m  above the ground, any value  @param wind_20ft_mps  >= 0
 DrydenScales calc_dryden_scales(double height_m, double wind_20ft_mps);
 
 class DrydenTurbulence {
@@ -34,13 +34,13 @@ class DrydenTurbulence {
   /// Starts in the steady state.
   explicit DrydenTurbulence(RandomStream random);
 
-  /// Moves on by a way through the air. Five normal numbers a call. @param way_m  >= 0
+  /// Advances by a distance through the air. Draws five normal numbers. @param way_m  >= 0
   void advance(double way_m, const DrydenScales& scales);
   /// u, v, w in units of their standard deviations.
   Eigen::Vector3d unit() const;
 
  private:
-  /// A second-order filter (1 + sqrt(3) s) / (1 + s)^2 on white noise: output
+  /// Second-order filter (1 + sqrt(3) s) / (1 + s)^2 on white noise: output
   /// sqrt(3) a + (1 - sqrt(3)) b with a' = -a + noise, b' = -b + a.
   struct Transverse {
     double a, b;

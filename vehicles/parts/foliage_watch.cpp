@@ -10,9 +10,10 @@
 namespace vinerow::vehicles {
 namespace {
 
-/// How far the whole hull looks; a flight between rows seldom comes closer than some decimetres.
+/// Search distance of the whole hull; a flight between rows seldom comes closer than some
+/// decimetres.
 constexpr double kLook_m = 0.5;
-/// The parts are asked for where the hull's box has less than this left.
+/// The parts are queried if the hull's box is closer than this.
 constexpr double kClose_m = 0.05;
 constexpr SurfaceMask kCanopyMask = mask_of(SurfaceClass::kCanopy);
 

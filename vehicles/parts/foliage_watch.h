@@ -1,8 +1,9 @@
 #pragma once
-/// Tells when a body touches the leaves. Canopy gives way and is no contact of the physics, so its
-/// triangles are asked for: the whole hull's distance first, its parts' close by. A distance holds
-/// until the body can have moved that far, so that a flight between the rows asks a few times a
-/// second.
+/// Detection of contact between a body and the canopy.
+///
+/// Canopy yields and is not part of the physics, so that the distance to its triangles is queried:
+/// that of the whole hull first, those of its parts if it is near. A distance is valid until the
+/// body can have moved that far, so that a flight between rows needs a few queries per second.
 
 #include <Eigen/Core>
 #include <vector>
@@ -15,22 +16,22 @@ namespace vinerow::vehicles {
 
 class FoliageWatch {
  public:
-  /// A box of the hull. @param X_BS  its place in the body
+  /// Box of the hull. X_BS is its pose in the body.
   struct Part {
     Pose X_BS;
     Eigen::Vector3d half_extents_m;
   };
   FoliageWatch() = default;
-  /// @param hull  box around all parts  @param parts  what may not touch
+  /// @param hull  box around all parts  @param parts  boxes that must not touch the canopy
   FoliageWatch(Part hull, std::vector<Part> parts);
 
-  /// Forgets the distance. @param world  whose canopy is looked for
+  /// Discards the distance. @param world  world whose canopy is watched
   void start(const WorldModel& world);
   /// @returns true if a part overlaps the canopy. No heap.
   bool touches(const SceneQuery& scene, const physics::BodyState& body, double dt_s);
-  /// Distance that surely is left, m; for tests.
+  /// Lower bound of the distance to the canopy, m; for tests.
   double margin_m() const { return margin_m_; }
-  /// Questions to the scene so far; for tests.
+  /// Number of queries so far; for tests.
   long questions() const { return questions_; }
 
  private:
@@ -44,8 +45,8 @@ class FoliageWatch {
   long questions_ = 0;
 };
 
-/// Boxes whose union is a disc about the part's z axis, no point of it left out; they reach out of
-/// it by 3.5 % of the radius at most.
+/// Appends boxes that cover a disc about the z axis. They extend beyond it by at most 3.5 % of the
+/// radius.
 void append_disc_parts(const Eigen::Vector3d& centre_B, double radius_m, double half_height_m,
                        std::vector<FoliageWatch::Part>& out);
 

@@ -27,7 +27,7 @@ double GroundEffect::thrust_ratio(double height_m, double facing) const {
     wake += r2 * (beside + (0.5 + 2.0 * body_lift_) * opposite);
   }
   wake *= facing * std::min(1.0, 4.0 * (1.0 - height_m / reach_m_));
-  return 1.0 / std::max(1.0 - wake, 1.0 / kMostRatio);
+  return 1.0 / std::max(1.0 - wake, 1.0 / kMaxRatio);
 }
 
 }  // namespace vinerow::vehicles

@@ -44,7 +44,7 @@ void KinematicPlatform::spawn(physics::PhysicsWorld& world, const Pose& X_WB) {
   state_.body.X_WB = X_WB;
   state_.body.v_WB_W.setZero();
   state_.body.w_WB_W.setZero();
-  stand_on_ground(0.0);
+  place_on_ground(0.0);
   state_.specific_force_B =
       state_.body.X_WB.q.conjugate() * Eigen::Vector3d(0, 0, world.settings().gravity_mps2);
   world.set_state(body_, state_.body);
@@ -54,7 +54,7 @@ void KinematicPlatform::command(double left_mps, double right_mps) {
   set_planar_twist(left_mps, right_mps, params_.track_m, state_.planar);
 }
 
-void KinematicPlatform::stand_on_ground(double dt_s) {
+void KinematicPlatform::place_on_ground(double dt_s) {
   const PlanarState& planar = state_.planar;
   const double c = std::cos(planar.yaw_rad), s = std::sin(planar.yaw_rad);
   const Eigen::Vector2d forward(0.5 * params_.wheel_base_m * c, 0.5 * params_.wheel_base_m * s);
@@ -94,7 +94,7 @@ void KinematicPlatform::before_physics(Duration dt) {
   const double dt_s = dt.s();
   const Eigen::Vector3d v_before = state_.body.v_WB_W;
   advance_planar(dt_s, state_.planar);
-  stand_on_ground(dt_s);
+  place_on_ground(dt_s);
   const PlanarState& planar = state_.planar;
   state_.body.v_WB_W = {planar.v_mps * std::cos(planar.yaw_rad),
                         planar.v_mps * std::sin(planar.yaw_rad), state_.climb_rate_mps};

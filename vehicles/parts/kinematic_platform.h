@@ -1,8 +1,9 @@
 #pragma once
-/// A vehicle without forces: it moves exactly as its kinematic model says, standing on the ground.
+/// Kinematic vehicle body: it moves on the ground exactly as its kinematic model, without forces.
 ///
-/// The horizontal pose is planar_motion.h, untouched by the ground; height and tilt follow the
-/// plane through the ground under the wheels. Collision shapes report contacts and push nothing.
+/// The horizontal pose follows planar_motion.h, independent of the ground. Height and tilt follow
+/// the plane through the ground under the wheels. Collision shapes report contacts and push
+/// nothing.
 
 #include <Eigen/Core>
 #include <string>
@@ -36,7 +37,7 @@ class KinematicPlatform {
   explicit KinematicPlatform(KinematicPlatformParams params);
 
   void spawn(physics::PhysicsWorld& world, const Pose& X_WB);
-  /// Rim speeds of both sides, m/s; they hold until the next call.
+  /// Sets the rim speeds of both sides, m/s, until the next call.
   void command(double left_mps, double right_mps);
   /// Moves along the arc of one step and places the body.
   void before_physics(Duration dt);
@@ -46,7 +47,7 @@ class KinematicPlatform {
   physics::BodyId body() const { return body_; }
 
  private:
-  void stand_on_ground(double dt_s);
+  void place_on_ground(double dt_s);
 
   KinematicPlatformParams params_;
   KinematicPlatformState state_;

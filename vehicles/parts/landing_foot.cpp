@@ -10,7 +10,7 @@ namespace {
 using Eigen::Vector3d;
 
 /// A leg that leans further than this from the ground's normal does not stand on its foot.
-constexpr double kLeastFacing = 0.2;
+constexpr double kMinFacing = 0.2;
 
 }  // namespace
 
@@ -44,7 +44,7 @@ std::optional<FootContact> press_foot(const LandingFootParams& params,
                                       params.leg_m + preload_m);
   if (!hit) return std::nullopt;
   const double facing = -hit->normal_W.dot(down_W);
-  if (facing < kLeastFacing) return std::nullopt;
+  if (facing < kMinFacing) return std::nullopt;
 
   FootContact contact;
   contact.normal_W = hit->normal_W;
@@ -64,13 +64,13 @@ std::optional<FootContact> press_foot(const LandingFootParams& params,
   const Vector3d stretch_W = across(contact.p_W - state.anchor_W);
   const Vector3d pull_W =
       -params.stiffness_N_per_m * stretch_W - params.damping_Ns_per_m * across(v_W);
-  const double most_N = params.friction * normal_N, pull_N = pull_W.norm();
+  const double max_N = params.friction * normal_N, pull_N = pull_W.norm();
   contact.force_W = normal_N * contact.normal_W;
-  if (pull_N <= most_N) {
+  if (pull_N <= max_N) {
     contact.force_W += pull_W;
   } else {
     // It slides: the anchor follows at the distance that friction can hold.
-    const Vector3d friction_W = pull_W * (most_N / pull_N);
+    const Vector3d friction_W = pull_W * (max_N / pull_N);
     contact.force_W += friction_W;
     state.anchor_W = contact.p_W + friction_W / params.stiffness_N_per_m;
   }

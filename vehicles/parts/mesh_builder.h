@@ -1,8 +1,8 @@
 #pragma once
-/// Builds drawable meshes from a few shapes: chamfered boxes, bevelled extrusions, lathes, tubes.
-/// Every vertex carries a normal and a colour, so that one link needs one mesh only.
+/// Builder of display meshes from a few shapes: chamfered boxes, bevelled extrusions, lathes,
+/// tubes. Every vertex has a normal and a colour, so that a link needs one mesh only.
 ///
-/// Frames: shapes are given in a frame F that `place` sets in the mesh's frame M.
+/// Frames: shapes are given in a frame F, which `place` sets in the mesh's frame M.
 
 #include <Eigen/Core>
 #include <span>
@@ -17,19 +17,19 @@ Eigen::Vector3f colour_from_srgb(unsigned hex);
 
 class MeshBuilder {
  public:
-  /// Frame of the shapes that follow. @param X_MF  pose of F in the mesh's frame
+  /// Sets the frame of the shapes that follow. @param X_MF  pose of F in the mesh's frame
   MeshBuilder& place(const Pose& X_MF);
   MeshBuilder& place(double x_m, double y_m, double z_m);
   MeshBuilder& colour(const Eigen::Vector3f& rgb);
 
   /// Box around F's origin with all edges cut at 45 degrees. @param chamfer_m  0 for sharp edges
   MeshBuilder& box(const Eigen::Vector3d& half_extents_m, double chamfer_m);
-  /// Convex outline in (x, z), counter-clockwise seen from -y, stretched over |y| <= half width;
-  /// the two rims are bevelled.
+  /// Convex outline in (x, z), counter-clockwise seen from -y, extruded over |y| <= half width,
+  /// with both rims bevelled.
   MeshBuilder& extrude(std::span<const Eigen::Vector2d> outline, double half_width_m,
                        double bevel_m);
-  /// Outline of (radius, y) turned about F's y axis; the outside is to the right of the outline's
-  /// direction of +y. Smooth around, smooth along unless two points coincide.
+  /// Outline of (radius, y) turned about F's y axis. The outside is to the right of the outline's
+  /// direction of +y. Smooth around the axis, and along it unless two points coincide.
   MeshBuilder& lathe(std::span<const Eigen::Vector2d> outline, int segments);
   /// Closed cylinder about F's y axis.
   MeshBuilder& cylinder(double radius_m, double half_width_m, int segments);
@@ -39,12 +39,12 @@ class MeshBuilder {
   /// Part of a ring about F's y axis (a mudguard), angles from x towards z.
   MeshBuilder& ring_sector(double inner_m, double outer_m, double half_width_m, double from_rad,
                            double to_rad, int segments);
-  /// Flat four-cornered face, counter-clockwise seen from outside.
+  /// Flat face with four corners, counter-clockwise seen from outside.
   MeshBuilder& quad(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
                     const Eigen::Vector3d& d);
   MeshBuilder& triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                         const Eigen::Vector3d& c);
-  /// A mesh from elsewhere in the current colour, or in its own where it has one.
+  /// Another mesh, in its own colours if it has them, else in the current colour.
   MeshBuilder& append(const TriangleMesh& mesh);
 
   TriangleMesh take() { return std::move(mesh_); }

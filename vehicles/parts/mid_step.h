@@ -1,6 +1,7 @@
 #pragma once
-/// Where a body will be in the middle of the coming step, from what the last step changed: forces
-/// worked out there and held over the step (physics::ForceSampling::kHeld) make it second order.
+/// Predicted state of a body in the middle of the coming step, from the change in the last step.
+/// Forces that are computed there and held over the step (physics::ForceSampling::kHeld) make the
+/// integration second order.
 
 #include <Eigen/Core>
 
@@ -8,7 +9,7 @@
 
 namespace vinerow::vehicles {
 
-/// q turned on by a small rotation vector in W.
+/// q rotated by a small rotation vector in W.
 inline Eigen::Quaterniond turned_on(const Eigen::Quaterniond& q,
                                     const Eigen::Vector3d& rotation_W) {
   Eigen::Quaterniond turn;
@@ -19,13 +20,13 @@ inline Eigen::Quaterniond turned_on(const Eigen::Quaterniond& q,
 
 class MidStep {
  public:
-  /// A start: nothing is known of the course.
+  /// Starts without knowledge of accelerations.
   void reset(const physics::BodyState& body) {
     body_ = before_ = body;
     acceleration_W_.setZero();
     spin_change_W_.setZero();
   }
-  /// The state after a step.
+  /// Records the state after a step.
   void take(const physics::BodyState& body, double dt_s) {
     before_ = body_;
     body_ = body;
@@ -34,12 +35,12 @@ class MidStep {
   }
 
   const physics::BodyState& body() const { return body_; }
-  /// At the start of the last step.
+  /// State at the start of the last step.
   const physics::BodyState& before() const { return before_; }
   /// Mean over the last step.
   const Eigen::Vector3d& acceleration_W() const { return acceleration_W_; }
 
-  /// In the middle of the coming step.
+  /// State in the middle of the coming step.
   physics::BodyState middle(double dt_s) const {
     physics::BodyState middle;
     middle.v_WB_W = body_.v_WB_W + 0.5 * dt_s * acceleration_W_;

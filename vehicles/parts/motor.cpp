@@ -68,7 +68,7 @@ MotorStep Motor::begin(double command_radps, double spin_radps, double dt_s,
                        MotorState& state) const {
   MotorStep step;
   step.command_radps = command_radps;
-  // Hill hold: a closed brake opens only when the wheel says that the motor carries the load.
+  // Hill hold: release_brake() opens a closed brake, once the motor carries the load.
   if (command_radps == 0.0) {
     state.braked =
         std::abs(spin_radps) < params_.brake_below_radps && params_.brake_torque_Nm > 0.0;

@@ -1,5 +1,5 @@
 #pragma once
-/// The pure kinematic model of a skid-steered vehicle, as in paper B: pure rolling, no masses.
+/// Kinematic model of a skid-steered vehicle, as in paper B: pure rolling, no masses.
 ///
 /// Source: paper B (AgriEngineering 6, 2024), section 2.1, eq. 1-2, with the half track:
 ///   v = (v_left + v_right) / 2,  w = (v_right - v_left) / track.
@@ -16,11 +16,11 @@ struct PlanarState {
   double yaw_rate_radps = 0.0;
 };
 
-/// Forward speed and yaw rate from the rim speeds of both sides.
+/// Sets forward speed and yaw rate from the rim speeds of both sides.
 void set_planar_twist(double left_mps, double right_mps, double track_m, PlanarState& state);
 
-/// Exact arc over dt: chord v dt sin(a)/a in the direction yaw + a, a = w dt / 2. Two arcs of dt/2
-/// are one of dt up to round-off.
+/// Advances along the exact arc over dt: chord v dt sin(a)/a in the direction yaw + a, with
+/// a = w dt / 2. Two arcs of dt/2 equal one of dt up to round-off.
 void advance_planar(double dt_s, PlanarState& state);
 
 }  // namespace vinerow::vehicles

@@ -1,9 +1,9 @@
 #pragma once
-/// A vehicle whose mechanics are one WheeledPlatform: what all of them do alike.
+/// Base class of vehicles whose mechanics are one WheeledPlatform.
 ///
-/// A vehicle class fills description_ and links_, calls build_platform() in its constructor, and
-/// overrides what it does otherwise. Here the actuators are the driven wheels' speeds in the
-/// platform's order, and the links the body, then the wheels; further links stand behind them.
+/// A derived class fills description_ and links_, calls build_platform() in its constructor, and
+/// overrides the methods in which it differs. Actuators are the speeds of the driven wheels in the
+/// order of the platform. Links are the body, the wheels, and then any further links.
 
 #include <optional>
 
@@ -27,23 +27,23 @@ class PlatformVehicle : public Vehicle {
   void read_links(std::vector<Pose>& X_WL) const override;
   void publish(Time now) override;
 
-  /// For factories: lets the wind push (WheeledPlatform::feel_wind). A vehicle without platform,
-  /// of kinematic fidelity, goes its way in any wind.
+  /// For factories: enables wind forces (WheeledPlatform::feel_wind). Wind has no effect on a
+  /// vehicle without a platform, which has kinematic fidelity.
   void feel_wind(RandomStream random) {
     if (platform_) platform_->feel_wind(random);
   }
-  /// Not without build_platform().
+  /// @pre build_platform() was called
   const WheeledPlatform& platform() const { return *platform_; }
 
  protected:
-  /// @param driven  places of the wheels that have an actuator, ascending; empty: all
+  /// @param driven  indices of the wheels that have an actuator, ascending; empty: all
   /// @throws ConfigError
   void build_platform(WheeledPlatformParams params, std::vector<std::size_t> driven = {});
 
   VehicleDescription description_;
   std::vector<VehicleLink> links_;
   std::optional<WheeledPlatform> platform_;
-  std::vector<std::size_t> driven_;      ///< wheels with an actuator, whose place is the same
+  std::vector<std::size_t> driven_;      ///< wheel of each actuator
   std::vector<double> actuator_states_;  ///< written after each step
 };
 

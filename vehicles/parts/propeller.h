@@ -1,10 +1,10 @@
 #pragma once
-/// A propeller on an electric motor, along x of B through the centre of mass: Beard, McLain, *Small
-/// Unmanned Aircraft*, 2012, eq. 4.15 (Bernoulli over the disc):
+/// Propeller with an electric motor, along x of B through the centre of mass. Source: Beard,
+/// McLain, *Small Unmanned Aircraft*, 2012, eq. 4.15 (Bernoulli over the disc):
 ///   T = rho / 2 S_p C_p ((k d_t)^2 - V^2)
-/// Below the throttle V / k it brakes (windmilling), by the share `windmill`: 0 for one that folds.
-/// Power of an actuator disc, T (k d_t + V) / 2, over the efficiency; the reaction torque rolls
-/// left and grows with d_t^2.
+/// Below the throttle V / k it brakes (windmilling), by the share `windmill`: 0 for a folding
+/// propeller. The power is that of an actuator disc, T (k d_t + V) / 2, over the efficiency. The
+/// reaction torque rolls the vehicle to the left and grows with d_t^2.
 
 #include <string>
 
@@ -16,7 +16,7 @@ namespace vinerow::vehicles {
 struct PropellerParams {
   double area_m2 = 0.0314;   ///< S_p
   double coefficient = 1.0;  ///< C_p
-  double speed_mps = 25.0;   ///< k: of the air behind it at full throttle
+  double speed_mps = 25.0;   ///< k: speed of the air behind it at full throttle
   double windmill = 1.0;     ///< share of the braking thrust, 0..1
   double torque_Nm = 0.0;    ///< reaction at full throttle and 1.225 kg/m3
   double efficiency = 0.5;   ///< of propeller, motor and speed controller against the ideal disc
@@ -29,7 +29,7 @@ struct PropellerParams {
 /// propeller_area_m2, ..., propulsion_efficiency, throttle_lag_s
 const ParameterTable<PropellerParams>& propeller_table();
 
-/// N. @param airspeed_mps  >= 0  @param throttle_square  d_t^2, or its mean over a step
+/// Thrust, N. @param airspeed_mps  >= 0  @param throttle_square  d_t^2, or its mean over a step
 double calc_thrust_N(const PropellerParams& params, double air_density_kgm3, double airspeed_mps,
                      double throttle_square);
 
@@ -37,7 +37,7 @@ double calc_thrust_N(const PropellerParams& params, double air_density_kgm3, dou
 AirLoad calc_propeller_load(const PropellerParams& params, double air_density_kgm3,
                             double airspeed_mps, double throttle_square);
 
-/// Electric power, W >= 0; nothing is won back.
+/// Electric power, W, >= 0: no energy is recovered.
 double calc_propeller_power_W(const PropellerParams& params, double thrust_N, double airspeed_mps,
                               double throttle);
 

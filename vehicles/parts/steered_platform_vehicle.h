@@ -1,11 +1,11 @@
 #pragma once
-/// A vehicle on one WheeledPlatform of four wheels whose front axle, or both axles, steer.
+/// Base class of vehicles on one WheeledPlatform with four wheels, with one or two steered axles.
 ///
-/// Actuators: the axle angles ("axle_front_steer_rad", "axle_rear_steer_rad"), then the driven
-/// wheels' speeds in the platform's order. The directions of the four wheels follow from the axle
-/// angles (double_ackermann.h) behind servos with a lag and a rate limit. Links: body, wheels, and
-/// a knuckle for each steered wheel, which steers and moves with its wheel but does not turn with
-/// it.
+/// Actuators: the axle angles ("axle_front_steer_rad", "axle_rear_steer_rad"), then the speeds of
+/// the driven wheels in the order of the platform. The directions of the four wheels follow from
+/// the axle angles (double_ackermann.h), which servos with a lag and a rate limit set. Links: body,
+/// wheels, and a knuckle for each steered wheel, which steers and moves with its wheel but does not
+/// spin.
 
 #include <array>
 #include <vector>
@@ -20,10 +20,10 @@ struct SteeringGear {
   TwoAxles axles;
   SteeringServoParams servo;
   double max_axle_steer_rad = 0.0;  ///< to either side
-  std::size_t steered_axles = 0;    ///< 1: the front one, 2: both, 0: none, by wheel speeds alone
-  /// Places in the platform of the front left, front right, rear left and rear right wheel.
+  std::size_t steered_axles = 0;    ///< 1: front, 2: both, 0: none (steers by wheel speeds)
+  /// Indices in the platform of the front left, front right, rear left and rear right wheel.
   std::array<std::size_t, 4> wheels = {0, 1, 2, 3};
-  /// Places in the platform of the wheels of the knuckles, in the order of their links.
+  /// Index in the platform of each knuckle's wheel, in the order of the links.
   std::vector<std::size_t> knuckles;
 };
 
@@ -34,8 +34,8 @@ class SteeredPlatformVehicle : public PlatformVehicle {
   void read_links(std::vector<Pose>& X_WL) const override;
 
  protected:
-  /// Adds the axles' actuators, which stand before those of the wheels, and the description's
-  /// record of them. Before build_platform(); a vehicle without it steers by its wheels' speeds.
+  /// Adds the actuators of the axles, ahead of those of the wheels, to vehicle and description.
+  /// Called before build_platform(). A vehicle that does not call it steers by wheel speeds.
   void build_steering(SteeringGear gear);
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-/// Position servo of a steering axle: first-order lag towards the command, never faster than its
-/// rate limit, so that the angle never jumps.
+/// Position servo of a steering axle: first-order lag towards the command, with a rate limit, so
+/// that the angle never jumps.
 ///
 ///   d angle / dt = clamp((command - angle) / T, -rate, +rate)
 
@@ -19,8 +19,8 @@ struct SteeringServoParams {
 /// steer_rate_radps, steer_lag_s
 const ParameterTable<SteeringServoParams>& steering_servo_table();
 
-/// Angle at the end of the step: the exact solution while the rate limit is not met; without
-/// overshoot for any step. The last nanoradian is closed at once, so that a servo comes to rest.
+/// Angle at the end of the step: the exact solution below the rate limit, without overshoot for any
+/// step. A difference below 1e-9 rad is closed at once, so that a servo comes to rest.
 inline double advance_servo(const SteeringServoParams& params, double command_rad, double dt_s,
                             double angle_rad) {
   if (std::abs(command_rad - angle_rad) < 1e-9) return command_rad;

@@ -1,6 +1,7 @@
 #pragma once
-/// Physics steps that parts of vehicles are made for. Beyond them they give nonsense: a rover
-/// slides off a slope with its brakes closed, a quadrotor crashes in a gust that it can stand.
+/// Longest physics steps for which parts of vehicles are valid. With longer steps results are
+/// wrong: a rover slides down a slope with closed brakes, or a quadrotor crashes in a harmless
+/// gust.
 
 #include <fmt/format.h>
 
@@ -11,17 +12,17 @@
 
 namespace vinerow::vehicles {
 
-/// Struts and tyres: their forces are those of the step's start, first order in the step. With the
-/// stiffest modes of the shipped rovers at 50 rad/s this is an eighth of a radian; 3.5 mm after a
-/// start and a turn of 2 s.
-inline constexpr Duration kMostWheelStep{2'500'000};
-/// Of what a strut's fastest motion turns in a step: semi-implicit steps of 0.5 rad are 1 % too
-/// fast, and beyond 2 rad they grow without end.
-inline constexpr double kMostStrutAngle_rad = 0.5;
-/// Damping over mass times the step: twice the angle above where that is damped critically.
-inline constexpr double kMostStrutDecay = 1.0;
-/// Bodies in the air: engine/physics/README.md, Envelope.
-inline constexpr Duration kMostFlightStep{10'000'000};
+/// Struts and tyres: their forces are evaluated at the start of the step, first order in the step.
+/// The stiffest modes of the shipped rovers have 50 rad/s, an eighth of a radian in this step. The
+/// error is 3.5 mm after a start and a turn of 2 s.
+inline constexpr Duration kMaxWheelStep{2'500'000};
+/// Phase of a strut's fastest mode in one step. Semi-implicit steps of 0.5 rad are 1 % too fast;
+/// beyond 2 rad they are unstable.
+inline constexpr double kMaxStrutAngle_rad = 0.5;
+/// Damping over mass times the step: twice the angle above, as for a critically damped mode.
+inline constexpr double kMaxStrutDecay = 1.0;
+/// Flying bodies: engine/physics/README.md, Envelope.
+inline constexpr Duration kMaxFlightStep{10'000'000};
 
 /// @param vehicle  name  @param part  "its wheels"
 /// @throws ConfigError "rover: physics.step_s = 0.025 s is too long for its wheels, which are valid

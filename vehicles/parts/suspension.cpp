@@ -7,7 +7,7 @@
 namespace vinerow::vehicles {
 namespace {
 
-/// No file states these: vehicles work them out of their own parameters.
+/// Not read from files: vehicles compute these from their own parameters.
 const ParameterTable<SuspensionParams>& suspension_table() {
   using P = SuspensionParams;
   static const ParameterTable<P> table =
@@ -19,7 +19,7 @@ const ParameterTable<SuspensionParams>& suspension_table() {
           .number("design_load_N", "N", &P::design_load_N, kNotNegative,
                   "force at the design position")
           .number("bump_travel_m", "m", &P::bump_travel_m, kPositive,
-                  "compression from which the bump stop pushes too")
+                  "compression at which the bump stop starts to act")
           .number("bump_stiffness_N_per_m", "N/m", &P::bump_stiffness_N_per_m, kNotNegative,
                   "of the bump stop");
   return table;

@@ -5,7 +5,7 @@
 ///   S = max(0, S0 + k d + k_b max(0, d - d_max) + c dd/dt),  S = 0 once the spring hangs free
 ///
 /// d is the hub's travel from its design position, positive when compressed; S0 the load at the
-/// design position, so that a vehicle on level ground stands exactly as drawn.
+/// design position, so that a vehicle on level ground rests exactly as drawn.
 
 #include <string>
 
@@ -20,7 +20,7 @@ struct SuspensionParams {
 
   /// @throws ConfigError
   void validate(const std::string& who) const;
-  /// Travel at which the spring carries nothing, <= 0.
+  /// Travel at which the spring carries no load, <= 0.
   double droop_m() const { return -design_load_N / stiffness_N_per_m; }
 };
 

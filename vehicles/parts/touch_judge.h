@@ -1,6 +1,7 @@
 #pragma once
-/// What a flying vehicle touched in the last step, one sentence where that wrecks it: vehicles,
-/// posts, trunks and obstacles always do, the ground as its maker judges.
+/// Judgement of a flying vehicle's contacts in the last step: one sentence if they wreck it.
+/// Contacts with vehicles, posts, trunks and obstacles always do; the vehicle judges contacts with
+/// the ground.
 
 #include <fmt/format.h>
 
@@ -10,15 +11,15 @@
 
 namespace vinerow::vehicles {
 
-/// The ground, touched.
+/// Contact with the ground.
 struct GroundTouch {
   Eigen::Vector3d p_B;       ///< of the hull
   Eigen::Vector3d normal_W;  ///< of the ground, unit
   double speed_mps = 0.0;    ///< of that point
-  double sink_mps = 0.0;     ///< its part into the ground
+  double sink_mps = 0.0;     ///< its component into the ground
 };
 
-/// @param before  state at the start of the step whose contacts are judged: what hit
+/// @param before  state at the start of the step, with the velocities of the impact
 /// @param part_name  (p_B) -> text such as "a rotor"
 /// @param judge_ground  (GroundTouch) -> reason, empty where it may touch like that
 /// @returns why the vehicle is wrecked; empty if it is not. No heap while it is not.

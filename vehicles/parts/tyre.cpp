@@ -4,21 +4,34 @@
 
 #include "engine/api/parameter_table.h"
 
+// Derivation. The equation of tyre.h in implicit Euler, with h = dt / L, xi at the start and xi+ at
+// the end of the step, and Lambda_i from the velocities at the start:
+//
+//   xi+ = xi + h (-v_s - Lambda xi+)   =>   xi+ = gain (xi - h v_s),  gain = 1 / (1 + h Lambda),
+//   F   = N c (xi+ + tau (xi+ - xi) / dt).
+//
+// v_sx = v_x - R omega+ is linear in the new spin omega+, and so is F_x = fx0 + fx1 omega+, which
+// the wheel solves together with its motor (wheel.cpp). Last, xi+ and F are scaled back to the
+// ellipse (F_x / mu_x)^2 + (F_y / mu_y)^2 <= N^2 with the peak friction.
+
 namespace vinerow::vehicles {
 namespace {
 
-/// rho / (1 - exp(-rho)) times v: the relaxation speed, without division by zero at either end.
+/// Lambda = |V_r| rho / (1 - exp(-rho)), without division by zero at either end.
+/// @param sliding_mps  rho |V_r|
 double calc_relaxation_speed(double rolling_mps, double sliding_mps) {
-  // sliding_mps = rho * rolling_mps. For rho -> 0 the limit is v (1 + rho / 2); for large rho it is
-  // sliding_mps itself.
-  if (sliding_mps <= 1e-5 * rolling_mps) return rolling_mps + 0.5 * sliding_mps;
-  if (sliding_mps > 40.0 * rolling_mps) return sliding_mps;
+  // Below, the series 1 + rho / 2 is off by rho^2 / 12 = 1e-11; above, exp(-rho) is below 1e-17 and
+  // rho / (1 - exp(-rho)) = rho to the last digit.
+  constexpr double kSmallRho = 1e-5, kLargeRho = 40.0;
+  // 1 - exp(-rho) loses digits for small rho only (one at 0.1); expm1 costs three times as much.
+  constexpr double kExpm1Rho = 0.1;
+  if (sliding_mps <= kSmallRho * rolling_mps) return rolling_mps + 0.5 * sliding_mps;
+  if (sliding_mps > kLargeRho * rolling_mps) return sliding_mps;
   const double rho = sliding_mps / rolling_mps;
-  // 1 - exp(-rho) loses digits for small rho only; expm1 costs three times as much.
-  return sliding_mps / (rho > 0.1 ? 1.0 - std::exp(-rho) : -std::expm1(-rho));
+  return sliding_mps / (rho > kExpm1Rho ? 1.0 - std::exp(-rho) : -std::expm1(-rho));
 }
 
-/// Length of (x, y) without hypot's care for overflow: speeds and ratios are of moderate size.
+/// Length of (x, y) without hypot's protection from overflow: speeds and ratios are moderate.
 double length_of(double x, double y) {
   return std::sqrt(x * x + y * y);
 }
@@ -59,6 +72,7 @@ TyreStep Tyre::begin(const TyreState& state, const Eigen::Vector2d& velocity_C, 
   step.stiffness = {soil.slip_stiffness, soil.cornering_stiffness_per_rad};
   step.peak = {soil.peak_friction, soil.peak_friction * lateral};
 
+  // Lambda_i = relaxation speed with rho_i |V_r| = c_i s / mu_i^2, from the spin at the start.
   const double v_sx = velocity_C.x() - radius_m_ * spin_radps;
   const double v_sy = velocity_C.y();
   const double rolling = std::abs(radius_m_ * spin_radps);
@@ -68,11 +82,12 @@ TyreStep Tyre::begin(const TyreState& state, const Eigen::Vector2d& velocity_C, 
   const double relax_x = calc_relaxation_speed(rolling, step.stiffness.x() * s / (mu_x * mu_x));
   const double relax_y = calc_relaxation_speed(rolling, step.stiffness.y() * s / (mu_y * mu_y));
 
-  // Implicit Euler in xi: stable for any speed and step.
+  // Implicit Euler is stable for any speed and step.
   const double h = dt_s / params_.relaxation_length_m;
   step.gain = {1.0 / (1.0 + h * relax_x), 1.0 / (1.0 + h * relax_y)};
 
-  // F_x = N c (xi+ + tau (xi+ - xi) / dt),  xi+ = gain (xi - h (v_x - R omega+))
+  // F_x = N c (per_xi xi+ - tau / dt xi),  per_xi = 1 + tau / dt,
+  // xi+ = gain (xi - h v_x) + gain h R omega+.
   const double scale = load_N * step.stiffness.x();
   const double per_xi = 1.0 + params_.damping_time_s / dt_s;
   const double xi_at_zero_spin = step.gain.x() * (state.xi.x() - h * velocity_C.x());
@@ -87,8 +102,8 @@ Eigen::Vector2d Tyre::finish(const TyreStep& step, double spin_radps, double dt_
   const Eigen::Vector2d sliding(step.velocity.x() - radius_m_ * spin_radps, step.velocity.y());
   Eigen::Vector2d xi = step.gain.cwiseProduct(state.xi - h * sliding);
 
-  // The spring alone stays inside the ellipse in steady state; a change of friction or direction
-  // within one step could leave it, and the damper could add to it.
+  // In steady state the spring alone stays inside the ellipse. A change of friction or direction
+  // within a step can push it out, and the damper adds to it: first xi, then the sum is cut.
   const Eigen::Vector2d unit = step.stiffness.cwiseQuotient(step.peak);
   const double spring = unit.cwiseProduct(xi).norm();
   if (spring > 1.0) xi /= spring;

@@ -1,7 +1,7 @@
 #pragma once
-/// Horizontal force of a rolling, sliding or resting tyre: a bristle model with memory.
+/// Tyre model: horizontal force of a rolling, sliding or resting tyre, with a bristle state.
 ///
-/// The carcass and tread are one elastic bristle per axis. Its deflection xi (in multiples of the
+/// Carcass and tread are one elastic bristle per axis. Its deflection xi (in multiples of the
 /// relaxation length L, positive against the sliding direction) follows
 ///
 ///   L dxi_i/dt = -v_si - Lambda_i xi_i,          F_i = N c_i (xi_i + tau dxi_i/dt),
@@ -17,11 +17,11 @@
 /// Sources: dynamics and combined slip: Velenis, Tsiotras, Canudas-de-Wit, Sorine, "Dynamic tyre
 /// friction models for combined longitudinal and lateral vehicle motion", Vehicle System Dynamics
 /// 43(1), 2005, eq. 9-14. Saturation: Wismer, Luth, "Off-road traction prediction for wheeled
-/// vehicles", Trans. ASAE 17(1), 1974. Changed: the saturation is exponential instead of
-/// hyperbolic, and the spring works on xi = deflection / L so that L is the relaxation length at
+/// vehicles", Trans. ASAE 17(1), 1974. Two differences: the saturation is exponential instead of
+/// hyperbolic, and the spring acts on xi = deflection / L so that L is the relaxation length at
 /// small slip.
 /// Frames: contact frame C (x rolling direction, y left, z ground normal).
-/// Cost: no heap; about 60 ns a step.
+/// Cost: no heap; about 60 ns per step.
 
 #include <Eigen/Core>
 #include <string>
@@ -48,10 +48,10 @@ struct TyreState {
   Eigen::Vector2d xi = Eigen::Vector2d::Zero();  ///< deflection / L along x and y of C
 };
 
-/// One tyre over one step, with the force still open in the new spin: F_x = fx0 + fx1 * omega.
+/// Tyre during a step, with the force as a function of the new spin: F_x = fx0 + fx1 * omega.
 struct TyreStep {
   double load_N = 0.0;
-  Eigen::Vector2d peak = {0, 0};       ///< mu_x, mu_y at vanishing sliding speed
+  Eigen::Vector2d peak = {0, 0};       ///< mu_x, mu_y at zero sliding speed
   Eigen::Vector2d stiffness = {0, 0};  ///< c_x, c_y
   Eigen::Vector2d gain = {0, 0};       ///< 1 / (1 + dt Lambda / L)
   Eigen::Vector2d velocity = {0, 0};   ///< of the vehicle at the patch, in C, m/s
@@ -69,8 +69,8 @@ class Tyre {
                  double load_N, const Soil& soil, double dt_s) const;
 
   /// @param spin_radps  at the end of the step
-  /// @returns force of the ground on the tyre along x and y of C, N, never outside the friction
-  ///          ellipse; `state` is advanced
+  /// Advances `state`.
+  /// @returns force of the ground on the tyre along x and y of C, N, within the friction ellipse
   Eigen::Vector2d finish(const TyreStep& step, double spin_radps, double dt_s,
                          TyreState& state) const;
 

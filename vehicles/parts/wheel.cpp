@@ -9,13 +9,36 @@
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 
+// Derivation. With spin omega at the start of the step and omega+ at its end, implicit Euler gives
+//
+//   I (omega+ - omega) / dt = tau_m(omega+) - R F_x(omega+) - C,
+//   tau_m(omega+) = motor constant - motor slope omega+,  within [min, max]       (MotorStep)
+//   F_x(omega+)   = fx0 + fx1 omega+,                     in the friction ellipse (TyreStep)
+//   |C| <= c_rr N R + tau_brake, against omega+           (rolling resistance and brake).
+//
+// Collected, with free = I / dt omega + constant (motor and tyre):
+//
+//   omega+ = (free - C) / (I / dt + slope),
+//
+// and omega+ = 0 exactly if |free| <= c_rr N R + tau_brake. If the torque at omega+ is beyond the
+// motor's limits, or the ellipse cuts the force, that part becomes a constant and omega+ is solved
+// again: first the motor, then the tyre, then the motor with the tyre's constant force.
+
 namespace vinerow::vehicles {
 namespace {
 
-/// Below this speed slip and slip angle are reported as zero: they have no meaning at rest.
+/// Below this speed slip and slip angle are reported as zero: they have no meaning at rest. Chosen
+/// far below the speeds of a vehicle that drives.
 constexpr double kRestSpeed_mps = 1e-4;
 
-/// What the wheel has beside the structs of its parts. Vehicles fill it.
+/// Smallest cosine between strut and ground normal, 78 degrees: bounds the forces of a wheel that
+/// touches a wall. Chosen.
+constexpr double kMinStrutCosine = 0.2;
+
+/// Relative difference above which the ellipse has cut the force; less is rounding.
+constexpr double kCutShare = 1e-9;
+
+/// Parameters of the wheel itself; those of its parts are in their own tables. Vehicles fill it.
 const ParameterTable<WheelParams>& wheel_table() {
   using P = WheelParams;
   static const ParameterTable<P> table =
@@ -26,13 +49,13 @@ const ParameterTable<WheelParams>& wheel_table() {
   return table;
 }
 
-/// Coulomb torque in the step: takes `limit_Nm` off `free_Nm`, or all of it.
+/// Torque that is left of `free_Nm` after a Coulomb torque of at most `limit_Nm` against it.
 double take_off(double free_Nm, double limit_Nm) {
   if (std::abs(free_Nm) <= limit_Nm) return 0.0;
   return free_Nm - std::copysign(limit_Nm, free_Nm);
 }
 
-/// Spin at the end of the step when motor and tyre are linear in it.
+/// omega+ for motor and tyre with the torque constant_Nm - slope_Nms omega+.
 double solve_spin(double inertia_per_dt, double spin, double constant_Nm, double slope_Nms,
                   double coulomb_Nm) {
   const double free_Nm = inertia_per_dt * spin + constant_Nm;
@@ -97,12 +120,13 @@ WheelOutput Wheel::step(const WheelDisc& disc, const WheelContact& contact,
   const double spin = state.spin_radps;
   state.travel_m = contact.travel_m;
 
-  // Load: the strut's force, taken up by the ground along its normal.
+  // Load: the strut's force along z, balanced by the ground along its normal n:
+  // N = F_strut / (z . n), strut rate = -v_C . n / (z . n).
   Eigen::Vector3d x_C = Eigen::Vector3d::Zero(), y_C = x_C, v_C = x_C;
   TyreStep tyre_step;
   if (contact.touches) {
     const Eigen::Vector3d& n = contact.normal_W;
-    const double upright = std::max(disc.z_W.dot(n), 0.2);
+    const double upright = std::max(disc.z_W.dot(n), kMinStrutCosine);
     v_C = v_W + w_W.cross(contact.p_W - p_WB);
     const double rate = -v_C.dot(n) / upright;
     out.load_N = calc_suspension_force(params_.suspension, contact.travel_m, rate) / upright;
@@ -115,7 +139,7 @@ WheelOutput Wheel::step(const WheelDisc& disc, const WheelContact& contact,
     state.tyre.xi.setZero();
   }
 
-  // Spin: motor and tyre are linear in the new spin; a limit that is met makes its part constant.
+  // Spin, with the motor inside its limits or at one of them.
   const double r = params_.radius_m;
   const MotorStep motor_step = motor_.begin(command_radps, spin, dt_s, state.motor);
   const double rolling_Nm = soil.rolling_resistance * out.load_N * r;
@@ -136,8 +160,8 @@ WheelOutput Wheel::step(const WheelDisc& disc, const WheelContact& contact,
     TyreState tyre_state = state.tyre;
     force = tyre_.finish(tyre_step, new_spin, dt_s, tyre_state);
     const double linear_N = tyre_step.fx0_N + tyre_step.fx1_Ns * new_spin;
-    if (std::abs(force.x() - linear_N) > 1e-9 * out.load_N) {
-      // The ellipse cut the force: the spin feels the force that the ground gives.
+    if (std::abs(force.x() - linear_N) > kCutShare * out.load_N) {
+      // The ellipse has cut the force, which is now a constant for the spin.
       new_spin = solve_spin(inertia, spin, motor_Nm - r * force.x(), motor_slope, coulomb_Nm);
       torque = motor_Nm - motor_slope * new_spin;
       if (torque > motor_step.max_Nm || torque < motor_step.min_Nm) {
@@ -154,8 +178,11 @@ WheelOutput Wheel::step(const WheelDisc& disc, const WheelContact& contact,
   state.angle_rad += 0.5 * (spin + new_spin) * dt_s;
   if (std::abs(state.angle_rad) > kPi) state.angle_rad = wrap_angle(state.angle_rad);
 
-  // The ground's whole moment about the axle is R F_x and the rolling resistance; what does not
-  // turn the wheel turns the body (motor and brake are inner torques).
+  // Torque on the body. The ground's moment about the axle is that of F_x at radius R (in force_W
+  // at p_W) and the rolling resistance. Motor and brake are internal torques, so that the body
+  // takes the reaction to the change of spin, -I (omega+ - omega) / dt, and to the rolling
+  // resistance, and the gyroscopic moment -w x (I omega+ y). At rest the resistance holds what the
+  // brake does not, up to its limit.
   const double spin_torque_Nm = inertia * (new_spin - spin);
   const double held_Nm = take_off(torque - r * force.x(), brake_Nm);
   const double resistance_Nm = new_spin != 0.0 ? std::copysign(rolling_Nm, new_spin)

@@ -1,17 +1,17 @@
 #pragma once
-/// The shared wheel: strut, tyre, spin, motor, brake and steering angle. Skid steering, four-wheel
-/// steering and free wheels are all this one.
+/// Wheel of a vehicle: strut, tyre, spin, motor, brake and steering angle. Skid-steered,
+/// four-wheel-steered and free wheels all use this model.
 ///
-/// The wheel's mass belongs to the vehicle's rigid body (its heave against the body is not a state
-/// of its own); its spin is a state. One step solves, implicitly in the new spin omega,
+/// The mass of the wheel belongs to the vehicle's rigid body (the wheel's heave relative to the
+/// body is no state); its spin is a state. One step solves, implicitly in the new spin omega,
 ///
-///   I domega/dt = tau_motor(omega) - R F_x(omega) - Coulomb(c_rr N R + tau_brake)
+///   I domega/dt = tau_motor(omega) - R F_x(omega) - Coulomb(c_rr N R + tau_brake).
 ///
-/// where Coulomb torque holds omega = 0 exactly while it can: a braked wheel does not turn.
+/// The Coulomb torque holds omega = 0 exactly within its limit: a braked wheel does not turn.
 ///
 /// Frames: A wheel axes (x forward, y axle to the left, z strut up), C contact frame of tyre.h.
-/// Signs: spin is positive when the vehicle rolls forward; steering positive to the left.
-/// Cost: no heap; about 130 ns a step without the rays.
+/// Signs: spin is positive when the vehicle rolls forward; steering is positive to the left.
+/// Cost: no heap; about 130 ns per step without the rays.
 
 #include <Eigen/Core>
 #include <string>
@@ -29,7 +29,7 @@ struct WheelParams {
   Eigen::Vector3d hub_B = Eigen::Vector3d::Zero();  ///< centre in its design position, m
   double radius_m = 0.2;                            ///< > 0
   double spin_inertia_kgm2 = 0.2;  ///< I about the axle, gear and rotor included, > 0
-  int probes = 3;                  ///< rays a step: 1 (smooth ground) or 3
+  int probes = 3;                  ///< rays per step: 1 (smooth ground) or 3
   TyreParams tyre;
   SuspensionParams suspension;
   MotorParams motor;
@@ -39,15 +39,15 @@ struct WheelParams {
 };
 
 struct WheelState {
-  double spin_radps = 0.0;  ///< against the body
-  double angle_rad = 0.0;   ///< turned since the start, wrapped to (-pi, pi], for pictures
+  double spin_radps = 0.0;  ///< relative to the body
+  double angle_rad = 0.0;   ///< integral of the spin, wrapped to (-pi, pi], for display
   double steer_rad = 0.0;   ///< of the axle about the strut
   double travel_m = 0.0;    ///< of the hub, positive in compression
   TyreState tyre;
   MotorState motor;
 };
 
-/// What the wheel did in the last step.
+/// Forces and velocities of a wheel in the last step.
 struct WheelOutput {
   bool touches = false;
   double load_N = 0.0;         ///< along the ground's normal
@@ -58,7 +58,7 @@ struct WheelOutput {
   double rim_speed_mps = 0.0;  ///< R omega
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();            ///< contact point
   Eigen::Vector3d force_W = Eigen::Vector3d::Zero();        ///< of the ground, at p_W
-  Eigen::Vector3d body_torque_W = Eigen::Vector3d::Zero();  ///< beside the force's own moment
+  Eigen::Vector3d body_torque_W = Eigen::Vector3d::Zero();  ///< added to the moment of force_W
 
   /// (R omega - v_x) / max(|R omega|, |v_x|); 0 at rest, where slip has no meaning.
   double slip() const;
@@ -71,17 +71,17 @@ class Wheel {
   /// @throws ConfigError
   Wheel(const WheelParams& params, const std::string& who);
 
-  /// The disc in the world, for find_wheel_contact. @param R_WB  rotation matrix of the body
+  /// Disc in the world, for find_wheel_contact. @param R_WB  rotation matrix of the body
   WheelDisc disc(const WheelState& state, const Eigen::Vector3d& p_WB,
                  const Eigen::Matrix3d& R_WB) const;
 
-  /// One step. @param command_radps  wanted spin
+  /// Advances `state` by one step. @param command_radps  commanded spin
   /// @param v_W,w_W  velocity of the body's origin and angular velocity of the body
   WheelOutput step(const WheelDisc& disc, const WheelContact& contact, const Eigen::Vector3d& p_WB,
                    const Eigen::Vector3d& v_W, const Eigen::Vector3d& w_W, const Soil& soil,
                    double command_radps, double dt_s, WheelState& state) const;
 
-  /// Pose of the drawn wheel in B: steering, spring travel and turning included.
+  /// Pose in B of the wheel's link, with steering, spring travel and spin angle.
   Pose link_pose_B(const WheelState& state) const;
 
   const WheelParams& params() const { return params_; }

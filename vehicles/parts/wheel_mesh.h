@@ -1,5 +1,6 @@
 #pragma once
-/// Drawable agricultural wheel: tyre with chevron lugs, dished rim with holes and bolts.
+/// Mesh of an agricultural wheel for display: tyre with chevron lugs, dished rim with holes and
+/// bolts.
 
 #include "engine/api/mesh.h"
 
@@ -11,7 +12,7 @@ struct WheelMeshParams {
   double rim_radius_m = 0.105;
   double lug_height_m = 0.016;
   int lugs = 15;     ///< per side
-  bool left = true;  ///< which side the dish faces: left wheels to +y
+  bool left = true;  ///< side of the dish: +y for left wheels
   unsigned rim_srgb = 0xd9dcd6;
   unsigned hub_srgb = 0x2f7d32;
 };

@@ -17,7 +17,7 @@
 namespace vinerow::vehicles {
 namespace {
 
-/// What the platform has beside the structs of its parts. Vehicles fill it.
+/// Parameters of the platform itself; those of its parts are in their own tables. Vehicles fill it.
 const ParameterTable<WheeledPlatformParams>& wheeled_platform_table() {
   using P = WheeledPlatformParams;
   static const ParameterTable<P> table =
@@ -45,12 +45,11 @@ void demand_step_for_struts(Duration step, const WheeledPlatformParams& params) 
   M.bottomRightCorner<2, 2>() = params.inertia_B.topLeftCorner<2, 2>();
   const double angle_rad = std::sqrt(largest_eigenvalue(K, M)) * step.s();
   const double decay = largest_eigenvalue(D, M) * step.s();
-  if (angle_rad <= kMostStrutAngle_rad && decay <= kMostStrutDecay) return;
+  if (angle_rad <= kMaxStrutAngle_rad && decay <= kMaxStrutDecay) return;
   throw ConfigError(fmt::format(
-      "{}: physics.step_s = {:g} s is too long for struts so stiff under {:g} kg: they swing {:g} "
-      "rad and damp by {:g} in a step, must be up to {:g} rad and {:g}",
-      params.name, step.s(), params.mass_kg, angle_rad, decay, kMostStrutAngle_rad,
-      kMostStrutDecay));
+      "{}: physics.step_s = {:g} s is too long for the struts under {:g} kg: they swing {:g} rad "
+      "and damp by {:g} in a step, must be at most {:g} rad and {:g}",
+      params.name, step.s(), params.mass_kg, angle_rad, decay, kMaxStrutAngle_rad, kMaxStrutDecay));
 }
 
 }  // namespace
@@ -96,7 +95,7 @@ WheeledPlatform::WheeledPlatform(WheeledPlatformParams params) : params_(std::mo
 }
 
 void WheeledPlatform::spawn(physics::PhysicsWorld& world, const Pose& X_WB) {
-  demand_step(world.settings().step, kMostWheelStep, params_.name, "its wheels");
+  demand_step(world.settings().step, kMaxWheelStep, params_.name, "its wheels");
   demand_step_for_struts(world.settings().step, params_);
   world_ = &world;
   physics::BodySpec spec;

@@ -1,6 +1,6 @@
 #pragma once
-/// A rigid body on any number of shared wheels, with a battery: the mechanics of every ground
-/// vehicle of the project. A vehicle class adds its actuators, meshes and parameters.
+/// Mechanics of ground vehicles: a rigid body on three or more wheels (wheel.h), with a battery. A
+/// vehicle class adds its actuators, meshes and parameters.
 
 #include <Eigen/Core>
 #include <optional>
@@ -25,7 +25,7 @@ struct WheeledPlatformParams {
   std::vector<physics::PlacedShape> shapes;
   std::vector<WheelParams> wheels;  ///< at least 3, around B
   BatteryParams battery;
-  AirDragParams air;          ///< none: the wind does not push
+  AirDragParams air;          ///< default: no drag, so that wind has no effect
   double com_height_m = 0.0;  ///< of B above level ground, for the wind's lever
 
   /// @throws ConfigError
@@ -33,7 +33,7 @@ struct WheeledPlatformParams {
 };
 
 /// Static load of each wheel on level ground, N: equilibrium of force and moment, least squares
-/// where there are more than three wheels. @param hubs_B  positions relative to the centre of mass
+/// with more than three wheels. @param hubs_B  positions relative to the centre of mass
 /// @returns empty if the centre of mass is outside the wheels
 std::vector<double> calc_static_loads(std::span<const Eigen::Vector3d> hubs_B, double weight_N);
 
@@ -49,22 +49,24 @@ class WheeledPlatform {
   /// @throws ConfigError
   explicit WheeledPlatform(WheeledPlatformParams params);
 
-  /// Lets the wind push, if the params have a drag area and the world is not calm. Before spawn().
+  /// Enables wind forces if the params have a drag area and the world is not calm. Before spawn().
   /// @param random  the vehicle's own stream for turbulence
   void feel_wind(RandomStream random) { wind_random_ = random; }
-  /// Sets it down parked: it rests there, struts and tyres loaded (static_rest.h).
+  /// Places it at rest, with loaded struts and tyres (static_rest.h).
   /// @throws ConfigError as validate(Wind)
   void spawn(physics::PhysicsWorld& world, const Pose& X_WB);
-  /// Rolling without slip at this forward speed, from the next step on: a start in motion.
+  /// Starts in motion: rolls without slip at this forward speed from the next step on.
   void set_forward_speed(double v_mps);
-  /// @param wheel  index  @param speed_radps  wanted spin; exactly 0 lets the parking brake close
+  /// @param wheel  index
+  /// @param speed_radps  commanded spin; exactly 0 allows the parking brake to close
   void command_speed(std::size_t wheel, double speed_radps) { commands_[wheel] = speed_radps; }
-  /// Turns the axle about the strut, at once (a steering motor's lag is the vehicle's affair).
+  /// Sets the angle of the axle about the strut at once; the vehicle models any lag.
   void set_steer(std::size_t wheel, double steer_rad) {
     state_.wheels[wheel].steer_rad = steer_rad;
   }
 
-  /// Force of the wind over the coming step, beside before_physics(). @param now  its start
+  /// Applies the wind's force over the coming step; called together with before_physics().
+  /// @param now  start of the step
   void push_by_wind(Time now, Duration dt);
   void before_physics(Duration dt);
   void after_physics(Duration dt);
@@ -77,7 +79,7 @@ class WheeledPlatform {
   const WheeledPlatformParams& params() const { return params_; }
   const WheeledPlatformState& state() const { return state_; }
   std::span<const WheelOutput> outputs() const { return outputs_; }
-  /// Nothing where no wind pushes.
+  /// Null without wind forces.
   const WindProbe* wind() const { return wind_ ? &*wind_ : nullptr; }
   const Wheel& wheel(std::size_t index) const { return wheels_[index]; }
   physics::BodyId body() const { return body_; }

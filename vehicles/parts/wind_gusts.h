@@ -1,5 +1,5 @@
 #pragma once
-/// 1-cosine gusts of a world that come by chance; those of its list: engine/api/wind_field.h.
+/// Random 1-cosine gusts of a world; listed gusts: engine/api/wind_field.h.
 
 #include <optional>
 
@@ -9,18 +9,17 @@
 
 namespace vinerow::vehicles {
 
-/// Gusts by chance, one after the other: after each the air rests for a time that is
-/// exponentially distributed with mean interval - duration, so that they come once per interval on
-/// average and never overlap. Direction uniform, amplitude and duration as the world says.
-/// The schedule follows from the world's seed alone: every probe makes the same one, piece by
-/// piece, however long the run. No heap.
+/// Sequence of random gusts. The pause after each is exponentially distributed with the mean
+/// interval - duration, so that there is one gust per interval on average and none overlap.
+/// Direction is uniform; amplitude and duration are those of the world. The schedule depends only
+/// on the world's seed: every probe generates the same one, gust by gust. No heap.
 class RandomGusts {
  public:
   /// @pre validate(wind)
   explicit RandomGusts(const Wind& wind);
 
-  /// The gust that is on or comes next. @param time_s  never running back. Meaningless where
-  /// the world has none.
+  /// The present or next gust. Undefined if the world has no random gusts.
+  /// @param time_s  must not decrease from call to call
   const WindGust& at(double time_s);
   bool none() const { return !statistics_; }
 

@@ -77,14 +77,14 @@ void WindProbe::move_knots(Time now, double height_m, double airspeed_mps) {
     reach_next(airspeed_mps * kTurbulenceTick.s());
     knot_time_ = now;
     next_time_ = now + kTurbulenceTick;
-    way_m_ = 0.0;
+    distance_m_ = 0.0;
     return;
   }
   // What was flown beyond the knot counts for the next one.
-  const double beyond_m = std::min(way_m_, airspeed_mps * (now - next_time_).s());
+  const double beyond_m = std::min(distance_m_, airspeed_mps * (now - next_time_).s());
   const bool skipped = now >= next_time_ + kTurbulenceTick;
-  reach_next(skipped ? way_m_ : way_m_ - beyond_m);
-  way_m_ = skipped ? 0.0 : beyond_m;
+  reach_next(skipped ? distance_m_ : distance_m_ - beyond_m);
+  distance_m_ = skipped ? 0.0 : beyond_m;
   knot_time_ = skipped ? now : next_time_;
   next_time_ = knot_time_ + kTurbulenceTick;
 }
@@ -117,7 +117,7 @@ const Eigen::Vector3d& WindProbe::sample(Time now, const Eigen::Vector3d& p_W,
   }
 
   const double airspeed_mps = (v_W - mean_W_).norm();
-  way_m_ += std::max(airspeed_mps, slowest_mps_) * dt.s();
+  distance_m_ += std::max(airspeed_mps, slowest_mps_) * dt.s();
   if (tick) move_knots(now, height_m, airspeed_mps);
   if (wind_20ft_mps_ > 0.0) {
     const double share = static_cast<double>((now - knot_time_).ns) /

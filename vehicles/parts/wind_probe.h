@@ -1,18 +1,17 @@
 #pragma once
-/// The wind that one vehicle feels: mean wind by the world's height law, Dryden turbulence,
-/// 1-cosine gusts, shelter between the rows; and how dense the air is. Formulae, sources and
-/// figures: docs/models/wind.md.
+/// Wind and air density at one vehicle: mean wind by the world's height law, Dryden turbulence,
+/// 1-cosine gusts and shelter between the rows. Formulae, sources and figures: docs/models/wind.md.
 ///
-/// Every part that wants the wind has a probe of its own: turbulence is drawn along the way of
-/// that vehicle through the air (frozen field), so neighbours do not share it. The mean wind and
-/// all gusts are the world's: every probe sees the same.
+/// Every part that needs the wind has its own probe: turbulence is drawn along the vehicle's path
+/// through the air (frozen field), so that neighbours do not share it. Mean wind and gusts belong
+/// to the world and are the same for all probes.
 ///
-/// Outside the terrain its edge's height continues; above a mesh ground without anything below,
-/// the last height known counts (0 at first).
+/// Outside the terrain the height of its edge continues. Above a mesh ground with nothing below,
+/// the last known height is used (0 at first).
 ///
-/// Cost: below 0.3 us a step on a height field; a mesh ground adds one ray every
-/// kTurbulenceTick. No heap after building, no wall clock, no global state: same world, stream and
-/// calls, same bits.
+/// Cost: below 0.3 us per step on a height field; a mesh ground adds one ray every kTurbulenceTick.
+/// No heap after construction, no wall clock, no global state: the same world, stream and calls
+/// give the same bits.
 
 #include <Eigen/Core>
 
@@ -30,35 +29,36 @@ namespace vinerow::vehicles {
 /// Wind at 20 ft that sets the turbulence: the given one, else the mean wind there.
 double turbulence_wind_mps(const Wind& wind);
 
-/// Density where nothing has been sampled: of a constant atmosphere everywhere, of the standard one
+/// Density before any sample: of a constant atmosphere everywhere, of the standard one
 /// at a height of W, kg/m3.
 double calc_air_density_kgm3(const WorldModel& world, double z_m);
 
 class WindProbe {
  public:
-  /// Knots of the turbulence, between which it runs straight: the same for every physics step.
+  /// Interval of the turbulence's knots, between which it is linear, for any physics step.
   static constexpr Duration kTurbulenceTick{5'000'000};
 
   /// @throws ConfigError as validate(Wind)
-  /// @param world,scene  outlive the probe
-  /// @param random  of this vehicle alone: VehicleContext.random("wind")
+  /// @param world,scene  must outlive the probe
+  /// @param random  the vehicle's own stream, VehicleContext.random("wind")
   WindProbe(const WorldModel& world, const SceneQuery& scene, RandomStream random);
 
-  /// Wind at the vehicle's place now; turbulence moves on by the way through the air since the
-  /// last call. Call it once a physics step, time never running back. A vehicle that drifts with
-  /// the mean wind still meets new eddies at the speed sigma_u (an eddy lives about L / sigma).
-  /// @param p_W  place, m  @param v_W  velocity of the vehicle, m/s
+  /// Wind at the vehicle now. Turbulence advances by the distance through the air since the last
+  /// call. Called once per physics step, with time that does not decrease. A vehicle that drifts
+  /// with the mean wind still meets new eddies at the speed sigma_u (an eddy lives about
+  /// L / sigma).
+  /// @param p_W  position, m  @param v_W  velocity of the vehicle, m/s
   /// @param dt  time since the last call (the physics step)
   /// @returns in W, m/s; exactly zero where calm(). Valid until the next call
   const Eigen::Vector3d& sample(Time now, const Eigen::Vector3d& p_W, const Eigen::Vector3d& v_W,
                                 Duration dt);
 
-  /// No wind at all, ever, and the same density everywhere: sample() need not be called.
+  /// True if there is never any wind and density is uniform: sample() need not be called.
   bool calm() const { return calm_ && wind_->atmosphere == Atmosphere::kConstant; }
-  /// At the place of the last sample; before the first at W's origin.
+  /// At the position of the last sample; before the first at W's origin.
   double air_density_kgm3() const { return density_kgm3_; }
 
-  /// Parts of the last sample, in W, m/s, after shelter: they sum up to it.
+  /// Components of the last sample, in W, m/s, after shelter; their sum is the sample.
   const Eigen::Vector3d& mean_W() const { return mean_W_; }
   const Eigen::Vector3d& gust_W() const { return gust_W_; }
   const Eigen::Vector3d& turbulence_W() const { return turbulence_W_; }
@@ -73,7 +73,7 @@ class WindProbe {
   const HeightField* terrain_;
   const SceneQuery* scene_;
   bool calm_;
-  Eigen::Vector2d downwind_;  // unit, where the mean wind blows to
+  Eigen::Vector2d downwind_;  // unit, direction towards which the mean wind blows
   WindShelter shelter_;
   RandomGusts random_gusts_;
   DrydenTurbulence turbulence_;
@@ -84,7 +84,7 @@ class WindProbe {
   Eigen::Vector3d knot_ = Eigen::Vector3d::Zero(), next_knot_ = Eigen::Vector3d::Zero();
   Time knot_time_, next_time_;
   bool started_ = false;
-  double way_m_ = 0.0;  // through the air since the last knot
+  double distance_m_ = 0.0;  // through the air since the last knot
   double slowest_mps_ = 0.0;
 
   Eigen::Vector3d mean_W_ = Eigen::Vector3d::Zero(), gust_W_ = Eigen::Vector3d::Zero(),

@@ -10,12 +10,12 @@
 namespace vinerow::vehicles {
 namespace {
 
-/// Finest grid, and the most nodes: larger blocks get a coarser one.
+/// Finest grid, and the largest number of nodes: larger blocks get a coarser grid.
 constexpr double kFinestCell_m = 0.5;
-constexpr double kMostNodes = 250'000.0;
+constexpr double kMaxNodes = 250'000.0;
 constexpr double kFar_m = std::numeric_limits<double>::infinity();
 
-/// A straight piece of an alley or a row: its strip.
+/// Strip along a straight piece of an alley or a row.
 struct Strip {
   Eigen::Vector2d start, along;
   double length_m, half_width_m;
@@ -91,7 +91,7 @@ WindShelter::WindShelter(const RowMap& map, double attenuation) : attenuation_(a
   if (box.isEmpty()) return;
   const double reach_m = highest_m + widest_m + 2.0 * kFinestCell_m;
   const Eigen::Vector2d size_m = box.sizes() + Eigen::Vector2d::Constant(2.0 * reach_m);
-  cell_m_ = std::max(kFinestCell_m, std::sqrt(size_m.x() * size_m.y() / kMostNodes));
+  cell_m_ = std::max(kFinestCell_m, std::sqrt(size_m.x() * size_m.y() / kMaxNodes));
   corner_W_ = box.min() - Eigen::Vector2d::Constant(reach_m);
   columns_ = static_cast<int>(size_m.x() / cell_m_) + 2;
   rows_ = static_cast<int>(size_m.y() / cell_m_) + 2;
@@ -120,7 +120,7 @@ WindShelter::WindShelter(const RowMap& map, double attenuation) : attenuation_(a
       }
     }
   };
-  // The nearest row tells the canopy's top, the nearest strip direction and distance.
+  // The nearest row gives the canopy's top, the nearest strip gives direction and distance.
   std::vector<double> row_m(count, kFar_m), strip_m(count, kFar_m);
   const auto take_strip = [&](const Strip& strip, std::size_t node, double distance_m) {
     if (distance_m >= strip_m[node]) return;

@@ -1,16 +1,16 @@
 #pragma once
-/// How much of the wind is left between the rows of a block.
+/// Wind shelter: share of the wind that is left between the rows of a block.
 ///
-/// Inside, below the canopy's top h, wind falls off like exp(-a (1 - z / h)) from what it is at the
+/// Inside, below the canopy's top h, wind decreases as exp(-a (1 - z / h)) from its value at the
 /// top (Cionco, "A mathematical model for air flow in a vegetative canopy", J. Appl. Meteorol. 4,
-/// 1965). Across the rows a is the world's attenuation; along them kAlongShare of it: the air is
-/// channelled into the rows' direction, where the block acts like a sparse canopy (Miller, Stoll,
-/// Mahaffee, Neill, "Mean and turbulent flow statistics in a trellised agricultural canopy",
-/// Boundary-Layer Meteorol. 165, 2017; the share is chosen).
+/// 1965). Across the rows a is the world's attenuation; along them it is kAlongShare of it: the
+/// rows channel the air along their direction, in which the block acts like a sparse canopy
+/// (Miller, Stoll, Mahaffee, Neill, "Mean and turbulent flow statistics in a trellised agricultural
+/// canopy", Boundary-Layer Meteorol. 165, 2017; the share is chosen).
 ///
-/// Inside means within an alley or a row's strip. Beyond their outline the shelter fades over
-/// one canopy height (chosen) along a smooth step. Held on a grid, so that a question costs the
-/// same in any world.
+/// Inside means within an alley or the strip of a row. Beyond that outline the shelter fades over
+/// one canopy height (chosen) with a smooth step. It is stored on a grid, so that the cost of a
+/// query does not depend on the world.
 
 #include <Eigen/Core>
 #include <vector>
@@ -27,9 +27,9 @@ struct ShelterSpot {
   double top_m = 0.0;  ///< of the canopy above the ground
 };
 
-/// What is left of the wind at a height.
+/// Share of the wind that is left at a height.
 struct ShelterFactors {
-  double along = 1.0;   ///< the rows
+  double along = 1.0;   ///< along the rows
   double across = 1.0;  ///< also of the vertical wind
 
   /// @param axis  of the spot
@@ -44,7 +44,7 @@ class WindShelter {
   WindShelter(const RowMap& rows, double attenuation);
 
   bool none() const { return spots_.empty(); }
-  /// inside == 0 where there is none.
+  /// inside == 0 if there is no shelter.
   ShelterSpot spot(const Eigen::Vector2d& p_W) const;
   /// @param height_m  above the ground
   ShelterFactors factors(const ShelterSpot& spot, double height_m) const;

@@ -1,11 +1,12 @@
 #pragma once
 /// Aerodynamics of a whole aircraft by coefficients, as a pure function of air velocity, rates,
-/// density and elevons. Beard, McLain, *Small Unmanned Aircraft*, 2012, chapter 4, with these
-/// differences: nothing is divided by the airspeed, so that a body at rest in the air is no special
-/// case; side slip enters as sin(beta) = v / V; the drag of a deflection counts each elevon.
+/// density and elevons. Source: Beard, McLain, *Small Unmanned Aircraft*, 2012, chapter 4, with
+/// these differences: nothing is divided by the airspeed, so that a body at rest in the air is no
+/// special case; side slip enters as sin(beta) = v / V; each elevon adds the drag of its
+/// deflection.
 ///
-/// Signs of aviation in the coefficients: x forward, y right, z down; u, v, w through the air, p,
-/// q, r. d_e = (right + left) / 2, d_a = (left - right) / 2, trailing edge down > 0: d_e > 0
+/// The coefficients use the axes of aviation: x forward, y right, z down; u, v, w through the air,
+/// p, q, r. d_e = (right + left) / 2, d_a = (left - right) / 2, trailing edge down > 0: d_e > 0
 /// pitches down, d_a > 0 rolls right. With alpha = atan2(w, u), s(alpha) the stalled share (eq.
 /// 4.10) and k = 1 - s (1 - stalled_control):
 ///   C_L = (1 - s) (C_L0 + C_La alpha) + s 2 sign(alpha) sin^2 cos + C_Lq c q / 2V + k C_Lde d_e
@@ -15,8 +16,8 @@
 /// A plate's normal force 2 sin^2 acts `plate_arm` chords behind the centre of mass. Lift, drag and
 /// C_m act in the plane of symmetry, with V sqrt(u^2 + w^2) in place of V^2.
 ///
-/// Left out: spin (C_lp keeps its sign in a stall), compressibility, ground effect, the propeller's
-/// wake.
+/// Left out are spin (C_lp keeps its sign in a stall), compressibility, ground effect and the wake
+/// of the propeller.
 
 #include <Eigen/Core>
 #include <string>
@@ -26,7 +27,7 @@
 
 namespace vinerow::vehicles {
 
-/// Defaults: the flying wing of assets/vehicles/mh900_like.yaml, where the sources are.
+/// Defaults and their sources: the flying wing of assets/vehicles/mh900_like.yaml.
 struct WingParams {
   double area_m2 = 0.27;
   double span_m = 0.90;
@@ -40,7 +41,7 @@ struct WingParams {
   double yaw_beta = 0.029, yaw_p = -0.047, yaw_r = -0.036, yaw_aileron = -0.0095;
 
   bool stall = true;             ///< false: linear at all angles
-  double stall_angle_rad = 0.0;  ///< half of the flow has separated; set by the constructor
+  double stall_angle_rad = 0.0;  ///< at which half of the flow has separated; constructor sets it
   double stall_blend = 50.0;     ///< M of eq. 4.10, 1/rad
   double plate_arm = 0.25;       ///< in chords, behind the centre of mass
   double stalled_control = 0.3;  ///< share of the elevons' effect that is left beyond stall
@@ -51,7 +52,7 @@ struct WingParams {
   void validate(const std::string& who) const;
 };
 
-/// Where the elevons stand, trailing edge down > 0.
+/// Elevon deflections, trailing edge down > 0.
 struct Elevons {
   double left_rad = 0.0;
   double right_rad = 0.0;
@@ -59,7 +60,7 @@ struct Elevons {
   double aileron_rad() const { return 0.5 * (left_rad - right_rad); }
 };
 
-/// Share of the wing that flies stalled, eq. 4.10: 0 well inside, 1 well beyond +-stall_angle.
+/// Share of the wing that is stalled, eq. 4.10: 0 well inside, 1 well beyond +-stall_angle.
 double stalled_share(const WingParams& params, double alpha_rad);
 
 /// Lift and drag coefficients in steady straight flight, for trims, stall speed and tests.
@@ -77,7 +78,7 @@ AirLoad calc_wing_load(const WingParams& params, const AirPoint& air, const Elev
 /// within +-`elevon_max_rad`.
 double calc_trimmed_lift_max(const WingParams& params, double elevon_max_rad);
 
-/// The numbers above as scenario parameters: coefficients per rad, the stall's angle in deg.
+/// Table of these values as scenario parameters: coefficients per rad, stall angle in deg.
 const ParameterTable<WingParams>& wing_table();
 
 }  // namespace vinerow::vehicles

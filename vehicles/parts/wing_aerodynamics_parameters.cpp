@@ -18,7 +18,7 @@ const ParameterTable<WingParams>& wing_table() {
                   "from tip to tip, reference of roll and yaw")
           .number("wing_chord_m", "m", &P::chord_m, kPositive,
                   "mean aerodynamic chord, reference of pitch")
-          .boolean("stall", &P::stall, "whether lift breaks down beyond stall_angle_deg")
+          .boolean("stall", &P::stall, "true: lift collapses beyond stall_angle_deg")
           .degrees("stall_angle_deg", &P::stall_angle_rad, between(1.0, 80.0),
                    "angle of attack at which half of the flow has separated, either side")
           .number("lift_0", "", &P::lift_0, between(-2.0, 2.0), "C_L0")

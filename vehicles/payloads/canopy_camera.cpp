@@ -45,13 +45,13 @@ constexpr ParameterConversion kMillimetres = {[](double value_mm) { return value
 
 const ParameterTable<CanopyCameraParams>& canopy_camera_table() {
   using P = CanopyCameraParams;
-  constexpr double kMostPixels = 100'000.0;
+  constexpr double kMaxPixels = 100'000.0;
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .numbers("position_m", "m", &P::p_BS, between(-100.0, 100.0),
-                   "place of the cameras in the body frame (x forward, y left, z up)")
+                   "position of the cameras in the body frame (x forward, y left, z up)")
           .numbers("yaws_deg", "deg", &P::yaws_rad, kAnyNumber,
-                   "heading of each camera against the vehicle's, positive to the left", 0,
+                   "heading of each camera relative to the vehicle's, positive to the left", 0,
                    kDegrees)
           .degrees("pitch_deg", &P::pitch_rad, between(-90.0, 90.0),
                    "of the optical axes, positive looks down")
@@ -61,11 +61,12 @@ const ParameterTable<CanopyCameraParams>& canopy_camera_table() {
                    "angle of view across")
           .degrees("fov_vertical_deg", &P::fov_vertical_rad, between(1.0, 170.0),
                    "angle of view in height")
-          .integer("image_columns", &P::image_columns, between(1.0, kMostPixels),
+          .integer("image_columns", &P::image_columns, between(1.0, kMaxPixels),
                    "pixels of a picture across")
-          .integer("image_rows", &P::image_rows, between(1.0, kMostPixels),
+          .integer("image_rows", &P::image_rows, between(1.0, kMaxPixels),
                    "pixels of a picture in height")
-          .number("range_m", "m", &P::range_m, between(0.1, 200.0), "farther canopy does not count")
+          .number("range_m", "m", &P::range_m, between(0.1, 200.0),
+                  "distance beyond which canopy does not count")
           .degrees("max_incidence_deg", &P::max_incidence_rad, between(0.0, 89.0),
                    "largest angle between a ray and the surface's normal")
           .number("wanted_gsd_mm", "mm", &P::wanted_gsd_m, kPositive,
@@ -73,7 +74,7 @@ const ParameterTable<CanopyCameraParams>& canopy_camera_table() {
           .integer("wanted_views", &P::wanted_views, between(1.0, 1000.0),
                    "pictures that must show a patch for it to count as covered")
           .choice("on", &P::on_legs_only, {{"legs", true}, {"always", false}},
-                  "where it takes pictures: on the plan's legs only, or all the time")
+                  "takes pictures on the plan's legs only, or all the time")
           .integer("ray_columns", &P::ray_columns, between(1.0, 1000.0), "rays of a picture across")
           .integer("ray_rows", &P::ray_rows, between(1.0, 1000.0), "rays of a picture in height")
           .number("patch_step_m", "m", &P::step_m, between(0.02, 10.0),
@@ -98,7 +99,7 @@ class CanopyCamera final : public Payload {
         on_legs_only_(params.on_legs_only),
         stabilised_(params.stabilised),
         range_m_(params.range_m),
-        least_cos_(std::cos(params.max_incidence_rad)),
+        min_cos_(std::cos(params.max_incidence_rad)),
         wanted_gsd_m_(params.wanted_gsd_m),
         p_BS_(params.p_BS),
         patches_(*context.world, params.step_m, params.band_m),
@@ -112,8 +113,8 @@ class CanopyCamera final : public Payload {
       cameras_.push_back(quaternion_from_rpy({0.0, params.pitch_rad, yaw_rad}));
     }
     make_rays(params);
-    told_.names = {"pictures", "patches_in_picture", "gsd_mm", "seen_share"};
-    told_.values.assign(told_.names.size(), 0.0);
+    reported_.names = {"pictures", "patches_in_picture", "gsd_mm", "seen_share"};
+    reported_.values.assign(reported_.names.size(), 0.0);
   }
 
   void connect(Ports& ports) override {
@@ -135,10 +136,10 @@ class CanopyCamera final : public Payload {
     shown_gsd_m_ = 0.0;
     shown_rays_ = 0;
     for (const Eigen::Quaterniond& camera : cameras_) take_picture({q_W * camera, X_WB * p_BS_});
-    told_.values = {static_cast<double>(pictures_), static_cast<double>(shown_),
-                    shown_rays_ > 0 ? kMmPerM * shown_gsd_m_ / shown_rays_ : 0.0,
-                    patches_.area_m2() > 0.0 ? seen_m2_ / patches_.area_m2() : 0.0};
-    writer_.write(now, told_);
+    reported_.values = {static_cast<double>(pictures_), static_cast<double>(shown_),
+                        shown_rays_ > 0 ? kMmPerM * shown_gsd_m_ / shown_rays_ : 0.0,
+                        patches_.area_m2() > 0.0 ? seen_m2_ / patches_.area_m2() : 0.0};
+    writer_.write(now, reported_);
   }
 
   std::map<std::string, double> results() const override {
@@ -190,7 +191,7 @@ class CanopyCamera final : public Payload {
       const auto hit = scene_.cast_ray(X_WS.p, dir_W, range_m_, kOpaque);
       if (!hit || hit->surface != SurfaceClass::kCanopy) continue;
       const double cos_incidence = -hit->normal_W.dot(dir_W);
-      if (!(cos_incidence >= least_cos_) || cos_incidence <= 0.0) continue;
+      if (!(cos_incidence >= min_cos_) || cos_incidence <= 0.0) continue;
       const double depth_m = hit->distance_m * ray.cos_off_axis;
       const double gsd_m = depth_m * pixel_ * std::sqrt(ray.cos_off_axis / cos_incidence);
       if (gsd_m > wanted_gsd_m_) continue;
@@ -218,7 +219,7 @@ class CanopyCamera final : public Payload {
   bool on_legs_only_;
   bool stabilised_;
   double range_m_;
-  double least_cos_;
+  double min_cos_;
   double wanted_gsd_m_;
   Vector3d p_BS_;
   std::vector<Eigen::Quaterniond> cameras_;  // R_BS, of a stabilised one against B's heading
@@ -231,7 +232,7 @@ class CanopyCamera final : public Payload {
   SignalReader<Odometry> truth_, estimate_;
   PlanStretch plan_;
   SignalWriter<NamedValues> writer_;
-  NamedValues told_;
+  NamedValues reported_;
 
   std::int64_t pictures_ = 0;
   std::int64_t canopy_pictures_ = 0;  // that show a patch
@@ -241,17 +242,36 @@ class CanopyCamera final : public Payload {
   double shown_gsd_m_ = 0.0;
 };
 
+std::vector<ResultSpec> canopy_camera_results() {
+  using Range = ResultRange;
+  return {{"pictures", "1", Range::count(), "pictures taken",
+           "Number of pictures taken by the payload's cameras.", ""},
+          {"canopy_pictures", "1", Range::count(), "pictures of canopy",
+           "Number of pictures that show canopy at the required resolution and incidence.", ""},
+          {"seen_share", "1", Range::share(), "canopy seen",
+           "Fraction of the canopy surface that at least one picture shows at the required "
+           "resolution and incidence.",
+           ""},
+          {"seen_twice_share", "1", Range::share(), "canopy seen twice",
+           "Fraction of the canopy surface that at least two pictures show at the required "
+           "resolution and incidence.",
+           ""},
+          {"gsd_mean_mm", "mm", Range::from_zero(), "mean resolution on canopy",
+           "Mean, over the seen canopy surface, of its best ground sampling distance.", ""}};
+}
+
 }  // namespace
 
 PartSpec canopy_camera_spec() {
   PartSpec spec;
   spec.name = "canopy_camera";
+  spec.results = canopy_camera_results();
   spec.description =
       "Scouting cameras that look at the rows: patches of the true canopy that their pictures show "
       "sharply enough";
   spec.parameters = canopy_camera_table().specs();
   spec.default_rate_Hz = 2.0;
-  spec.reads = {"truth", "estimate and plan (where on: legs)"};
+  spec.reads = {"truth", "estimate and plan (if on: legs)"};
   spec.writes = {"<name>"};
   return spec;
 }

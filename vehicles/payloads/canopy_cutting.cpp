@@ -13,12 +13,12 @@ using Eigen::Vector3d;
 
 /// A convex polygon of a few corners: a triangle gets one more by each of at most five cuts.
 struct Piece {
-  static constexpr std::size_t kMost = 10;
-  std::array<CanopyPoint, kMost> corners;
+  static constexpr std::size_t kMax = 10;
+  std::array<CanopyPoint, kMax> corners;
   std::size_t count = 0;
 
   void add(const CanopyPoint& point) {
-    VINEROW_ASSERT(count < kMost);
+    VINEROW_ASSERT(count < kMax);
     corners[count++] = point;
   }
 };

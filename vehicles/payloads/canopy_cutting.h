@@ -1,5 +1,5 @@
 #pragma once
-/// Cuts canopy triangles along the borders of patches, so that areas are exact.
+/// Cutting of canopy triangles along the borders of patches, so that areas are exact.
 
 #include <Eigen/Core>
 #include <functional>
@@ -8,7 +8,7 @@
 
 namespace vinerow::vehicles {
 
-/// A point of the canopy, and where it is on its row.
+/// Point of the canopy with its position on its row.
 struct CanopyPoint {
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
   int row = 0;
@@ -19,7 +19,7 @@ struct CanopyPoint {
 
 CanopyPoint canopy_point(const RowLines& rows, const Eigen::Vector3d& p_W);
 
-/// A piece that lies in one patch. Indices are not limited to the row's length or to the ground.
+/// Piece of a triangle in one patch. Indices may be beyond the row's ends and below the ground.
 struct CanopyPiece {
   int row = 0;
   int side = 1;
@@ -29,9 +29,9 @@ struct CanopyPiece {
   Eigen::Vector3d middle_W = Eigen::Vector3d::Zero();
 };
 
-/// Cuts one triangle. The pieces' areas add up to its area. A triangle over which the place on the
-/// row is no linear function (a bend, the border of two rows) is quartered until it is, or smaller
-/// than a hundredth of a patch.
+/// Cuts one triangle. The areas of the pieces sum up to its area. A triangle over which the
+/// position on the row is not linear (a bend, the border of two rows) is quartered until it is, or
+/// until it is smaller than a hundredth of a patch.
 void cut_canopy_triangle(const RowLines& rows, const CanopyPoint& a, const CanopyPoint& b,
                          const CanopyPoint& c, double step_m, double band_m,
                          const std::function<void(const CanopyPiece&)>& take);

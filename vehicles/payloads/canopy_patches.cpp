@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Of step times band; smaller ones are given away.
+/// Share of step times band; smaller patches are merged into a neighbour.
 constexpr double kSliver = 0.2;
 
 bool is_canopy(const MeshInstance& instance) {
@@ -80,15 +80,15 @@ CanopyPatches::CanopyPatches(const WorldModel& world, double step_m, double band
 }
 
 void CanopyPatches::take_over(std::vector<CanopyPatch>& cells) {
-  // Who gets a cell's area: itself, a neighbour, nobody (-1: it has none).
-  const double least_m2 = kSliver * step_m_ * band_m_;
+  // Receiver of a cell's area: itself, a neighbour, or -1 without area.
+  const double min_m2 = kSliver * step_m_ * band_m_;
   std::vector<std::int32_t> heirs(cells.size(), -1);
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const CanopyPatch& patch = cells[i];
     if (!(patch.area_m2 > 0.0)) continue;
     heirs[i] = static_cast<std::int32_t>(i);
-    if (patch.area_m2 >= least_m2) continue;
-    double largest_m2 = least_m2;
+    if (patch.area_m2 >= min_m2) continue;
+    double largest_m2 = min_m2;
     for_each_neighbour(patch.row, patch.side, patch.along, patch.band, [&](std::size_t other) {
       if (cells[other].area_m2 < largest_m2) return;
       largest_m2 = cells[other].area_m2;
@@ -113,7 +113,7 @@ void CanopyPatches::take_over(std::vector<CanopyPatch>& cells) {
     patches_.push_back(patch);
   }
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    // An heir is no sliver: it keeps its own.
+    // A receiver is large enough and keeps its own area.
     if (heirs[i] >= 0) patch_of_cell_[i] = patch_of_cell_[static_cast<std::size_t>(heirs[i])];
   }
 }

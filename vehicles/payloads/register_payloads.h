@@ -1,5 +1,5 @@
 #pragma once
-/// Tells the registry of every built-in payload.
+/// Registration of all built-in payloads.
 
 #include "engine/api/registry.h"
 

@@ -19,7 +19,7 @@ SectionSwitch::SectionSwitch(const SprayerParams& params, const RowMap& map)
 void SectionSwitch::connect(Ports& ports) {
   estimate_ = ports.read<Odometry>("estimate");
   if (params_.on_legs_only) {
-    // For the check that somebody plans: without legs nothing would ever be sprayed.
+    // Checks that there is a planner: without legs nothing would ever be sprayed.
     static_cast<void>(ports.read<PlannedPath>("plan"));
     plan_.connect(ports);
   }
@@ -41,9 +41,9 @@ Sections SectionSwitch::wanted() {
   }
   const Eigen::Vector3d boom_W =
       estimate.X_WB * Eigen::Vector3d(params_.boom_x_m, 0.0, 0.0) + params_.lead_s * v_W;
-  const RowsBeside beside =
+  const AdjacentRows beside =
       rows_.beside(boom_W.head<2>(), yaw_from_quaternion(estimate.X_WB.q), params_.row_reach_m,
-                   params_.most_angle_rad, params_.beyond_end_m);
+                   params_.max_angle_rad, params_.beyond_end_m);
   return {beside.left.has_value(), beside.right.has_value()};
 }
 

@@ -1,12 +1,12 @@
 #pragma once
-/// Opens and closes the left and the right section of a sprayer by what its vehicle knows: its
-/// estimate, the rows of its map, and where asked for the kind of the plan's stretch.
+/// Automatic switching of a sprayer's left and right sections. It uses only what the vehicle knows:
+/// its estimate, the rows of its map and, if `on_legs_only`, the kind of the plan's stretch.
 ///
-/// A section is wanted open where the boom, `lead_s` ahead on the present course, has a row of the
-/// map in reach on that side that runs along the heading, and the vehicle is not slower than the
-/// least speed. So sections close in turns (their angle), on headlands (no row beside) and at a
-/// halt. A valve follows its command `valve_lag_s` later; a command that is taken back sooner never
-/// reaches it.
+/// A section is commanded open if the boom, `lead_s` ahead on the present course, has a row of the
+/// map within reach on that side that is parallel to the heading, and the vehicle is not slower
+/// than `min_speed_mps`. Sections therefore close in turns (the angle), on headlands (no row) and
+/// at a halt. A valve follows its command after `valve_lag_s`; a command that is withdrawn sooner
+/// has no effect.
 
 #include <optional>
 
@@ -23,10 +23,10 @@ struct Sections {
   bool right = false;
 };
 
-/// A valve that follows its command after a while.
+/// Valve that follows its command after a lag.
 class LaggingValve {
  public:
-  /// @returns whether it is open at `now`
+  /// @returns true if it is open at `now`
   bool follow(bool command, Time now, Duration lag);
 
  private:
@@ -37,12 +37,12 @@ class LaggingValve {
 
 class SectionSwitch {
  public:
-  /// @param map  of the vehicle
+  /// @param map  map of the vehicle
   SectionSwitch(const SprayerParams& params, const RowMap& map);
 
-  /// Reads "estimate", and "plan" where sections open on legs only.
+  /// Reads "estimate", and "plan" if sections open on legs only.
   void connect(Ports& ports);
-  /// @returns which sections are open now
+  /// @returns the sections that are open now
   Sections step(Time now);
 
  private:

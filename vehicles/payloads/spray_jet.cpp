@@ -6,11 +6,11 @@
 namespace vinerow::vehicles {
 namespace {
 
-/// Rays go on this far behind a surface, so that they do not meet it again.
+/// Rays continue this far behind a surface, so that they do not meet it again.
 constexpr double kBehind_m = 1e-4;
-/// No canopy is thicker; a hull without a far side within it is taken for solid.
+/// No canopy is thicker; a hull without a far side within this distance is treated as solid.
 constexpr double kThickest_m = 5.0;
-/// A jet slower than this against the air is none.
+/// A jet slower than this relative to the air is ignored.
 constexpr double kSlowest_mps = 0.1;
 
 constexpr SurfaceMask kCanopyMask = mask_of(SurfaceClass::kCanopy);

@@ -1,25 +1,25 @@
 #pragma once
-/// Where the droplets of an air-assisted nozzle go: along an air jet that slows down, is carried
-/// off by the wind and sinks, into leaves that catch a share of them.
+/// Spray jet of an air-assisted nozzle: the droplets follow an air jet that slows down, drifts with
+/// the wind and sinks; leaves catch a share of them.
 ///
-/// **Jet.** Relative to the air around it the jet keeps its direction, its speed falls with the way
-/// x along it as U d / (d + x) (round jets far from the outlet: u ~ 1/x; Rajaratnam, "Turbulent
-/// jets", 1976, ch. 2; d about six outlet widths), and all of it is carried along by the wind:
+/// **Jet.** Relative to the air around it the jet keeps its direction. Its speed falls with the
+/// distance x along it as U d / (d + x) (round jets far from the outlet: u ~ 1/x; Rajaratnam,
+/// "Turbulent jets", 1976, ch. 2; d about six outlet widths), and the wind carries all of it along:
 ///   p(x) = p_0 + x e + (w - s z) t(x),    t(x) = (x + x^2 / (2 d)) / U
 ///   U e = u_0 n + v - w
-/// with n the nozzle's direction, u_0 the speed at the outlet, v the velocity of the nozzle over
-/// ground (driving bends the jet forward at first and leaves it behind then), w the wind, s the
-/// speed at which droplets of this size fall. Droplets move with the jet's air. The way is walked
-/// in straight pieces that double in length, so that the displacement is exact where they meet.
+/// with the direction n of the nozzle, the speed u_0 at the outlet, the velocity v of the nozzle
+/// over ground (driving bends the jet first forward, then backward), the wind w and the speed s at
+/// which droplets of this size fall. Droplets move with the air of the jet. The path is traced in
+/// straight pieces that double in length; their end points are exact.
 ///
-/// **Leaves.** Of what enters a canopy's hull the share 1 - exp(-k l) stays on the leaves along the
-/// chord l (Beer's law: Ross, "The radiation regime and architecture of plant stands", 1981), k =
-/// leaf area density times the mean projection of leaves (1/2 for leaves of all inclinations). The
-/// first half of the chord counts to where it entered, the rest to where it leaves. The jet goes on
-/// behind it.
+/// **Leaves.** Of the liquid that enters a canopy's hull the share 1 - exp(-k l) stays on the
+/// leaves along the chord l (Beer's law: Ross, "The radiation regime and architecture of plant
+/// stands", 1981), with k = leaf area density times the mean projection of leaves (1/2 for leaves
+/// of all inclinations). The deposit of the first half of the chord is placed at the entry, the
+/// rest at the exit. The remaining jet continues behind the canopy.
 ///
-/// **Loss.** Per metre of way a share leaves the jet for good: fine droplets and evaporation. What
-/// is in the air at the end of the reach is lost too, as is the last hundredth of a portion.
+/// **Loss.** A share of the liquid leaves the jet per metre: fine droplets and evaporation. Liquid
+/// that is in the air at the end of the reach is lost too, as is the last hundredth of a portion.
 
 #include <Eigen/Core>
 
@@ -32,7 +32,7 @@ struct SprayParams {
   double jet_decay_m = 0.6;       ///< d
   double reach_m = 4.0;           ///< longest x
   double settling_mps = 0.3;      ///< s
-  double loss_length_m = 15.0;    ///< way after which 1/e is left
+  double loss_length_m = 15.0;    ///< distance after which 1/e is left
   double extinction_per_m = 3.0;  ///< k
 };
 
@@ -43,9 +43,9 @@ class SprayJet {
            const Eigen::Vector3d& direction_W, const Eigen::Vector3d& v_W,
            const Eigen::Vector3d& wind_W);
 
-  /// Where droplets are after the way x along the jet, x >= 0.
+  /// Position of the droplets after the distance x along the jet, x >= 0.
   Eigen::Vector3d at(double x_m) const;
-  /// How long they take, s.
+  /// Their time of flight to x, s.
   double time_s(double x_m) const;
 
  private:
@@ -54,22 +54,22 @@ class SprayJet {
   double decay_m_;
 };
 
-/// Where a portion of liquid ended; all parts together are the portion.
+/// Destinations of a portion of liquid; their sum is the portion.
 struct SprayFate {
   double canopy_ml = 0.0;
-  double ground_ml = 0.0;  ///< and on what stands on it: posts, trunks, boxes
+  double ground_ml = 0.0;  ///< ground and objects on it: posts, trunks, boxes
   double lost_ml = 0.0;    ///< evaporated, or in the air beyond the reach
 };
 
-/// Walks a portion of liquid along a jet. No heap if `deposit` takes none.
-/// @param deposit  void(const Eigen::Vector3d& p_W, double ml): called for what leaves catch
+/// Traces a portion of liquid along a jet. No heap if `deposit` uses none.
+/// @param deposit  void(const Eigen::Vector3d& p_W, double ml): called for liquid on leaves
 template <class F>
 SprayFate trace_spray(const SceneQuery& scene, const SprayParams& params, const SprayJet& jet,
                       double portion_ml, F&& deposit);
 
 namespace internal {
 
-/// What meets a straight piece of way.
+/// First object on a straight piece of the path.
 struct SprayMeeting {
   bool meets = false;
   bool is_canopy = false;
@@ -80,7 +80,7 @@ SprayMeeting meet(const SceneQuery& scene, const Eigen::Vector3d& p_W,
                   const Eigen::Vector3d& direction_W, double length_m);
 
 constexpr double kFirstPiece_m = 0.5;
-constexpr double kLeastShare = 0.01;
+constexpr double kMinShare = 0.01;
 
 }  // namespace internal
 
@@ -96,10 +96,10 @@ SprayFate trace_spray(const SceneQuery& scene, const SprayParams& params, const 
   };
   double x_m = 0.0, next_m = internal::kFirstPiece_m;
   Eigen::Vector3d p_W = jet.at(0.0);
-  while (x_m < params.reach_m && left_ml > internal::kLeastShare * portion_ml) {
+  while (x_m < params.reach_m && left_ml > internal::kMinShare * portion_ml) {
     while (next_m <= x_m) next_m *= 2.0;
     const double until_m = std::min(next_m, params.reach_m);
-    // What canopy has shifted goes on beside the undisturbed way.
+    // Canopy shifts the jet, which then continues parallel to its undisturbed path.
     const Eigen::Vector3d way = jet.at(until_m) - jet.at(x_m);
     const double length_m = way.norm();
     const Eigen::Vector3d direction = way / length_m;

@@ -74,7 +74,7 @@ class Sprayer final : public Payload {
         tank_l_(params_.tank_l) {
     if (context.map->rows.empty()) {
       throw ConfigError(fmt::format(
-          "{}: the vehicle's map has no rows, must have one at least: sections open beside rows",
+          "{}: the vehicle's map has no rows, must have at least one: sections open beside rows",
           context.part));
     }
     coverage_.quantity = "deposit";
@@ -94,8 +94,8 @@ class Sprayer final : public Payload {
         (side > 0 ? left_ : right_).nozzles.push_back({p_B, axes_B, QuasiRandom(random)});
       }
     }
-    told_.names = {"left_on", "right_on", "flow_lps", "tank_l", "sprayed_l", "canopy_l"};
-    told_.values.assign(told_.names.size(), 0.0);
+    reported_.names = {"left_on", "right_on", "flow_lps", "tank_l", "sprayed_l", "canopy_l"};
+    reported_.values.assign(reported_.names.size(), 0.0);
   }
 
   void connect(Ports& ports) override {
@@ -111,13 +111,13 @@ class Sprayer final : public Payload {
     right_.open = sections.right && !empty_;
     double used_l = 0.0;
     if (truth_.has_value()) used_l = spray(now, truth_.value());
-    told_.values = {left_.open ? 1.0 : 0.0,
-                    right_.open ? 1.0 : 0.0,
-                    used_l / period_.s(),
-                    tank_l_,
-                    sprayed_l_,
-                    fate_.canopy_ml / kMlPerL};
-    writer_.write(now, told_);
+    reported_.values = {left_.open ? 1.0 : 0.0,
+                        right_.open ? 1.0 : 0.0,
+                        used_l / period_.s(),
+                        tank_l_,
+                        sprayed_l_,
+                        fate_.canopy_ml / kMlPerL};
+    writer_.write(now, reported_);
   }
 
   std::map<std::string, double> results() const override {
@@ -209,7 +209,7 @@ class Sprayer final : public Payload {
   /// Which true rows were beside an open section, and what was sprayed beside none.
   void account_rows(const Odometry& truth, const Vector3d& boom_W, const Vector3d& v_W,
                     double nozzle_l) {
-    const RowsBeside beside =
+    const AdjacentRows beside =
         patches_.rows().beside(boom_W.head<2>(), yaw_from_quaternion(truth.X_WB.q),
                                params_.row_reach_m, kBesideAngle_rad, 0.0);
     const auto account = [&](const Side& side, const std::optional<RowPlace>& row) {
@@ -251,7 +251,7 @@ class Sprayer final : public Payload {
   SignalReader<Odometry> truth_;
   SignalWriter<NamedValues> writer_;
   SignalWriter<Event> event_;
-  NamedValues told_;
+  NamedValues reported_;
 
   double tank_l_;
   bool empty_ = false;
@@ -262,17 +262,54 @@ class Sprayer final : public Payload {
   double spray_time_s_ = 0.0;
 };
 
+std::vector<ResultSpec> sprayer_results() {
+  using Range = ResultRange;
+  return {{"litres_sprayed", "l", Range::from_zero(), "spray used", "Volume that left the nozzles.",
+           ""},
+          {"litres_canopy", "l", Range::from_zero(), "spray on canopy",
+           "Sprayed volume that was deposited on canopy.", ""},
+          {"litres_ground", "l", Range::from_zero(), "spray on ground",
+           "Sprayed volume that reached the ground.", ""},
+          {"litres_lost", "l", Range::from_zero(), "spray drift",
+           "Sprayed volume that drifted away.", ""},
+          {"litres_off_row", "l", Range::from_zero(), "spray beside no row",
+           "Volume sprayed by sections that had no true row beside them.", ""},
+          {"litres_left", "l", Range::from_zero(), "spray left in tank", "Volume left in the tank.",
+           ""},
+          {"litres_per_ha", "l/ha", Range::from_zero(), "application rate",
+           "Sprayed volume divided by the treated ground area: distance driven along a row times "
+           "the distance to it.",
+           ""},
+          {"on_target_share", "1", Range::share(), "spray on target",
+           "Fraction of the sprayed volume that was deposited on canopy.", ""},
+          {"spray_time_s", "s", Range::from_zero(), "spraying time",
+           "Time with at least one section open.", ""},
+          {"covered_share", "1", Range::share(), "canopy receiving target dose",
+           "Fraction of the whole canopy surface that received the target dose.", ""},
+          {"deposit_mean_ml_per_m2", "ml/m²", Range::from_zero(), "mean deposit",
+           "Mean deposit over the whole canopy surface.", ""},
+          {"worked_share", "1", Range::share(), "canopy worked",
+           "Fraction of the canopy surface beside which a section was open.", ""},
+          {"worked_covered_share", "1", Range::share(), "worked canopy receiving dose",
+           "Fraction of the worked canopy surface that received the target dose.", ""},
+          {"worked_deposit_mean_ml_per_m2", "ml/m²", Range::from_zero(),
+           "mean deposit on worked canopy", "Mean deposit over the worked canopy surface.", ""},
+          {"worked_deposit_cv", "1", Range::from_zero(), "unevenness of deposit",
+           "Coefficient of variation of the deposit over the worked canopy surface.", ""}};
+}
+
 }  // namespace
 
 PartSpec sprayer_spec() {
   PartSpec spec;
   spec.name = "sprayer";
+  spec.results = sprayer_results();
   spec.description =
       "Air-assisted sprayer with nozzles on both sides: sections open beside the rows of the map; "
       "deposit on the true canopy, drift with the wind";
   spec.parameters = sprayer_parameters();
   spec.default_rate_Hz = 20.0;
-  spec.reads = {"truth", "estimate", "plan (where switching: legs)"};
+  spec.reads = {"truth", "estimate", "plan (if switching: legs)"};
   spec.writes = {"<name>", "<name>_event"};
   return spec;
 }

@@ -57,9 +57,9 @@ const ParameterTable<SprayerSettings>& sprayer_table() {
                    "elevation of the nozzles' axes, one for all or one each; positive upward", 0,
                    kDegrees)
           .number("boom_x_m", "m", of(&P::boom_x_m), between(-10.0, 10.0),
-                  "place of the nozzles ahead of the body's origin")
+                  "distance of the nozzles ahead of the body's origin")
           .number("nozzle_offset_m", "m", of(&P::nozzle_offset_m), between(0.0, 5.0),
-                  "place of the nozzles beside the body's x axis, to both sides")
+                  "distance of the nozzles from the body's x axis, to both sides")
           .degrees("spray_half_angle_deg", of(&P::spray_half_angle_rad), between(0.0, 80.0),
                    "half angle of a nozzle's cone in the air stream")
           .number("hollow_share", "", &S::hollow_share, between(0.0, 1.0),
@@ -75,13 +75,13 @@ const ParameterTable<SprayerSettings>& sprayer_table() {
           .number("jet_speed_mps", "m/s", jet(&SprayParams::jet_speed_mps), kPositive,
                   "speed of the air at the outlet")
           .number("jet_decay_m", "m", jet(&SprayParams::jet_decay_m), kPositive,
-                  "way after which the jet has half of its speed")
+                  "distance after which the jet has half of its speed")
           .number("reach_m", "m", jet(&SprayParams::reach_m), between(0.5, 20.0),
-                  "way of the jet, then droplets are lost")
+                  "range of the jet, beyond which droplets are lost")
           .number("settling_mps", "m/s", jet(&SprayParams::settling_mps), between(0.0, 5.0),
                   "speed at which the droplets fall")
           .number("loss_length_m", "m", jet(&SprayParams::loss_length_m), kPositive,
-                  "way after which 1/e of the liquid is left in the jet")
+                  "distance after which 1/e of the liquid is left in the jet")
           .number("leaf_area_density_m2pm3", "m2/m3", &S::leaf_area_density_m2pm3, kPositive,
                   "leaf area (one side) in a cubic metre of canopy")
           .number("leaf_projection", "", &S::leaf_projection, between(0.05, 1.0),
@@ -90,24 +90,24 @@ const ParameterTable<SprayerSettings>& sprayer_table() {
                   "sections open beside a row of the map; legs: on the plan's legs only")
           .number("row_reach_m", "m", of(&P::row_reach_m), kPositive,
                   "rows nearer to the boom's middle than this are sprayed")
-          .degrees("most_angle_deg", of(&P::most_angle_rad), between(1.0, 89.0),
-                   "largest angle between heading and row, above it the vehicle turns")
+          .degrees("most_angle_deg", of(&P::max_angle_rad), between(1.0, 89.0),
+                   "largest angle between heading and row at which sections open")
           .number("beyond_end_m", "m", of(&P::beyond_end_m), between(-10.0, 10.0),
                   "sections stay open this far beyond a row's end; negative: close before")
           .number("min_speed_mps", "m/s", of(&P::min_speed_mps), between(0.0, 10.0),
-                  "slower than this all sections are closed")
+                  "speed below which all sections are closed")
           .number("valve_lag_s", "s", of(&P::valve_lag_s), between(0.0, 10.0),
                   "time from the command until a section opens or closes")
           .number("lead_s", "s", &S::lead_s, between(0.0, 10.0),
                   "sections are commanded this much ahead; default: valve_lag_s")
           .integer("rays_per_nozzle", of(&P::rays_per_nozzle), between(1, 100),
-                   "portions of liquid of a nozzle and tick")
+                   "portions of liquid per nozzle and tick")
           .number("patch_step_m", "m", of(&P::step_m), between(0.02, 10.0),
                   "size of a patch along the row")
           .number("patch_band_m", "m", of(&P::band_m), between(0.02, 10.0),
                   "size of a patch in height")
           .number("wanted_ml_per_m2", "ml/m2", of(&P::wanted_ml_per_m2), kPositive,
-                  "deposit on the canopy's surface from which on it counts as covered")
+                  "deposit from which on canopy surface counts as covered")
           .rule(find_fault_in_nozzles)
           .rule(find_fault_in_reach);
   return table;

@@ -1,5 +1,5 @@
 #pragma once
-/// What a sprayer is: where its nozzles are, what they emit, when its sections open.
+/// Parameters of a sprayer: positions and flow of its nozzles, and rules for its sections.
 
 #include <string>
 #include <vector>
@@ -25,13 +25,13 @@ struct SprayerParams {
   // Sections: left and right.
   bool on_legs_only = false;
   double row_reach_m = 2.0;
-  double most_angle_rad = rad_from_deg(20.0);
+  double max_angle_rad = rad_from_deg(20.0);
   double beyond_end_m = 0.0;
   double min_speed_mps = 0.2;
   double valve_lag_s = 0.2;
-  double lead_s = 0.2;  ///< follows from valve_lag_s where not given
+  double lead_s = 0.2;  ///< default: follows from valve_lag_s
 
-  // What is told of it.
+  // Simulation and evaluation.
   int rays_per_nozzle = 2;
   double step_m = 0.25;
   double band_m = 0.25;
@@ -40,7 +40,7 @@ struct SprayerParams {
 
 std::vector<ParameterSpec> sprayer_parameters();
 /// @param who  for errors, "rover.sprayer"
-/// @throws ConfigError where values do not go together
+/// @throws ConfigError if values contradict each other
 SprayerParams read_sprayer(const ParameterSet& parameters, const std::string& who);
 
 }  // namespace vinerow::vehicles

@@ -15,7 +15,7 @@ using Eigen::Vector2d;
 /// The grid goes this far beyond the rows: canopies and alleys beside them are inside.
 constexpr double kMargin_m = 3.0;
 constexpr double kCell_m = 1.0;
-constexpr double kMostCells = 100'000.0;
+constexpr double kMaxCells = 100'000.0;
 
 }  // namespace
 
@@ -74,7 +74,7 @@ void RowLines::make_grid() {
   for (const Eigen::AlignedBox2d& box : boxes_) all.extend(box);
   corner_W_ = all.min() - Vector2d::Constant(kMargin_m);
   const Vector2d size = all.sizes() + Vector2d::Constant(2.0 * kMargin_m);
-  cell_m_ = std::max(kCell_m, std::sqrt(size.x() * size.y() / kMostCells));
+  cell_m_ = std::max(kCell_m, std::sqrt(size.x() * size.y() / kMaxCells));
   columns_ = static_cast<int>(std::ceil(size.x() / cell_m_));
   rows_ = static_cast<int>(std::ceil(size.y() / cell_m_));
   const double diagonal_m = std::sqrt(2.0) * cell_m_;
@@ -82,20 +82,20 @@ void RowLines::make_grid() {
   for (int j = 0; j < rows_; ++j) {
     for (int i = 0; i < columns_; ++i) {
       const Vector2d middle = corner_W_ + cell_m_ * Vector2d(i + 0.5, j + 0.5);
-      double least_m = std::numeric_limits<double>::infinity();
+      double min_m = std::numeric_limits<double>::infinity();
       for (std::size_t row = 0; row < lines_.size(); ++row) {
         // The cell before is a good place to start from.
-        if (boxes_[row].exteriorDistance(middle) > least_m + diagonal_m) {
+        if (boxes_[row].exteriorDistance(middle) > min_m + diagonal_m) {
           found[row].distance_m = std::numeric_limits<double>::infinity();
           continue;
         }
         found[row] = lines_[row].nearest(middle, found[row].segment);
-        least_m = std::min(least_m, found[row].distance_m);
+        min_m = std::min(min_m, found[row].distance_m);
       }
       first_.push_back(static_cast<std::int32_t>(candidates_.size()));
       // Within half a diagonal of the middle a row's distance changes by that much at most.
       for (std::size_t row = 0; row < lines_.size(); ++row) {
-        if (found[row].distance_m > least_m + diagonal_m) continue;
+        if (found[row].distance_m > min_m + diagonal_m) continue;
         candidates_.push_back({static_cast<std::int32_t>(row), found[row].segment});
       }
     }
@@ -156,10 +156,10 @@ RowPlace RowLines::nearest(const Vector2d& p_W) const {
   return best;
 }
 
-RowsBeside RowLines::beside(const Vector2d& p_W, double heading_rad, double reach_m,
-                            double most_angle_rad, double beyond_end_m) const {
+AdjacentRows RowLines::beside(const Vector2d& p_W, double heading_rad, double reach_m,
+                              double max_angle_rad, double beyond_end_m) const {
   const Vector2d ahead(std::cos(heading_rad), std::sin(heading_rad));
-  RowsBeside found;
+  AdjacentRows found;
   for (int row = 0; row < count(); ++row) {
     const double far_m = reach_m + std::max(0.0, beyond_end_m);
     if (boxes_[static_cast<std::size_t>(row)].exteriorDistance(p_W) > far_m) continue;
@@ -169,7 +169,7 @@ RowsBeside RowLines::beside(const Vector2d& p_W, double heading_rad, double reac
       continue;
     }
     const double along = ahead.dot(at.direction_W);
-    if (std::abs(along) < std::cos(most_angle_rad)) continue;
+    if (std::abs(along) < std::cos(max_angle_rad)) continue;
     // Driving along the line's own direction, a vehicle to its right has the row to its left.
     const bool is_left = (along > 0.0) == (at.lateral_m < 0.0);
     std::optional<RowPlace>& side = is_left ? found.left : found.right;

@@ -1,9 +1,8 @@
 #pragma once
-/// The rows' centre lines as a question: which row is nearest to a place, how far along it and how
-/// far beside it.
+/// Queries on the centre lines of rows: nearest row to a point, with distances along and across it.
 ///
-/// Cost: a question about the nearest row asks the one or two rows that its cell of a grid (1 m)
-/// names; no heap after building.
+/// Cost: a query for the nearest row looks at the one or two rows listed for its cell of a 1 m
+/// grid; no heap after construction.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -18,27 +17,26 @@
 
 namespace vinerow::vehicles {
 
-/// A place seen from a row. Before its first and behind its last point the row goes straight on.
+/// Position relative to a row. The row is extended straight beyond its first and last points.
 struct RowPlace {
   int row = 0;              ///< index among the rows
   double along_m = 0.0;     ///< along the line from its first point; < 0 before it, > length behind
   double lateral_m = 0.0;   ///< positive: left of the line
   double ground_m = 0.0;    ///< z of the ground on the line there; beyond its ends that of the end
-  double distance_m = 0.0;  ///< from the line that ends at its ends, in the plane
+  double distance_m = 0.0;  ///< horizontal distance from the line without its extensions
   Eigen::Vector2d direction_W = Eigen::Vector2d::UnitX();  ///< of the line there, unit
 };
 
-/// The rows on both sides of a vehicle.
-struct RowsBeside {
+/// Rows on both sides of a vehicle.
+struct AdjacentRows {
   std::optional<RowPlace> left, right;
 };
 
 class RowLines {
  public:
-  /// @param rows  each with at least two points that are apart (worlds and maps see to that)
-  /// @param terrain  tells RowPlace::ground_m, a height each metre; not kept. nullptr: the lines
-  /// do,
-  ///   which pass over hollows and through humps where they have few points
+  /// @param rows  each with at least two distinct points (worlds and maps ensure that)
+  /// @param terrain  source of RowPlace::ground_m, one height each metre; not kept. nullptr: the
+  ///   lines themselves, which miss hollows and humps between their points
   explicit RowLines(const std::vector<PlantRow>& rows, const HeightField* terrain = nullptr);
 
   int count() const { return static_cast<int>(lines_.size()); }
@@ -47,18 +45,18 @@ class RowLines {
   RowPlace nearest(const Eigen::Vector2d& p_W) const;
   RowPlace place(int row, const Eigen::Vector2d& p_W, int hint_segment = 0) const;
 
-  /// On each side the nearest row that runs along there: within `reach_m` beside it, at most
-  /// `most_angle_rad` off the heading, not farther beyond one of its ends than `beyond_end_m`
-  /// (negative: that far before its end).
-  RowsBeside beside(const Eigen::Vector2d& p_W, double heading_rad, double reach_m,
-                    double most_angle_rad, double beyond_end_m) const;
+  /// Nearest row on each side that is within `reach_m`, at most `max_angle_rad` off the heading,
+  /// and ends no more than `beyond_end_m` before the position (negative: extends that far beyond
+  /// it).
+  AdjacentRows beside(const Eigen::Vector2d& p_W, double heading_rad, double reach_m,
+                      double max_angle_rad, double beyond_end_m) const;
 
  private:
   struct Candidate {
     std::int32_t row;
-    std::int32_t segment;  ///< nearest to the cell's middle
+    std::int32_t segment;  ///< segment of the row that is nearest to the cell's middle
   };
-  /// Heights of the ground along a row, evenly apart from its first point to its last.
+  /// Heights of the ground along a row, at equal distances from its first point to its last.
   struct Profile {
     double apart_m = 1.0;
     std::vector<double> ground_m;
@@ -71,7 +69,7 @@ class RowLines {
   std::vector<PolylineDistance> lines_;
   std::vector<std::vector<double>> along_m_;   // of each point
   std::vector<std::vector<double>> ground_m_;  // of each point
-  std::vector<Profile> profiles_;              // of each row, where a terrain was given
+  std::vector<Profile> profiles_;              // of each row, if a terrain is given
   std::vector<Eigen::AlignedBox2d> boxes_;
   Eigen::Vector2d corner_W_ = {0, 0};
   double cell_m_ = 1.0;

@@ -48,8 +48,8 @@ std::string judge_contacts(const physics::PhysicsWorld& world, physics::BodyId b
       });
 }
 
-std::string judge_foot(const FootContact& contact, const physics::BodyState& body,
-                       const QuadrotorParams& params) {
+std::string find_crash_at_foot(const FootContact& contact, const physics::BodyState& body,
+                               const QuadrotorParams& params) {
   const double speed_mps = body.v_WB_W.norm();
   if (contact.surface != SurfaceClass::kTerrain) {
     return fmt::format("hit {} with its landing gear at {:.1f} m/s", to_string(contact.surface),

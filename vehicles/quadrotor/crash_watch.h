@@ -1,5 +1,6 @@
 #pragma once
-/// Judges what a quadrotor touches: it may stand on the ground on its feet, all else wrecks it.
+/// Judgement of a quadrotor's contacts: it may stand on the ground on its feet; any other contact
+/// wrecks it.
 
 #include <string>
 
@@ -8,14 +9,14 @@
 
 namespace vinerow::vehicles {
 
-/// @param before  state at the start of the step whose contacts are judged: what hit
-/// @returns why the vehicle is wrecked, e.g. "hit the ground at 2.3 m/s"; empty if it is not. No
-/// heap while it is not.
+/// @param before  state at the start of the step, with the velocities of the impact
+/// @returns the reason for a wreck, e.g. "hit the ground at 2.3 m/s"; empty without a wreck,
+/// and then no heap
 std::string judge_contacts(const physics::PhysicsWorld& world, physics::BodyId body,
                            const physics::BodyState& before, const QuadrotorParams& params);
 
-/// The same for a foot that stands. @param body  state that brought it there
-std::string judge_foot(const FootContact& contact, const physics::BodyState& body,
-                       const QuadrotorParams& params);
+/// The same for a foot on the ground. @param body  state before the contact
+std::string find_crash_at_foot(const FootContact& contact, const physics::BodyState& body,
+                               const QuadrotorParams& params);
 
 }  // namespace vinerow::vehicles

@@ -61,7 +61,7 @@ Quadrotor::Quadrotor(const QuadrotorParams& params, const VehicleContext& contex
 }
 
 void Quadrotor::spawn(physics::PhysicsWorld& world, const Pose& X_WB) {
-  demand_step(world.settings().step, kMostFlightStep, params_.name, "its rotors");
+  demand_step(world.settings().step, kMaxFlightStep, params_.name, "its rotors");
   world_ = &world;
   physics::BodySpec spec;
   spec.name = params_.name;
@@ -177,7 +177,7 @@ void Quadrotor::press_feet(Vector3d& force_W, Vector3d& torque_W) {
     if (!contact) continue;
     force_W += contact->force_W;
     torque_W += (contact->p_W - body().X_WB.p).cross(contact->force_W);
-    if (crash_.empty()) crash_ = judge_foot(*contact, body(), params_);
+    if (crash_.empty()) crash_ = find_crash_at_foot(*contact, body(), params_);
   }
 }
 

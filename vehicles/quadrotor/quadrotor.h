@@ -1,20 +1,21 @@
 #pragma once
-/// A quadrotor as a rigid body with four rotors.
+/// Quadrotor as a rigid body with four rotors.
 ///
 /// Actuators: rotor_1_speed_radps .. rotor_4_speed_radps (0 .. max), counted counter-clockwise as
 /// seen from above, from the front left (X) or the front (+). Signals: "rotors" (NamedValues: speed
-/// and thrust of each, wind felt), "battery", "vehicle_event".
+/// and thrust of each, wind), "battery", "vehicle_event".
 ///
-/// Body and rotors together, about the centre of mass, with h = sum of the rotors' angular momenta
-/// along z of B:
+/// Equation of body and rotors about the centre of mass, with the sum h of the rotors' angular
+/// momenta along z of B:
 ///   I dw/dt + w x I w = torques of thrust, drag and air - dh/dt e_z - w x h e_z
-/// so that spinning up turns the body the other way, and a net h makes it precess. Forces are those
-/// of the middle of a step: rotor speeds in closed form, attitude and velocities carried on by half
-/// a step from their last change: second order in the step. What the rotors' angular momentum
-/// changed is booked exactly: what was foretold wrong in one step is made good in the next.
+/// Spinning up turns the body the other way, and a net h makes it precess. Forces are evaluated in
+/// the middle of a step: rotor speeds in closed form, attitude and velocities extrapolated by half
+/// a step from their last change. The integration is second order in the step. Changes of the
+/// rotors' angular momentum are accounted for exactly: the error of the prediction in one step is
+/// corrected in the next.
 ///
-/// B: centre of mass, x forward, y left, z up. It stands on its landing gear with the rotors off
-/// when spawned. Once wrecked (crash()) the rotors stop and physics goes on.
+/// B: centre of mass, x forward, y left, z up. It spawns on its landing gear with the rotors off.
+/// Once wrecked (crash()) the rotors stop and physics goes on.
 
 #include <array>
 #include <memory>
@@ -36,7 +37,7 @@ namespace vinerow::vehicles {
 /// A rotor as of the last step.
 struct RotorState {
   double speed_radps = 0.0;
-  double angle_rad = 0.0;     ///< turned as seen, positive counter-clockwise; for pictures
+  double angle_rad = 0.0;     ///< positive counter-clockwise seen from above; for display
   double thrust_N = 0.0;      ///< mean over the step
   double thrust_ratio = 1.0;  ///< ground effect
 };
@@ -60,7 +61,7 @@ class Quadrotor final : public Vehicle {
   void read_links(std::vector<Pose>& X_WL) const override;
   void publish(Time now) override;
 
-  /// A start in flight. @param speeds_radps  of the rotors
+  /// Starts in flight. @param speeds_radps  of the rotors
   void set_motion(const physics::BodyState& body, const std::array<double, kRotors>& speeds_radps);
 
   const QuadrotorParams& params() const { return params_; }
@@ -71,7 +72,7 @@ class Quadrotor final : public Vehicle {
   const FoliageWatch& foliage_watch() const { return foliage_; }
   /// Angular momentum of the rotors' spin along z of B, N m s.
   double rotor_momentum_Nms() const;
-  /// Of body and rotors about the centre of mass, in W, N m s.
+  /// Angular momentum of body and rotors about the centre of mass, in W, N m s.
   Eigen::Vector3d angular_momentum_W() const;
 
  private:
@@ -82,7 +83,8 @@ class Quadrotor final : public Vehicle {
     double shaft_W = 0.0;
   };
   void describe();
-  /// Thrust and drag of the rotors go with the density where it starts, over the rated one.
+  /// Scales the described thrust and drag of the rotors by the density at the start over the rated
+  /// one.
   void describe_air(double density_ratio);
   void make_links();
   void meet_faults(Time now);
@@ -124,7 +126,7 @@ class Quadrotor final : public Vehicle {
   bool powered_ = true;
   std::string crash_;
 
-  std::vector<Event> news_;  // not told yet
+  std::vector<Event> news_;  // not reported yet
   NamedValues rotors_message_;
   SignalWriter<NamedValues> rotors_writer_;
   SignalWriter<BatteryState> battery_writer_;

@@ -1,6 +1,6 @@
 #pragma once
-/// A quadrotor as drawn: carbon plates with a hood, arms with motors, legs with rubber feet,
-/// battery in its sliding case, camera on a gimbal, GNSS mast. Decoration only; what collides is in
+/// Meshes of a quadrotor for display: carbon plates with a hood, arms with motors, legs with rubber
+/// feet, battery in its sliding case, camera on a gimbal, GNSS mast. Collision shapes:
 /// quadrotor_shapes.h.
 
 #include "engine/api/mesh.h"

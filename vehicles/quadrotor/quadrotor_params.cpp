@@ -34,8 +34,8 @@ std::string find_fault_in_inertia(const QuadrotorParams& p) {
   const Eigen::Vector3d& inertia = p.inertia_kgm2;
   if (2.0 * inertia.maxCoeff() <= inertia.sum()) return "";
   return fmt::format(
-      "inertia_kgm2 = [{:.4g}, {:.4g}, {:.4g}] is that of no body: one of them is larger than the "
-      "other two together",
+      "inertia_kgm2 = [{:.4g}, {:.4g}, {:.4g}] is not possible for a rigid body: one moment is "
+      "larger than the sum of the other two",
       inertia.x(), inertia.y(), inertia.z());
 }
 
@@ -50,15 +50,15 @@ const ParameterTable<QuadrotorFault>& fault_table() {
           .required()
           .number("at_s", "s", &F::at_s, between(0.0, 1e9), "when")
           .required()
-          .integer("rotor", &F::rotor, between(1, kRotors),
-                   "which rotor fails: 1 is the front (left) one, the others follow "
-                   "counter-clockwise",
-                   kCountedFromOne)
+          .integer(
+              "rotor", &F::rotor, between(1, kRotors),
+              "rotor that fails: 1 is the front (left) one, the others follow counter-clockwise",
+              kCountedFromOne)
           .number("remaining", "", &F::remaining, between(0.0, 1.0),
                   "share of the rotor's thrust that is left")
           .rule([](const F& fault) -> std::string {
             if (fault.kind != F::Kind::kRotorFailure || fault.rotor) return "";
-            return fmt::format("a rotor_failure must tell which 'rotor' (1 to {})", kRotors);
+            return fmt::format("a rotor_failure must name its 'rotor' (1 to {})", kRotors);
           });
   return table;
 }
@@ -104,11 +104,11 @@ const ParameterTable<QuadrotorParams>& quadrotor_table() {
           .degrees("landing_tilt_limit_deg", &P::landing_tilt_limit_rad, between(1.0, 90.0),
                    "touching the ground tilted more than this is a crash")
           .degrees("max_tilt_deg", &P::max_tilt_rad, between(1.0, 80.0),
-                   "tilt in flight, told to controllers")
-          .number("max_speed_mps", "m/s", &P::max_speed_mps, kPositive, "told to controllers")
+                   "tilt in flight, for controllers")
+          .number("max_speed_mps", "m/s", &P::max_speed_mps, kPositive, "for controllers")
           .number("min_turning_radius_m", "m", &P::min_turning_radius_m, between(0.0, 1e3),
-                  "told to planners")
-          .groups("faults", &P::faults, fault_table(), "what goes wrong during the flight")
+                  "for planners")
+          .groups("faults", &P::faults, fault_table(), "faults during the flight")
           .rule(find_fault_in_shape)
           .rule(find_fault_in_inertia);
   return table;

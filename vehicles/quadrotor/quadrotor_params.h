@@ -1,5 +1,5 @@
 #pragma once
-/// Numbers of a quadrotor. Defaults: paper A's Q4T; sources: assets/vehicles/quadrotor_q4t.yaml.
+/// Parameters of a quadrotor. Defaults: paper A's Q4T; sources: assets/vehicles/quadrotor_q4t.yaml.
 
 #include <Eigen/Core>
 #include <array>
@@ -23,7 +23,7 @@ enum class QuadrotorLayout {
   kPlus  ///< one rotor ahead: front, left, rear, right
 };
 
-/// What goes wrong during a flight, as the scenario says.
+/// Fault during a flight, from the scenario.
 struct QuadrotorFault {
   enum class Kind { kRotorFailure, kBatteryEmpty };
   Kind kind = Kind::kRotorFailure;
@@ -35,9 +35,10 @@ struct QuadrotorFault {
 struct QuadrotorParams {
   std::string name = "drone";
   QuadrotorLayout layout = QuadrotorLayout::kX;
-  double mass_kg = 2.0;                                   ///< everything
-  Eigen::Vector3d inertia_kgm2 = {0.050, 0.050, 0.0977};  ///< about B's axes, rotors at rest in it
-  double arm_m = 0.31;                                    ///< from B's z axis to a hub
+  double mass_kg = 2.0;  ///< of the whole vehicle
+  Eigen::Vector3d inertia_kgm2 = {0.050, 0.050,
+                                  0.0977};  ///< about B's axes, with the rotors at rest
+  double arm_m = 0.31;                      ///< from B's z axis to a hub
   double rotor_radius_m = 0.19;
   double rotor_height_m = 0.05;  ///< of the rotors' plane above B
   double stand_height_m = 0.22;  ///< of B above level ground
@@ -53,9 +54,9 @@ struct QuadrotorParams {
   BatteryParams battery{111.0, 15.0};
   double landing_speed_limit_mps = 1.0;
   double landing_tilt_limit_rad = rad_from_deg(30.0);
-  double max_tilt_rad = rad_from_deg(25.0);  ///< told to controllers
-  double max_speed_mps = 10.0;               ///< told to controllers
-  double min_turning_radius_m = 1.77;        ///< told to planners
+  double max_tilt_rad = rad_from_deg(25.0);  ///< in the description, for controllers
+  double max_speed_mps = 10.0;               ///< in the description, for controllers
+  double min_turning_radius_m = 1.77;        ///< in the description, for planners
   std::vector<QuadrotorFault> faults;
 
   /// @throws ConfigError, e.g. "drone: makes 18.0 N at most, but weighs 19.6 N: it cannot hover"
@@ -72,11 +73,11 @@ struct QuadrotorParams {
   double max_thrust_N() const;
   /// Speed at which the rotors carry the weight at standard gravity in free air.
   double hover_radps() const;
-  /// The drags per rotor speed that make the given sums at hover.
+  /// Drag coefficients per rotor speed that give the parameters' sums at hover.
   RotorAir rotor_air() const;
 };
 
-/// The spec that `vinerow list` shows.
+/// Specification, as `vinerow list` shows it.
 PartSpec quadrotor_spec();
 
 /// @param parameters  of quadrotor_spec()

@@ -16,7 +16,7 @@ namespace vinerow::vehicles {
 namespace {
 
 /// Some files limit a joint by what it could turn alone.
-constexpr double kMostJointLimit_rad = rad_from_deg(60.0);
+constexpr double kMaxJointLimit_rad = rad_from_deg(60.0);
 
 /// Two radii that differ by less are the same but for a mesh's facets.
 constexpr double kSameRadius = 0.02;
@@ -51,24 +51,23 @@ const ParameterTable<UrdfRoverParams>& urdf_rover_table() {
           .texts("right_wheel_joints", inside(&P::options, &Options::right_joints),
                  "joints of the right wheels")
           .texts("steering_joints", inside(&P::options, &Options::steering_joints),
-                 "joints that the front wheels, or all four, steer by; without the list: those "
-                 "that wheels hang on and that turn about the vertical through their hubs")
+                 "steering joints of the front wheels, or of all four; without the list: joints that carry a wheel and turn about the vertical through its hub")
           .degrees("max_steer_deg", &P::max_steer_rad, between(1.0, 60.0),
-                   "of a steered wheel, both ways; default the steering joints' limits, at most 60")
+                   "of a steered wheel to each side; default: the steering joints' limits, at most 60")
           .include(&P::servo, steering_servo_table())
           .choice("driven_wheels", &P::driven,
                   {{"auto", DrivenWheels::kAuto},
                    {"all", DrivenWheels::kAll},
                    {"rear", DrivenWheels::kRear}},
-                  "which have a motor; auto: the rear ones of a robot that steers by its front "
-                  "wheels, else all")
+                  "wheels with a motor; auto: the rear ones if only the front wheels steer, else all")
           .number("wheel_radius_m", "m", inside(&P::options, &Options::wheel_radius_m), kPositive,
                   "instead of the radius of the wheel's collision shape or mesh")
-          .number("max_speed_mps", "m/s", &P::max_speed_mps, kPositive, "told to controllers")
+          .number("max_speed_mps", "m/s", &P::max_speed_mps, kPositive, "for controllers")
           .number("min_turning_radius_m", "m", &P::min_turning_radius_m, between(0.0, 1e3),
-                  "told to planners and controllers; of steered axles at least what they turn")
+                  "for planners and controllers; with steered axles at least their own turning "
+                  "radius")
           .number("wheel_speed_limit_radps", "rad/s", &P::wheel_speed_limit_radps, kPositive,
-                  "largest wheel speed command, both ways")
+                  "largest wheel speed command in both directions")
           .number("static_deflection_m", "m", &P::static_deflection_m, kPositive,
                   "of tyres and suspension under the robot's weight")
           .number("damping_ratio", "", &P::damping_ratio, between(0.0, 5.0),
@@ -201,8 +200,7 @@ PartSpec urdf_rover_spec() {
   PartSpec spec;
   spec.name = "urdf_rover";
   spec.description =
-      "Wheeled robot from a URDF file, on the shared wheel, with the file's own masses: skid "
-      "steering, Ackermann steering, or four steered wheels";
+      "Wheeled robot from a URDF file, with wheel and tyre forces and the file's own masses: skid steering, Ackermann steering, or four steered wheels";
   spec.writes = {"wheels", "battery"};
   spec.parameters = urdf_rover_table().specs();
   return spec;
@@ -248,18 +246,18 @@ void UrdfRover::describe(const UrdfRoverParams& params) {
 
 void UrdfRover::describe_steering(const UrdfRoverParams& params) {
   const UrdfSteering& steering = *model_.steering;
-  std::optional<double> most_rad = params.max_steer_rad;
-  if (!most_rad && steering.max_wheel_steer_rad) {
-    most_rad = std::min(*steering.max_wheel_steer_rad, kMostJointLimit_rad);
+  std::optional<double> max_rad = params.max_steer_rad;
+  if (!max_rad && steering.max_wheel_steer_rad) {
+    max_rad = std::min(*steering.max_wheel_steer_rad, kMaxJointLimit_rad);
   }
-  if (!most_rad) {
+  if (!max_rad) {
     throw ConfigError(fmt::format("{}: the steering joints have no limits; give max_steer_deg",
                                   params.urdf.string()));
   }
   // The wheels roll about a centre at k = tan(d) axles / L beside the middle; the inner one, half a
   // track nearer, is turned by tan(d_inner) = tan(d) / (1 - k B / 2).
   const double base_m = model_.wheel_base_m, axles = static_cast<double>(steering.axles);
-  const double inner = std::tan(*most_rad);
+  const double inner = std::tan(*max_rad);
   const double tangent = inner / (1.0 + inner * axles * 0.5 * model_.track_m / base_m);
   const double radius_m = base_m / (axles * tangent);
   SteeringGear gear;

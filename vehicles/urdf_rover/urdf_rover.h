@@ -1,15 +1,15 @@
 #pragma once
-/// Any wheeled robot from a URDF file, on the shared wheel, with the file's own masses: steered by
-/// its wheels' speeds (skid steering), by its front wheels (Ackermann), or by all four.
+/// Wheeled robot from a URDF file, with the wheel model of parts/wheel.h and the file's masses. It
+/// steers by wheel speeds (skid steering), by its front wheels (Ackermann), or by all four.
 ///
-/// A wheel steers where it hangs on a joint about the vertical through its hub, or on one that is
-/// named. The wheels of a steered axle then stand as an Ackermann mechanism has them, whatever
-/// linkage or servos the robot has. Each driven wheel has a motor of its own.
+/// A wheel steers if it is attached to a joint about the vertical through its hub, or to a joint
+/// that is named. The wheels of a steered axle then have the angles of an Ackermann mechanism,
+/// whatever linkage or servos the robot has. Each driven wheel has its own motor.
 ///
-/// Actuators: of steered robots axle_front_steer_rad and, with four steered wheels,
+/// Actuators: for steered robots axle_front_steer_rad and, with four steered wheels,
 /// axle_rear_steer_rad (of one wheel in the middle of the axle, positive to the left); then
 /// wheel_<name>_speed_radps for each driven wheel, positive forward whatever the sign of
-/// the joint's axis; names fl, fr, rl, rr with two wheels a side, else l1.., r1... Signals:
+/// the joint's axis. Names are fl, fr, rl, rr with two wheels per side, else l1.., r1... Signals:
 /// "wheels", "battery". B: centre of mass of the whole robot, axes of the root link.
 
 #include <memory>
@@ -36,7 +36,7 @@ struct UrdfRoverParams {
   double static_deflection_m = 0.008;  ///< of the wheels' springs under the robot's weight
   double damping_ratio = 0.5;          ///< of the heave on them
   int wheel_probes = 3;
-  /// Of a 50 kg class robot; sources in assets/vehicles/husky.yaml.
+  /// Values of a 50 kg class robot; sources in assets/vehicles/husky.yaml.
   MotorParams motor{.max_torque_Nm = 40.0,
                     .max_power_W = 200.0,
                     .max_speed_radps = 12.0,
@@ -49,7 +49,7 @@ struct UrdfRoverParams {
 
   /// @throws ConfigError
   void validate() const;
-  /// The folders by their names, relative ones to the URDF file.
+  /// Folders by name; relative paths are relative to the URDF file.
   std::map<std::string, std::filesystem::path> package_folders() const;
 };
 
@@ -58,7 +58,7 @@ UrdfRoverParams read_urdf_rover_params(const ParameterSet& parameters, const std
 
 class UrdfRover final : public SteeredPlatformVehicle {
  public:
-  /// @param shelf  where the file and its meshes are kept; null: nowhere. @throws ConfigError
+  /// @param shelf  cache for the file and its meshes; null: none. @throws ConfigError
   explicit UrdfRover(const UrdfRoverParams& params, double gravity_mps2 = 9.80665,
                      FileShelf* shelf = nullptr);
 
@@ -66,11 +66,11 @@ class UrdfRover final : public SteeredPlatformVehicle {
 
  private:
   void describe(const UrdfRoverParams& params);
-  /// Fills what steering takes. @throws ConfigError without a limit of the angle
+  /// Sets up the steering. @throws ConfigError without a limit of the angle
   void describe_steering(const UrdfRoverParams& params);
 
   UrdfRoverModel model_;
-  std::vector<std::size_t> driven_wheels_;  ///< places in the model
+  std::vector<std::size_t> driven_wheels_;  ///< indices in the model
 };
 
 std::unique_ptr<Vehicle> make_urdf_rover(const ParameterSet& parameters,

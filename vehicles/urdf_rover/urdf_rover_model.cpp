@@ -17,11 +17,12 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// An axle may lean this much (camber, toe) and still be taken as straight across.
+/// Lean of an axle (camber, toe) up to which it counts as straight across.
 constexpr double kMinAcross = 0.98;
 constexpr double kDensityGuess_kgpm3 = 300.0;
-/// A hub farther than that share of the radius before or behind its steering axis trails: a castor.
-constexpr double kMostTrail = 0.3;
+/// Offset of a hub ahead of or behind its steering axis, over the radius, above which it is a
+/// castor.
+constexpr double kMaxTrail = 0.3;
 
 std::vector<Pose> link_poses(const io::UrdfModel& urdf) {
   std::vector<Pose> X_RL(urdf.links.size());
@@ -33,7 +34,7 @@ std::vector<Pose> link_poses(const io::UrdfModel& urdf) {
 }
 
 io::MeshFile load_shape_mesh(const io::UrdfShape& shape) {
-  // URDF reads every mesh as it stands, z up: a COLLADA file's own up axis does not count there.
+  // URDF reads every mesh as it is, z up; the up axis of a COLLADA file is ignored.
   io::MeshFileOptions options;
   options.up_axis = io::UpAxis::kZ;
   options.scale = shape.mesh_scale;
@@ -186,7 +187,7 @@ void measure_wheel(const io::UrdfLink& link, const Vector3d& axis_L, UrdfWheel& 
   }
 }
 
-/// The joint above a wheel joint that turns about the vertical, -1 where there is none.
+/// Index of the joint above a wheel joint that turns about the vertical, or -1.
 int find_upright_joint(const io::UrdfModel& urdf, const std::vector<Pose>& X_RL,
                        std::size_t wheel_joint) {
   int link = urdf.joints[wheel_joint].parent_link;
@@ -202,7 +203,7 @@ int find_upright_joint(const io::UrdfModel& urdf, const std::vector<Pose>& X_RL,
   return -1;
 }
 
-/// Finds the joint that each wheel steers by. @throws ConfigError
+/// Finds the steering joint of each wheel. @throws ConfigError
 void find_steering_joints(const io::UrdfModel& urdf, const std::vector<Pose>& X_RL,
                           const std::vector<std::size_t>& wheel_joints,
                           const UrdfRoverOptions& options, std::vector<UrdfWheel>& wheels) {
@@ -219,7 +220,7 @@ void find_steering_joints(const io::UrdfModel& urdf, const std::vector<Pose>& X_
       const double trail_m =
           std::abs(X_RL[static_cast<std::size_t>(urdf.joints[wheel_joints[i]].child_link)].p.x() -
                    X_RL[static_cast<std::size_t>(found.child_link)].p.x());
-      if (trail_m > kMostTrail * wheels[i].radius_m) {
+      if (trail_m > kMaxTrail * wheels[i].radius_m) {
         throw ConfigError(fmt::format(
             "{}: wheel joint '{}' trails {:.3f} m behind joint '{}': castors are not supported; if "
             "it is steered by a motor, name its joint in steering_joints",
@@ -232,12 +233,12 @@ void find_steering_joints(const io::UrdfModel& urdf, const std::vector<Pose>& X_
   }
   if (wanted.empty()) return;
   throw ConfigError(fmt::format(
-      "{}: no wheel hangs on steering joint '{}', or it does not turn about the vertical (z)", file,
+      "{}: steering joint '{}' carries no wheel, or does not turn about the vertical (z)", file,
       urdf.joints[static_cast<std::size_t>(wanted.front())].name));
 }
 
-/// Axles, places and limits of what steers. @param model  its wheels are named
-/// @throws ConfigError unless it is the two front wheels of four, or all of them
+/// Axles, positions and limits of the steering. @param model  its wheels are named
+/// @throws ConfigError unless the two front wheels of four, or all of them, steer
 std::optional<UrdfSteering> read_steering(const io::UrdfModel& urdf, const UrdfRoverModel& model) {
   std::vector<std::string> steered;
   UrdfSteering steering;
@@ -249,9 +250,9 @@ std::optional<UrdfSteering> read_steering(const io::UrdfModel& urdf, const UrdfR
     steered.push_back(wheel.name);
     const auto& limits = urdf.joints[static_cast<std::size_t>(wheel.steering_joint)].limits;
     if (!limits || !(limits->lower < 0.0 && limits->upper > 0.0)) continue;
-    const double most_rad = std::min(-limits->lower, limits->upper);
+    const double max_rad = std::min(-limits->lower, limits->upper);
     steering.max_wheel_steer_rad =
-        std::min(most_rad, steering.max_wheel_steer_rad.value_or(most_rad));
+        std::min(max_rad, steering.max_wheel_steer_rad.value_or(max_rad));
   }
   if (steered.empty()) return std::nullopt;
   steering.axles = steered.size() == 4 ? 2 : 1;
@@ -297,7 +298,7 @@ void merge_masses(const io::UrdfModel& urdf, const std::vector<Pose>& X_RL, Urdf
   }
 }
 
-/// What a link moves with: the body, a wheel, or the knuckle that a wheel steers by.
+/// Assignment of a link to the body, a wheel, or the knuckle of a steered wheel.
 struct Carrier {
   int wheel = -1;  ///< -1: the body
   bool is_knuckle = false;

@@ -1,5 +1,5 @@
 #pragma once
-/// What a URDF robot is as a rover: one rigid body, its wheels, how they steer, its pictures.
+/// Rover model of a URDF robot: one rigid body, its wheels, their steering, its meshes.
 
 #include <map>
 #include <optional>
@@ -23,12 +23,12 @@ struct UrdfWheel {
   int steering_joint = -1;         ///< index into UrdfModel::joints; -1: it does not steer
 };
 
-/// Of a robot with four wheels of which the front ones, or all, hang on steering joints.
+/// Steering of a robot with four wheels of which the front ones, or all, have steering joints.
 struct UrdfSteering {
   std::size_t axles = 1;                      ///< 1: the front one, 2: both
   double front_m = 0.0;                       ///< front axle ahead of B
   double rear_m = 0.0;                        ///< rear axle behind B
-  std::optional<double> max_wheel_steer_rad;  ///< least of the joints' limits, where they have any
+  std::optional<double> max_wheel_steer_rad;  ///< smallest of the joints' limits, if any
 };
 
 /// Frame B: origin at the centre of mass of everything, axes of the URDF's root link.
@@ -50,13 +50,13 @@ struct UrdfRoverModel {
 /// How to read the robot.
 struct UrdfRoverOptions {
   std::vector<std::string> left_joints, right_joints;  ///< empty: continuous joints by position
-  /// Empty: those that a wheel hangs on and that turn about the vertical through its hub.
+  /// Empty: joints that carry a wheel and turn about the vertical through its hub.
   std::vector<std::string> steering_joints;
   std::optional<double> wheel_radius_m;                ///< absent: from collision shape or mesh
 };
 
-/// Everything that neither rolls nor steers is taken as one rigid body with all joints at zero. The wheels'
-/// masses belong to it too (their suspension has no mass of its own); their spin inertia is kept.
+/// Reads the robot. Everything that neither rolls nor steers becomes one rigid body with all joints
+/// at zero. It includes the masses of the wheels; their spin inertia is kept.
 /// @throws ConfigError: no wheel joints, unknown joint, axle not across, no radius, no mass, a
 /// castor, steered wheels that are neither the two front ones nor all of four
 UrdfRoverModel read_urdf_rover(const io::UrdfModel& urdf, const UrdfRoverOptions& options);

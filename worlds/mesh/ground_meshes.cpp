@@ -10,10 +10,10 @@
 namespace vinerow::worlds {
 namespace {
 
-constexpr double kLeastSide_m = 5.0;
-constexpr double kLeastShare = 0.5;      ///< of a box that ground covers
-constexpr double kMostSteepShare = 0.5;  ///< steep surface per covered area
-constexpr double kSteepNormal_z = 0.5;   ///< cos 60 deg
+constexpr double kMinSide_m = 5.0;
+constexpr double kMinShare = 0.5;       ///< of a box that ground covers
+constexpr double kMaxSteepShare = 0.5;  ///< steep surface per covered area
+constexpr double kSteepNormal_z = 0.5;  ///< cos 60 deg
 
 /// An object seen from above.
 struct Plan {
@@ -48,9 +48,9 @@ void add_to(Plan& plan, const MeshInstance& instance) {
 }
 
 bool can_be_ground(const Plan& plan) {
-  if (plan.box.isEmpty() || plan.box.sizes().minCoeff() < kLeastSide_m) return false;
-  return plan.steep_m2 <= kMostSteepShare * plan.covered_m2() &&
-         plan.covered_m2() >= kLeastShare * area_m2(plan.box);
+  if (plan.box.isEmpty() || plan.box.sizes().minCoeff() < kMinSide_m) return false;
+  return plan.steep_m2 <= kMaxSteepShare * plan.covered_m2() &&
+         plan.covered_m2() >= kMinShare * area_m2(plan.box);
 }
 
 }  // namespace
@@ -68,7 +68,7 @@ std::vector<std::size_t> find_ground(const std::vector<MeshObject>& objects,
     ground.push_back(i);
     covered_m2 += plan.covered_m2();
   }
-  if (covered_m2 < kLeastShare * area_m2(everything)) ground.clear();
+  if (covered_m2 < kMinShare * area_m2(everything)) ground.clear();
   return ground;
 }
 

@@ -30,20 +30,19 @@ const ParameterTable<MeshItem>& mesh_item_table() {
           .number("scale", "", &P::scale, between(1e-6, 1e6), "factor on all axes")
           .choice("up_axis", &P::up_axis,
                   {{"auto", io::UpAxis::kAuto}, {"y", io::UpAxis::kY}, {"z", io::UpAxis::kZ}},
-                  "axis of the file that points up; auto: what the file says, else z")
+                  "axis of the file that points up; auto: as in the file, else z")
           .number("unit_m", "m", &P::unit_m, between(1e-6, 1e6),
-                  "metres per unit of the file; default: what the file says, else 1")
-          .choice(
-              "surface", &P::surface,
-              {{"terrain", SurfaceClass::kTerrain},
-               {"canopy", SurfaceClass::kCanopy},
-               {"post", SurfaceClass::kPost},
-               {"trunk", SurfaceClass::kTrunk},
-               {"wire", SurfaceClass::kWire},
-               {"obstacle", SurfaceClass::kObstacle}},
-              "what the object is; absent: terrain if it lies under the whole world, else obstacle")
-          .boolean("collides", &P::collides, "whether vehicles and rays meet it")
-          .boolean("visible", &P::visible, "whether pictures show it");
+                  "metres per unit of the file; default: as in the file, else 1")
+          .choice("surface", &P::surface,
+                  {{"terrain", SurfaceClass::kTerrain},
+                   {"canopy", SurfaceClass::kCanopy},
+                   {"post", SurfaceClass::kPost},
+                   {"trunk", SurfaceClass::kTrunk},
+                   {"wire", SurfaceClass::kWire},
+                   {"obstacle", SurfaceClass::kObstacle}},
+                  "kind of object; absent: terrain if it is under the whole world, else obstacle")
+          .boolean("collides", &P::collides, "true: vehicles and rays collide with it")
+          .boolean("visible", &P::visible, "true: pictures show it");
   return table;
 }
 
@@ -53,12 +52,12 @@ const ParameterTable<MeshWorldParams>& mesh_world_table() {
   using P = MeshWorldParams;
   static const ParameterTable<P> table =
       ParameterTable<P>()
-          .groups("items", &P::items, mesh_item_table(), "mesh files and where they stand")
+          .groups("items", &P::items, mesh_item_table(), "mesh files with their poses")
           .path("sdf_file", &P::sdf_file, "SDF world whose includes are read for models and poses")
           .texts("model_folders", &P::model_folders,
                  "folders with SDF models, absolute or beside sdf_file; default: ../models of "
                  "sdf_file")
-          .text("vine_model", &P::vine_model, "models whose names begin so are pieces of vine rows")
+          .text("vine_model", &P::vine_model, "prefix of the models that are pieces of vine rows")
           .number("vine_piece_length_m", "m", &P::vine_piece_length_m, between(0.1, 5000.0),
                   "length of one such piece along its x axis")
           .choice("ground", &P::ground,
@@ -69,13 +68,13 @@ const ParameterTable<MeshWorldParams>& mesh_world_table() {
           .number("ground_margin_m", "m", &P::ground_margin_m, between(0.0, 500.0),
                   "of the flat ground beyond the objects")
           .number("vine_spacing_m", "m", &P::vine_spacing_m, between(0.1, 100.0),
-                  "between vines of a stand-in row")
+                  "between vines of a placeholder row")
           .include(&P::terrain, terrain_table())
           .include(&P::planting, planting_table())
           .include(&P::origin, origin_table())
           .reword("origin_latitude_deg",
-                  "WGS84 latitude of the world's origin; latitude and longitude 0: what sdf_file "
-                  "says in <spherical_coordinates>")
+                  "WGS84 latitude of the world's origin; latitude and longitude 0: as in "
+                  "<spherical_coordinates> of sdf_file")
           .include(&P::surroundings, surroundings_table())
           .include(&P::map, mapping::map_table());
   return table;

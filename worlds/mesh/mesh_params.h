@@ -1,5 +1,5 @@
 #pragma once
-/// What can be said of the world `mesh` in a scenario.
+/// Parameters of the world `mesh`.
 
 #include <Eigen/Core>
 #include <filesystem>
@@ -18,16 +18,16 @@
 
 namespace vinerow::worlds {
 
-/// A mesh file and where it stands.
+/// Mesh file with its pose.
 struct MeshItem {
   std::filesystem::path file;
-  std::string name;  ///< empty: the file's
+  std::string name;  ///< empty: the file's name
   Eigen::Vector3d p_WM = {0.0, 0.0, 0.0};
   RollPitchYaw rpy;
   double scale = 1.0;
   io::UpAxis up_axis = io::UpAxis::kAuto;
   std::optional<double> unit_m;
-  /// Absent: terrain where it lies under the whole world (ground_meshes.h), else an obstacle.
+  /// Absent: terrain if it is below the whole world (ground_meshes.h), else an obstacle.
   std::optional<SurfaceClass> surface;
   bool collides = true;
   bool visible = true;
@@ -43,11 +43,11 @@ struct MeshWorldParams {
   std::vector<MeshItem> items;
   std::filesystem::path sdf_file;
   std::vector<std::string> model_folders;  ///< empty: ../models of sdf_file
-  std::string vine_model = "vine";         ///< how models begin that are pieces of vine rows
+  std::string vine_model = "vine";         ///< prefix of the models that are pieces of vine rows
   double vine_piece_length_m = 6.0;        ///< along its x axis
   MeshGround ground = MeshGround::kAuto;
   double ground_margin_m = 8.0;
-  double vine_spacing_m = 1.0;  ///< of a stand-in row
+  double vine_spacing_m = 1.0;  ///< of a placeholder row
   TerrainParams terrain;
   VinePlanting planting;
   GeoOrigin origin;  ///< latitude and longitude 0: the SDF world's, if it has one

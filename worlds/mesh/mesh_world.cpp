@@ -30,7 +30,7 @@ PartSpec mesh_spec() {
   return spec;
 }
 
-/// Loads files once, however often they are placed, and keeps their notes.
+/// Loads each file once and keeps its notes.
 class MeshLibrary {
  public:
   explicit MeshLibrary(WorldModel& world) : world_(world) {}
@@ -108,29 +108,29 @@ class SdfModels {
   SdfModels(const MeshWorldParams& params, MeshLibrary& library, WorldModel& world)
       : params_(params), folders_(model_folders(params)), library_(library), world_(world) {}
 
-  /// Those that are there; of those that are not it tells what stands in for them.
+  /// Places the models that are found, and notes what replaces the others.
   void place(const std::vector<io::SdfInclude>& includes) {
     for (const io::SdfInclude& include : includes) place(include);
     for (const auto& [model, count] : missing_) {
-      const char* stand_in =
-          is_vine(model) ? "a trellis row of our own stands in" : "it is left out";
+      const char* placeholder =
+          is_vine(model) ? "a generated trellis row replaces it" : "it is left out";
       world_.notes.push_back(fmt::format("{}: model '{}' (included {} times) is missing; {}",
-                                         params_.sdf_file.string(), model, count, stand_in));
+                                         params_.sdf_file.string(), model, count, placeholder));
     }
   }
 
   bool is_vine(const std::string& model) const {
     return !params_.vine_model.empty() && model.rfind(params_.vine_model, 0) == 0;
   }
-  /// Pieces of vine rows show themselves: nothing need stand in for them.
+  /// Pieces of vine rows have meshes: no replacement is needed.
   bool has_vine_meshes() const { return has_vine_meshes_; }
   const std::vector<MeshObject>& objects() const { return objects_; }
-  /// The first thing that was looked for in vain: "model 'a' is in none of ..."; empty: all found.
+  /// First failed search: "model 'a' is in none of ..."; empty: all found.
   const std::string& first_miss() const { return first_miss_; }
 
  private:
   void place(const io::SdfInclude& include) {
-    // Light, and the plane that Gazebo has of itself: `ground` lays one.
+    // Light, and Gazebo's built-in plane: `ground` makes one.
     if (include.model == "sun" || include.model == "ground_plane") return;
     if (include.written_out) {
       place(include, *include.written_out);
@@ -197,8 +197,8 @@ class SdfModels {
   std::string first_miss_;
 };
 
-/// Of the objects that nobody gave a class: those that are the world's ground become terrain.
-/// @returns whether there are such
+/// Makes terrain of those objects without a given class that are the world's ground.
+/// @returns true if there are any
 bool mark_ground(const std::vector<MeshObject>& objects, WorldModel& world) {
   const std::vector<std::size_t> ground = find_ground(objects, world);
   for (const std::size_t i : ground) {
@@ -207,9 +207,9 @@ bool mark_ground(const std::vector<MeshObject>& objects, WorldModel& world) {
     }
   }
   if (!ground.empty()) {
-    world.notes.push_back(fmt::format(
-        "mesh '{}' lies under the whole world and is taken for its ground; no plane is laid",
-        world.meshes[objects[ground.front()].begin].name));
+    world.notes.push_back(
+        fmt::format("mesh '{}' is under the whole world and is used as its ground, without a plane",
+                    world.meshes[objects[ground.front()].begin].name));
   }
   return !ground.empty();
 }
@@ -229,8 +229,8 @@ Eigen::AlignedBox2d extent_of(const WorldModel& world, const std::vector<mapping
   return box;
 }
 
-void plant_stand_ins(WorldModel& world, const std::vector<mapping::RowCurve>& rows,
-                     const mapping::GroundHeight& ground, const MeshWorldParams& params) {
+void placeholder_plants(WorldModel& world, const std::vector<mapping::RowCurve>& rows,
+                        const mapping::GroundHeight& ground, const MeshWorldParams& params) {
   const VinePlanting& planting = params.planting;
   const double spacing_m = params.vine_spacing_m;
   std::vector<VineRow> vine_rows;
@@ -247,10 +247,10 @@ void plant_stand_ins(WorldModel& world, const std::vector<mapping::RowCurve>& ro
   plant_vine_rows(world, vine_rows, ground, planting, store);
 }
 
-/// Plants the rows, unless their pieces have meshes, and tells where they are.
+/// Plants the rows, unless their pieces have meshes, and adds them to the map.
 void add_rows(WorldModel& world, const std::vector<mapping::RowCurve>& rows, bool have_meshes,
               const MeshWorldParams& params) {
-  // The ground as it is before plants stand on it; their meshes move the list.
+  // The ground before plants are added, because their meshes reallocate the list.
   const WorldModel bare = world;
   std::optional<physics::WorldScene> scene;
   if (!bare.terrain) {
@@ -264,7 +264,7 @@ void add_rows(WorldModel& world, const std::vector<mapping::RowCurve>& rows, boo
   };
   RowMap map = mapping::make_row_map(rows, ground, canopy_size(params.planting.canopy),
                                      mapping::parcel_boundary(rows, 8.0, 3.0));
-  if (!have_meshes) plant_stand_ins(world, rows, ground, params);
+  if (!have_meshes) placeholder_plants(world, rows, ground, params);
   world.rows = std::move(map);
   add_alley_spawn_points(world);
 }
@@ -283,7 +283,7 @@ std::unique_ptr<WorldModel> make_mesh_world(const ParameterSet& parameters,
 
   MeshLibrary library(*world);
   bool has_ground = false;
-  std::vector<MeshObject> unnamed;  // nobody said what they are
+  std::vector<MeshObject> unnamed;  // without a given class
   for (const MeshItem& item : params.items) {
     const MeshObject object = place_item(item, library);
     has_ground = has_ground || item.surface == SurfaceClass::kTerrain;
@@ -299,8 +299,9 @@ std::unique_ptr<WorldModel> make_mesh_world(const ParameterSet& parameters,
     unnamed.insert(unnamed.end(), models.objects().begin(), models.objects().end());
     rows = find_sdf_rows(includes, params.vine_model, params.vine_piece_length_m);
     plane = fit_ground_plane(includes, params.vine_model);
-    const bool says_none = params.origin.latitude_rad == 0.0 && params.origin.longitude_rad == 0.0;
-    if (sdf.origin && says_none) {
+    const bool states_none =
+        params.origin.latitude_rad == 0.0 && params.origin.longitude_rad == 0.0;
+    if (sdf.origin && states_none) {
       world->origin = {sdf.origin->latitude_rad, sdf.origin->longitude_rad, sdf.origin->altitude_m};
     }
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// Vine rows of an SDF world: includes of vine models, grouped by the line they stand in.
+/// Vine rows of an SDF world: includes of vine models, grouped into lines.
 
 #include <string>
 #include <vector>
@@ -9,11 +9,11 @@
 
 namespace vinerow::worlds {
 
-/// Groups the pieces whose model name begins with a prefix. Pieces lie along their own x axis,
-/// centred on their pose. Pieces of one row share their direction (within 10 deg) and line (within
-/// `apart_m`).
+/// Groups the pieces whose model name starts with a prefix. Pieces extend along their own x axis
+/// and are centred on their pose. Pieces of one row share their direction (within 10 deg) and line
+/// (within `apart_m`).
 /// @param piece_length_m  of one model, along x
-/// @returns rows in the order of order_rows(); empty where no model has the prefix
+/// @returns rows in the order of order_rows(); empty if no model has the prefix
 std::vector<mapping::RowCurve> find_sdf_rows(const std::vector<io::SdfInclude>& includes,
                                              const std::string& prefix, double piece_length_m,
                                              double apart_m = 0.5);

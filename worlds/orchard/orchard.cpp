@@ -52,7 +52,7 @@ const ParameterTable<OrchardParams>& orchard_table() {
           .number("field_length_m", "m", inside(&P::layout, &Layout::field_length_m), kPositive,
                   "length of the field along y, L2")
           .number("row_start_y_m", "m", inside(&P::layout, &Layout::row_start_y_m),
-                  between(0.0, 1e5), "where rows begin, Ys")
+                  between(0.0, 1e5), "start of the rows, Ys")
           .number("refinement_per_m2", "1/m2", &P::refinement_per_m2, kPositive,
                   "elements per square metre, m: the map is then the paper's "
                   "matrix, rows alone, and not the grid of occupancy_cell_m")
@@ -173,9 +173,10 @@ void validate(const OrchardLayout& layout) {
                     layout.row_start_y_m + layout.row_length_m, layout.field_length_m));
   }
   if (layout.row_width_m >= layout.step_m()) {
-    throw ConfigError(fmt::format(
-        "row_width_m = {} m, must be < field_width_m / (plant_rows + 1) = {} m, or no way is free",
-        layout.row_width_m, layout.step_m()));
+    throw ConfigError(
+        fmt::format("row_width_m = {} m, must be < field_width_m / (plant_rows + 1) = {} m, or no "
+                    "alley is free",
+                    layout.row_width_m, layout.step_m()));
   }
   const double elements = layout.field_width_m * layout.field_length_m * layout.refinement_per_m2;
   if (elements > 1e8) {

@@ -8,7 +8,7 @@
 
 namespace vinerow::worlds {
 
-/// The paper's figures. Field: x from 0 to L1, y from 0 to L2; plant row k = 1..n is centred on x =
+/// Values of the paper. Field: x from 0 to L1, y from 0 to L2; plant row k = 1..n is centred on x =
 /// k P.
 struct OrchardLayout {
   int plant_rows = 9;             ///< n
@@ -23,11 +23,10 @@ struct OrchardLayout {
   double step_m() const { return field_width_m / free_rows(); }      ///< P = L1 / N (eq. 4)
 };
 
-/// @throws ConfigError where the rows do not fit into the field
+/// @throws ConfigError if the rows do not fit into the field
 void validate(const OrchardLayout& layout);
 
-/// The paper's map matrix: 1 where a plant row is, 0 where the path is free. An element is a row's
-/// if its centre is.
+/// Map matrix of the paper: 1 for elements whose centre is in a plant row, 0 for free ones.
 OccupancyGrid make_occupancy(const OrchardLayout& layout);
 
 void register_orchard(Registry& registry);

@@ -1,8 +1,8 @@
 #pragma once
-/// The shape of a vine row's canopy: cross-sections that vary from vine to vine.
+/// Shape of a vine row's canopy: cross-sections that vary from vine to vine.
 ///
-/// A stretch of some vines has a shape of its own (CanopyShape), used twice: for the closed hull
-/// that physics, rays and distances see, and for the leaves that pictures show, so that both agree.
+/// A stretch of some vines has its own shape (CanopyShape). Both the closed hull for physics, rays
+/// and distances and the leaves for display are made from it, so that they agree.
 /// Local frame of a stretch: u along the row from its start, lateral to the left, height above
 /// ground; m.
 
@@ -17,7 +17,7 @@
 
 namespace vinerow::worlds {
 
-/// Mean cross-section and how much it varies.
+/// Mean cross-section and its variation.
 struct CanopyParams {
   double width_m = 0.55;
   double base_m = 0.55;  ///< lowest leaves above ground
@@ -32,10 +32,10 @@ struct CanopyParams {
 /// The base must be below the top.
 const ParameterTable<CanopyParams>& canopy_table();
 
-/// What the row map says of it.
+/// Canopy figures for the row map.
 mapping::CanopySize canopy_size(const CanopyParams& params);
 
-/// One cross-section: a super-ellipse, |2y/w|^3 + |2(z-m)/h|^3 = 1.
+/// Cross-section: a super-ellipse, |2y/w|^3 + |2(z-m)/h|^3 = 1.
 struct CanopySection {
   double width_m;
   double base_m;
@@ -49,7 +49,7 @@ class CanopyShape {
   CanopyShape(const CanopyParams& params, double length_m, int vine_count, RandomStream random);
 
   double length_m() const { return length_m_; }
-  /// Section at u in [0, length]; between vines it blends. Never wider than 1.35 times nor higher
+  /// Section at u in [0, length], blended between vines. Never wider than 1.35 times nor higher
   /// than 1.15 times the mean, never lower than 0.85 of the mean base.
   CanopySection section(double u_m) const;
   /// Point on the surface. @param angle_rad  0 = left, pi/2 = top @returns (lateral, height), m
@@ -64,15 +64,15 @@ class CanopyShape {
   double phases_[4];
 };
 
-/// A stretch of a row with its shape.
+/// Stretch of a row with its shape.
 struct CanopyStretch {
   double start_m;  ///< arc length
   double end_m;
   const CanopyShape* shape;
 };
 
-/// Closed hull of neighbouring stretches (end of one = start of the next), rounded off at both
-/// ends. In W.
+/// Closed hull in W of neighbouring stretches (end of one = start of the next), rounded at both
+/// ends.
 TriangleMesh make_canopy_hull(const mapping::RowCurve& row, const mapping::GroundHeight& ground,
                               const std::vector<CanopyStretch>& stretches,
                               const CanopyParams& params);

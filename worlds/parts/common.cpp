@@ -23,13 +23,13 @@ const ParameterTable<Surroundings>& surroundings_table() {
   using P = Surroundings;
   static const ParameterTable<P> table =
       ParameterTable<P>()
-          .text("soil", &P::soil, "what wheels feel; friction and rolling resistance by name")
+          .text("soil", &P::soil, "soil under the wheels: friction and rolling resistance by name")
           .one_of(soil_names())
           .degrees("sun_azimuth_deg", inside(&P::daylight, &Daylight::sun_azimuth_rad),
                    between(-360.0, 360.0), "direction of the sun, from north clockwise")
           .degrees("sun_elevation_deg", inside(&P::daylight, &Daylight::sun_elevation_rad),
                    between(1.0, 90.0), "height of the sun above the horizon")
-          .group("wind", &P::wind, wind_table(), "wind that every vehicle feels; absent: calm");
+          .group("wind", &P::wind, wind_table(), "wind on all vehicles; absent: calm");
   return table;
 }
 

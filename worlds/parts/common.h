@@ -1,5 +1,5 @@
 #pragma once
-/// Parameters that all worlds share: place on Earth, light, soil, wind.
+/// Parameters common to all worlds: position on Earth, light, soil, wind.
 
 #include <cstdint>
 #include <string>
@@ -21,7 +21,7 @@ struct Surroundings {
 };
 /// `soil`, `sun_azimuth_deg`, `sun_elevation_deg`, the group `wind`.
 const ParameterTable<Surroundings>& surroundings_table();
-/// @param seed  of the run, for gusts by chance
+/// @param seed  of the run, for random gusts
 /// @throws ConfigError as find_soil()
 void set_surroundings(const Surroundings& surroundings, std::uint64_t seed, WorldModel& world);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// A wooden crate: what an obstacle looks like.
+/// Meshes of a wooden crate, for obstacles.
 
 #include <Eigen/Core>
 
@@ -7,12 +7,12 @@
 
 namespace vinerow::worlds {
 
-/// A plain closed box, foot in the plane z = -foot_m, centred over the origin. @param size_m length
+/// Plain closed box, base in the plane z = -foot_m, centred over the origin. @param size_m length
 /// along x, width along y, height above z = 0
 TriangleMesh make_box(const Eigen::Vector3d& size_m, double foot_m);
 
-/// The same box in upright boards with frames at top and bottom and a lid. Nothing stands out of
-/// the plain box. In vertex colours.
+/// The same box as upright boards with frames at top and bottom and a lid, inside the plain box,
+/// with vertex colours.
 TriangleMesh make_crate(const Eigen::Vector3d& size_m, double foot_m);
 
 }  // namespace vinerow::worlds

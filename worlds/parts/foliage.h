@@ -1,8 +1,8 @@
 #pragma once
-/// Leaves for pictures: cards with a leaf picture, scattered through the canopy's outer shell.
+/// Leaves for display: cards with a leaf texture, scattered through the canopy's outer shell.
 ///
 /// Shading normals point away from the row's middle (blended with the card's own), so that a hedge
-/// of cards is lit as a soft body; colours darken towards the inside, where a real canopy shades
+/// of cards is lit like a soft body. Colours darken towards the inside, where a real canopy shades
 /// itself.
 
 #include <functional>
@@ -13,13 +13,13 @@
 
 namespace vinerow::worlds {
 
-/// How many cards, and how large, at one level of detail.
+/// Number and size of the cards at one level of detail.
 struct FoliageDetail {
-  double cards_per_m;    ///< of row; for a tree: cards in all
+  double cards_per_m;    ///< per metre of row; for a tree: total
   double card_length_m;  ///< mean
 };
 
-/// Levels 0 (near) to 2 (far) that show the same amount of leaf area.
+/// Levels 0 (near) to 2 (far) with equal leaf area.
 /// @param level  0, 1 or 2
 FoliageDetail vine_foliage_detail(double leaf_cards_per_m, int level);
 FoliageDetail tree_foliage_detail(double leaf_cards, int level);

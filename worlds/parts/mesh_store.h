@@ -1,6 +1,5 @@
 #pragma once
-/// Where generated meshes live: in memory, or as mesh files that are written once and always read
-/// back.
+/// Stores of generated meshes: in memory, or as files that are written once and always read back.
 
 #include <filesystem>
 #include <functional>
@@ -18,7 +17,7 @@ namespace vinerow::worlds {
 class MeshStore {
  public:
   virtual ~MeshStore() = default;
-  /// The mesh of this name; made at the first call. One name is one mesh, shared by all who ask.
+  /// Mesh of this name, made at the first call and shared by all callers.
   virtual std::shared_ptr<const TriangleMesh> get(const std::string& name,
                                                   const std::function<TriangleMesh()>& make) = 0;
 };
@@ -32,11 +31,11 @@ class MemoryMeshStore final : public MeshStore {
   std::map<std::string, std::shared_ptr<const TriangleMesh>> meshes_;
 };
 
-/// Binary PLY files in one folder, read through assimp whether they were there or are new: same
-/// bits either way.
+/// Binary PLY files in one folder. Old and new files are both read through assimp, so that they
+/// give the same bits.
 ///
-/// A file carries the digest of its mesh; one that is damaged or cut off is made again. Files
-/// appear by renaming, so that several processes may fill the folder at once.
+/// A file contains the digest of its mesh; a damaged or truncated file is replaced. Files are
+/// created by renaming, so that several processes may write to the folder at once.
 class FileMeshStore final : public MeshStore {
  public:
   explicit FileMeshStore(std::filesystem::path folder);
@@ -50,15 +49,15 @@ class FileMeshStore final : public MeshStore {
   std::map<std::string, std::shared_ptr<const TriangleMesh>> meshes_;
 };
 
-/// Where mesh files go unless the user says: $VINEROW_CACHE, $XDG_CACHE_HOME/vinerow,
-/// $HOME/.cache/vinerow or the system's folder for temporary files, the first that can be written.
-/// @throws ConfigError naming what was tried
+/// Default folder of mesh files: the first writable one of $VINEROW_CACHE,
+/// $XDG_CACHE_HOME/vinerow, $HOME/.cache/vinerow and the system's folder for temporary files.
+/// @throws ConfigError naming the folders that were tried
 std::filesystem::path find_cache_folder();
 
 /// Digest of a mesh's numbers.
 std::string mesh_digest(const TriangleMesh& mesh);
 
-/// Feeds every value of a set, by name, in the order of the specs. @param without  names left out
+/// Adds every value of a set, by name, in the order of the specs. @param without  names left out
 void add_parameters(Hasher& hasher, const ParameterSet& parameters,
                     const std::vector<std::string>& without = {});
 

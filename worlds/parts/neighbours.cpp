@@ -19,8 +19,8 @@ namespace {
 constexpr double kVerge_m = 6.0;      // between the parcel's boundary and the track around it
 constexpr double kTrackSide_m = 3.5;  // from a track's middle to the field beside it
 constexpr double kHeadland_m = 5.0;   // from a field's edge to the ends of its rows
-constexpr double kLeastSurroundings_m = 60.0;
-constexpr double kLeastVines_m2 = 1500.0;
+constexpr double kMinSurroundings_m = 60.0;
+constexpr double kMinVines_m2 = 1500.0;
 constexpr double kTreesAway_m = 110.0;  // from places to be left free: what climbs there at 0.12
 constexpr double kTreesIn_m = 2.5;      // from the edge of a field
 constexpr double kTreesFromParcel_m = 25.0;
@@ -146,7 +146,7 @@ class Layout {
           return distance_m(field.corners_W, p) < options_.meadow_radius_m;
         });
     const bool has_vines =
-        kind < 0.66 && !is_free && signed_area_m2(field.planted_W) > kLeastVines_m2;
+        kind < 0.66 && !is_free && signed_area_m2(field.planted_W) > kMinVines_m2;
     if (has_vines) {
       field.pitch_m = pitch_m;
       field.row_width_m = width_m;
@@ -218,10 +218,10 @@ Scenery lay_neighbours(const std::vector<Eigen::Vector2d>& parcel_W,
 Scenery make_neighbours(const NeighboursParams& params,
                         const std::vector<Eigen::Vector2d>& parcel_W, double surroundings_m,
                         std::uint64_t seed) {
-  if (surroundings_m < kLeastSurroundings_m) {
+  if (surroundings_m < kMinSurroundings_m) {
     throw ConfigError(
         fmt::format("neighbours: surroundings_m = {} m leaves no room for fields, needs {} m",
-                    surroundings_m, kLeastSurroundings_m));
+                    surroundings_m, kMinSurroundings_m));
   }
   NeighboursOptions options = params.options;
   if (!params.meadow_m.empty()) {

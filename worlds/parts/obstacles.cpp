@@ -43,7 +43,7 @@ Place place_of(const ObstacleParams& obstacle, const std::string& who, const Row
   const auto count = static_cast<std::int64_t>(map.alleys.size());
   if (alley >= count) {
     throw ConfigError(
-        fmt::format("{} stands in alley {}, the world has {}", who, alley,
+        fmt::format("{} is in alley {}, the world has {}", who, alley,
                     count == 0 ? "none" : fmt::format("{} alleys (0 to {})", count, count - 1)));
   }
   std::vector<Vector2d> line;
@@ -97,7 +97,7 @@ const ParameterTable<ObstacleParams>& obstacle_table() {
           .text("name", &P::name, "name of the obstacle; default: its number in the list")
           .number("x_m", "m", &P::x_m, between(-1e5, 1e5), "position east; or give alley")
           .number("y_m", "m", &P::y_m, between(-1e5, 1e5), "position north; or give alley")
-          .integer("alley", &P::alley, between(0, 10000), "stands in this alley")
+          .integer("alley", &P::alley, between(0, 10000), "alley of the obstacle")
           .number("distance_m", "m", &P::distance_m, between(-1e4, 1e5),
                   "along the alley's centre line from its first point")
           .number("lateral_m", "m", &P::lateral_m, between(-100.0, 100.0),
@@ -107,7 +107,7 @@ const ParameterTable<ObstacleParams>& obstacle_table() {
           .numbers("size_m", "m", &P::size_m, between(0.02, 100.0),
                    "length, width, height of the box")
           .boolean("mapped", &P::mapped,
-                   "whether the occupancy grid has it (an occupancy_file stays as it is)");
+                   "true: it is in the occupancy grid (an occupancy_file is unchanged)");
   return table;
 }
 
@@ -129,11 +129,11 @@ std::vector<std::vector<Vector2d>> place_obstacles(const ObstaclesParams& params
     const ObstacleParams& obstacle = params.list[i];
     const std::string name = obstacle.name.empty() ? fmt::format("{}", i) : obstacle.name;
     const std::string who = fmt::format("obstacle '{}'", name);
-    if (!names.insert(name).second) throw ConfigError(who + " stands twice in the list");
+    if (!names.insert(name).second) throw ConfigError(who + " is in the list twice");
 
     const Place place = place_of(obstacle, who, world.rows);
     if (!world.terrain->contains(place.p_W.x(), place.p_W.y())) {
-      throw ConfigError(fmt::format("{} stands at ({:.2f}, {:.2f}) m, outside the terrain", who,
+      throw ConfigError(fmt::format("{} is at ({:.2f}, {:.2f}) m, outside the terrain", who,
                                     place.p_W.x(), place.p_W.y()));
     }
     const Vector3d& size_m = obstacle.size_m;

@@ -1,5 +1,5 @@
 #pragma once
-/// Boxes that stand in a world's way: an obstacle that the map need not know.
+/// Obstacles of a world: boxes that the map may or may not contain.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -12,16 +12,16 @@
 
 namespace vinerow::worlds {
 
-/// Stands either at x, y or in an alley.
+/// Box at x, y or in an alley.
 struct ObstacleParams {
-  std::string name;  ///< or empty: its number in the list
+  std::string name;  ///< empty: its number in the list
   std::optional<double> x_m, y_m;
   std::optional<std::int64_t> alley;
   double distance_m = 0.0;  ///< along the alley's centre line from its first point
   double lateral_m = 0.0;   ///< to the left of that line
   double yaw_rad = 0.0;     ///< of the length: from east, in an alley from the alley's direction
   Eigen::Vector3d size_m = {0.6, 0.4, 0.6};  ///< length, width, height
-  bool mapped = false;                       ///< whether the occupancy grid has it
+  bool mapped = false;                       ///< true if it is in the occupancy grid
 };
 
 struct ObstaclesParams {
@@ -33,9 +33,9 @@ const ParameterTable<ObstaclesParams>& obstacles_table();
 /// Appends the boxes, each upright on the slope of the ground under it: "obstacle/<name>" collides
 /// and is class kObstacle, "crate/<name>" is drawn.
 /// @param world  with terrain and alleys
-/// @returns the plans (four corners, W) of those with `mapped: true`
+/// @returns plan outlines (four corners, W) of those with `mapped: true`
 /// @throws ConfigError naming the obstacle: no or two positions, unknown alley, off the terrain, a
-/// name that stands twice
+/// name that is used twice
 std::vector<std::vector<Eigen::Vector2d>> place_obstacles(const ObstaclesParams& params,
                                                           WorldModel& world);
 

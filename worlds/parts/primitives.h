@@ -1,5 +1,5 @@
 #pragma once
-/// Small building blocks of plant and trellis meshes, appended to a growing mesh.
+/// Primitives of plant and trellis meshes: tubes and leaf cards, appended to a mesh.
 ///
 /// Vertices are in the frame of the points given. Cost: heap for the mesh only.
 
@@ -12,7 +12,7 @@
 
 namespace vinerow::worlds {
 
-/// A ring of a tube.
+/// Ring of a tube.
 struct TubePoint {
   Eigen::Vector3d p;
   double radius_m;
@@ -20,12 +20,12 @@ struct TubePoint {
 
 /// Appends a closed tube of round cross-section through the points, with end caps, normals and
 /// colours.
-/// @param points  >= 2, neighbours apart from each other
+/// @param points  >= 2, neighbours distinct
 /// @param sides   >= 3
 void append_tube(TriangleMesh& mesh, std::span<const TubePoint> points, int sides,
                  const Eigen::Vector3f& colour);
 
-/// A flat quad of two triangles that carries a leaf picture.
+/// Flat quad of two triangles with a leaf texture.
 struct LeafCard {
   Eigen::Vector3d stem;    ///< middle of the lower edge (uv 0.5, 0)
   Eigen::Vector3d tip;     ///< middle of the upper edge (uv 0.5, 1)
@@ -37,7 +37,7 @@ struct LeafCard {
 /// Appends uv in [0, 1]^2, v from stem to tip.
 void append_card(TriangleMesh& mesh, const LeafCard& card);
 
-/// A unit vector at right angles to a unit vector.
+/// Unit vector perpendicular to a unit vector.
 Eigen::Vector3d any_orthogonal(const Eigen::Vector3d& unit);
 
 /// Area-weighted vertex normals; replaces `normals`. Vertices without triangles get +z.

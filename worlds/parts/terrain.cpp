@@ -13,14 +13,14 @@
 namespace vinerow::worlds {
 namespace {
 
-/// What a slope of one that fades out over `fade_m` climbs on the first `way_m` of that.
+/// Climb over the first `way_m` of a slope of one that fades out over `fade_m`.
 double faded_climb_m(double way_m, double fade_m) {
   if (way_m >= fade_m) return 0.5 * fade_m;
   const double u = way_m / fade_m;
   return fade_m * (u - u * u * u + 0.5 * u * u * u * u);
 }
 
-/// By how much the hillside is lower than its plane, uphill distance `along_m` from the centre.
+/// Height of the plane above the hillside at the uphill distance `along_m` from the centre.
 double calc_missing_m(const TerrainShape& shape, double along_m) {
   const double above_m = along_m - shape.hillside_to_m;
   if (above_m > 0.0) return above_m - faded_climb_m(above_m, shape.fade_m);
@@ -99,7 +99,8 @@ const ParameterTable<TerrainParams>& terrain_table() {
                   "standard deviation of small bumps, one per sample")
           .path("dem_file", &P::dem_file, "GeoTIFF of heights; replaces slope and undulation")
           .text("crs", &P::crs,
-                "coordinate reference system of dem_file, as EPSG:21781, where the file has none");
+                "coordinate reference system of dem_file, as EPSG:21781, if the file does not name "
+                "it");
   return table;
 }
 
@@ -124,14 +125,14 @@ Eigen::Vector2d bearing_direction(double bearing_rad) {
 void check_terrain_size(const TerrainParams& params, const Eigen::AlignedBox2d& box_W) {
   const double width_m = box_W.sizes().x(), depth_m = box_W.sizes().y(), cell_m = params.cell_m;
   const double samples = (width_m / cell_m + 1) * (depth_m / cell_m + 1);
-  constexpr double kMostSamples = 25e6;
-  if (samples <= kMostSamples) return;
+  constexpr double kMaxSamples = 25e6;
+  if (samples <= kMaxSamples) return;
   throw ConfigError(
       fmt::format("terrain_cell_m = {} m gives {:.3g} million samples over {:.0f} m x {:.0f} m, "
                   "must be at most "
                   "25 million: take cells of {:.2f} m or a smaller parcel",
                   cell_m, samples / 1e6, width_m, depth_m,
-                  std::ceil(100.0 * std::sqrt(width_m * depth_m / kMostSamples)) / 100.0 + 0.01));
+                  std::ceil(100.0 * std::sqrt(width_m * depth_m / kMaxSamples)) / 100.0 + 0.01));
 }
 
 HeightField build_terrain(const TerrainParams& params, std::uint64_t seed, const GeoOrigin& origin,

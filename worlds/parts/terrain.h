@@ -1,5 +1,5 @@
 #pragma once
-/// The ground: a plane with gentle waves and clods, or an elevation model.
+/// Terrain: a plane with gentle waves and clods, or an elevation model.
 
 #include <Eigen/Geometry>
 #include <cstdint>
@@ -18,14 +18,15 @@
 namespace vinerow::worlds {
 
 /// h(x, y) = gradient . (p - centre) + waves(p) + height of the centre, plus clods on the grid's
-/// samples. Above and below a hillside the gradient may fade out, so that it lies between a valley
+/// samples. Above and below a hillside the gradient may fade out, so that it is between a valley
 /// and a ridge.
 struct TerrainShape {
   Eigen::Vector2d centre_W = {0, 0};
   double centre_height_m = 0.0;
   Eigen::Vector2d gradient = {0, 0};  ///< dh/dx, dh/dy
-  /// Between these distances from the centre, uphill, the ground rises by the gradient; beyond them
-  /// that goes to zero over `fade_m`, as 1 - 3 u^2 + 2 u^3 of the way u of it.
+  /// Between these distances from the centre, uphill, the ground rises by the gradient. Beyond them
+  /// the gradient falls to zero over `fade_m` by the factor 1 - 3 u^2 + 2 u^3, u = distance beyond
+  /// over fade_m.
   double hillside_from_m = -std::numeric_limits<double>::infinity();
   double hillside_to_m = std::numeric_limits<double>::infinity();
   double fade_m = 0.0;
@@ -74,17 +75,17 @@ struct SlopeParams {
 /// `slope_deg`, `uphill_bearing_deg`.
 const ParameterTable<SlopeParams>& slope_table();
 
-/// The stream of the ground's own randomness.
+/// Random stream of the ground.
 RandomStream terrain_random(std::uint64_t seed, const std::string& what);
 
 /// Unit vector of a bearing (from north, clockwise).
 Eigen::Vector2d bearing_direction(double bearing_rad);
 
-/// Before any work is done on the ground of a box.
-/// @throws ConfigError where it takes more than 25 million samples, with cells that would do
+/// Checks the size of a box's ground before any work on it.
+/// @throws ConfigError if it takes more than 25 million samples, with a cell size that would fit
 void check_terrain_size(const TerrainParams& params, const Eigen::AlignedBox2d& box_W);
 
-/// The height field over a box from parameters and a gradient; a `dem_file` replaces both.
+/// Height field over a box from parameters and a gradient; a `dem_file` replaces both.
 /// @throws ConfigError as io::read_elevation and io::resample_elevation; with more than 25 million
 /// samples
 HeightField build_terrain(const TerrainParams& params, std::uint64_t seed, const GeoOrigin& origin,

@@ -1,5 +1,5 @@
 #pragma once
-/// Fruit trees: a trunk with some boughs and a round crown.
+/// Meshes of fruit trees: a trunk with boughs and a round crown.
 
 #include <cstdint>
 #include <vector>
@@ -14,7 +14,7 @@ namespace vinerow::worlds {
 struct TreeParams {
   double height_m = 3.6;
   double crown_base_m = 0.9;
-  double crown_width_m = 2.0;   ///< across the row: never wider
+  double crown_width_m = 2.0;   ///< across the row, upper limit
   double crown_length_m = 2.6;  ///< along the row
   double trunk_radius_m = 0.07;
   double leaf_cards = 700.0;  ///< per tree, near level

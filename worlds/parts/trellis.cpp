@@ -13,7 +13,7 @@ namespace {
 const Eigen::Vector3f kBark(0.075f, 0.052f, 0.036f);
 const Eigen::Vector3f kSteel(0.32f, 0.33f, 0.34f);
 const Eigen::Vector3f kWood(0.22f, 0.165f, 0.11f);
-constexpr double kFeetBuried_m = 0.1;  // feet reach below the ground's triangles
+constexpr double kBuriedDepth_m = 0.1;  // feet reach below the ground's triangles
 
 }  // namespace
 
@@ -21,7 +21,7 @@ const ParameterTable<TrellisParams>& trellis_table() {
   using P = TrellisParams;
   static const ParameterTable<P> table =
       ParameterTable<P>()
-          .boolean("posts", &P::posts, "whether rows have posts and wires")
+          .boolean("posts", &P::posts, "true: rows have posts and wires")
           .number("post_spacing_m", "m", &P::post_spacing_m, between(0.1, 100.0),
                   "between posts of a row")
           .number("post_height_m", "m", &P::post_height_m, above(0.0, 10.0),
@@ -56,8 +56,9 @@ TriangleMesh make_trunks(const mapping::RowCurve& row, const mapping::GroundHeig
       return TubePoint{X_WR * p, radius};
     };
     const std::array<TubePoint, 5> stem = {
-        TubePoint{X_WR * Eigen::Vector3d(0, 0, -kFeetBuried_m), 1.25 * r}, point(0.05, -1, 1.2 * r),
-        point(0.4, 0, 0.95 * r), point(0.75, 1, 0.85 * r), point(1.0, 2, 0.8 * r)};
+        TubePoint{X_WR * Eigen::Vector3d(0, 0, -kBuriedDepth_m), 1.25 * r},
+        point(0.05, -1, 1.2 * r), point(0.4, 0, 0.95 * r), point(0.75, 1, 0.85 * r),
+        point(1.0, 2, 0.8 * r)};
     if (level == 0) {
       append_tube(mesh, stem, sides, shade * kBark);
       const double reach_m = 0.46 * vine_spacing_m;
@@ -84,7 +85,7 @@ TriangleMesh make_line_posts(const mapping::RowCurve& row, const mapping::Ground
   for (const double s_m : post_s_m) {
     const Pose X_WR = mapping::row_frame(row, ground, s_m);
     const std::array<TubePoint, 2> post = {
-        TubePoint{X_WR * Eigen::Vector3d(0, 0, -kFeetBuried_m), params.post_radius_m},
+        TubePoint{X_WR * Eigen::Vector3d(0, 0, -kBuriedDepth_m), params.post_radius_m},
         TubePoint{X_WR * Eigen::Vector3d(0, 0, params.post_height_m), params.post_radius_m}};
     append_tube(mesh, post, 6, kSteel);
   }
@@ -100,7 +101,7 @@ TriangleMesh make_end_posts(const mapping::RowCurve& row, const mapping::GroundH
     const double lean = params.end_post_lean_rad, height = params.post_height_m;
     const Eigen::Vector3d up(way * std::sin(lean), 0.0, std::cos(lean));
     const std::array<TubePoint, 2> post = {
-        TubePoint{X_WR * Eigen::Vector3d(-kFeetBuried_m * up), params.end_post_radius_m},
+        TubePoint{X_WR * Eigen::Vector3d(-kBuriedDepth_m * up), params.end_post_radius_m},
         TubePoint{X_WR * Eigen::Vector3d(height * up), 0.9 * params.end_post_radius_m}};
     append_tube(mesh, post, 8, kWood);
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// What stands in a row beside leaves: trunks with their arms, posts, wires.
+/// Meshes of a row without leaves: trunks with their arms, posts, wires.
 
 #include <Eigen/Core>
 #include <vector>
@@ -13,8 +13,8 @@
 namespace vinerow::worlds {
 
 struct TrellisParams {
-  bool posts = true;                              ///< whether rows have posts and wires
-  double post_spacing_m = 5.4;                    ///< between posts where the survey has none
+  bool posts = true;                              ///< false: no posts and wires
+  double post_spacing_m = 5.4;                    ///< between posts if the survey lacks them
   double post_height_m = 2.1;                     ///< above ground
   double post_radius_m = 0.03;                    ///< steel, between
   double end_post_radius_m = 0.06;                ///< wood, at the ends
@@ -38,7 +38,7 @@ TriangleMesh make_trunks(const mapping::RowCurve& row, const mapping::GroundHeig
 TriangleMesh make_line_posts(const mapping::RowCurve& row, const mapping::GroundHeight& ground,
                              const std::vector<double>& post_s_m, const TrellisParams& params);
 
-/// The two leaning end posts, each with an anchor wire's stub, in W.
+/// The two leaning end posts, each with the stub of an anchor wire, in W.
 /// @param start_m,end_m  arc length of their feet; they lean outward
 TriangleMesh make_end_posts(const mapping::RowCurve& row, const mapping::GroundHeight& ground,
                             double start_m, double end_m, const TrellisParams& params);
@@ -47,7 +47,7 @@ TriangleMesh make_end_posts(const mapping::RowCurve& row, const mapping::GroundH
 TriangleMesh make_wires(const mapping::RowCurve& row, const mapping::GroundHeight& ground,
                         double start_m, double end_m, const TrellisParams& params);
 
-/// Arc lengths of posts: ends and evenly between, at most the spacing apart.
+/// Arc lengths of posts: both ends, and evenly between them at most the spacing apart.
 std::vector<double> spread_posts(double start_m, double end_m, double spacing_m);
 
 }  // namespace vinerow::worlds

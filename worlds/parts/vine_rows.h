@@ -1,6 +1,5 @@
 #pragma once
-/// Plants vine rows into a world: hulls, leaves, trunks, posts and wires, cut into chunks for
-/// pictures.
+/// Vine rows of a world: hulls, leaves, trunks, posts and wires, cut into chunks for display.
 ///
 /// Names: "canopy_hull/row_03/run_0" (collides, not drawn), "canopy/row_03/chunk_07#lod0" to
 /// "#lod2" (drawn, one of them by distance), "trunk/row_03/chunk_07#lod0" (collides) and "#lod1",
@@ -17,10 +16,10 @@
 
 namespace vinerow::worlds {
 
-/// One row to plant.
+/// Row to plant.
 struct VineRow {
   mapping::RowCurve curve;
-  std::vector<double> vine_s_m;  ///< ascending arc lengths of the stems; gaps are vines left out
+  std::vector<double> vine_s_m;  ///< ascending arc lengths of the stems; gaps are missing vines
   double vine_spacing_m;  ///< regular distance; neighbours farther apart than 1.6 times are a gap
   std::vector<double>
       post_s_m;  ///< ascending, first and last are end posts; empty: no posts, no wires
@@ -30,7 +29,7 @@ struct VinePlanting {
   CanopyParams canopy;
   TrellisParams trellis;
   double leaf_cards_per_m = 260.0;  ///< near level
-  double chunk_m = 7.2;             ///< wanted length of a chunk
+  double chunk_m = 7.2;             ///< approximate length of a chunk
   int variants = 6;                 ///< of chunks that are reused
   std::uint64_t seed = 1;
 };
@@ -38,12 +37,12 @@ struct VinePlanting {
 /// canopy_table(), trellis_table(), `leaf_cards_per_m`, `plant_variants`, `plant_seed`.
 const ParameterTable<VinePlanting>& planting_table();
 
-/// How far the map takes a row beyond its ends: half the canopy's width where end posts lean
-/// outward, which is their reach at 1.4 m above ground with the usual 0.2 rad; else nothing.
+/// Distance by which the map extends a row beyond its ends: half the canopy's width if end posts
+/// lean outward, which is their reach at 1.4 m above ground with the usual 0.2 rad; else 0.
 double row_end_margin_m(const VinePlanting& planting);
 
 /// Regular stems: the first half a spacing inside the row.
-/// @param missing_share  chance of each vine to be missing, independent
+/// @param missing_share  independent probability of each vine to be missing
 std::vector<double> regular_vines(double length_m, double spacing_m, double missing_share,
                                   RandomStream random);
 

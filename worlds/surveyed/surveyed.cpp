@@ -27,8 +27,8 @@ namespace {
 
 struct SurveyedParams {
   std::filesystem::path survey_file, vines_file, poles_file;
-  std::string row_type;         ///< empty: found out
-  double vine_spacing_m = 1.4;  ///< where the survey has none
+  std::string row_type;         ///< empty: detected
+  double vine_spacing_m = 1.4;  ///< if the survey has no vines
   double headland_m = 12.0;
   double surroundings_m = 6.0;
   std::optional<double> latitude_rad, longitude_rad;  ///< of the origin; absent: the rows' mean
@@ -52,13 +52,13 @@ const ParameterTable<SurveyedParams>& surveyed_table() {
           .path("vines_file", &P::vines_file, "a further file whose points are vines")
           .path("poles_file", &P::poles_file, "a further file whose points are poles")
           .text("row_type", &P::row_type,
-                "property `type` of the LineStrings that are rows; empty: found out")
+                "property `type` of the LineStrings that are rows; empty: detected")
           .number("vine_spacing_m", "m", &P::vine_spacing_m, between(0.1, 100.0),
-                  "between vines where the survey has none")
+                  "between vines if the survey contains no vines")
           .number("headland_m", "m", &P::headland_m, between(8.0, 200.0),
                   "free ground beyond the row ends")
           .number("surroundings_m", "m", &P::surroundings_m, between(0.0, 5000.0),
-                  "ground beyond the parcel's box, for what flies over it")
+                  "ground beyond the parcel's box, for flying vehicles")
           .degrees("origin_latitude_deg", &P::latitude_rad, between(-90.0, 90.0),
                    "WGS84 latitude of the world's origin; default: the rows' mean")
           .degrees("origin_longitude_deg", &P::longitude_rad, between(-180.0, 180.0),
@@ -136,7 +136,7 @@ std::vector<mapping::RowCurve> read_rows(const std::vector<io::GeoFeature>& feat
   return mapping::order_rows(std::move(rows));
 }
 
-/// Points sorted to the rows they stand in, as arc lengths.
+/// Points assigned to rows, as arc lengths.
 struct Assigned {
   std::vector<std::vector<double>> s_m;  // per row, ascending
   int far_off = 0;
@@ -186,7 +186,7 @@ double median_spacing_m(const std::vector<double>& s_m, double otherwise) {
 }
 
 double smallest_pitch_m(const RowMap& map) {
-  double pitch_m = 3.0;  // a single row has none
+  double pitch_m = 3.0;  // for a single row
   for (const Alley& alley : map.alleys) pitch_m = std::min(pitch_m, alley.width_m);
   return pitch_m;
 }
@@ -238,7 +238,7 @@ std::unique_ptr<WorldModel> make_surveyed(const ParameterSet& parameters,
   const auto note = [&](int count, const char* what) {
     if (count == 0) return;
     world->notes.push_back(
-        fmt::format("{}: {} {} stand farther than {:.2f} m from every row and are left out", file,
+        fmt::format("{}: {} {} are farther than {:.2f} m from every row and are left out", file,
                     count, what, reach_m));
   };
   note(vines.far_off, "vines");

@@ -18,8 +18,8 @@
 namespace vinerow::worlds {
 namespace {
 
-/// Raised whenever generated meshes change for equal parameters: files of older programs are then
-/// not read.
+/// Version of the generator, raised whenever meshes change for equal parameters, so that older
+/// files are not read.
 constexpr int kGeneratorVersion = 2;
 
 PartSpec vineyard_spec() {
@@ -35,7 +35,7 @@ PartSpec vineyard_spec() {
 
 /// Arcs about one centre that turn by `bend_rad` to the left; their middles stand across `along`
 /// through `centre`, those to the left of it (offset > 0) on smaller radii where they turn left.
-/// @throws ConfigError where the centre lies within the block
+/// @throws ConfigError if the centre is within the block
 mapping::RowCurve lay_arc(const Eigen::Vector2d& centre, const Eigen::Vector2d& along,
                           double offset_m, double length_m, double bend_rad) {
   constexpr double kStep_m = 1.0;
@@ -94,8 +94,8 @@ double calc_relief_m(const TerrainSurface& surface, const std::vector<mapping::R
   return high - low;
 }
 
-/// Finds the slope that gives the wanted relief under the rows. Waves alone may make up half of it
-/// at most. @pre params.relief_m
+/// Finds the slope that gives the required relief under the rows, of which waves alone may make up
+/// at most half. @pre params.relief_m
 TerrainShape fit_relief(const VineyardParams& params, const std::vector<mapping::RowCurve>& rows,
                         double* wave_height_m) {
   const double relief_m = *params.relief_m;
@@ -163,11 +163,11 @@ HeightField make_ground(const VineyardParams& params, const std::vector<mapping:
 
 /// The parameters with a relief: unless given, the ground is as steep as that of Parcel F.
 VineyardParams read_vineyard(const ParameterSet& parameters) {
-  constexpr double kRelief_m = 30.0, kRowLength_m = 118.0, kMost_m = 500.0;
+  constexpr double kRelief_m = 30.0, kRowLength_m = 118.0, kMax_m = 500.0;
   VineyardParams params = vineyard_table().read(parameters, "");
   if (!params.relief_m) {
     const double share = params.row_length_m / kRowLength_m;
-    params.relief_m = std::min(kRelief_m * share, kMost_m);
+    params.relief_m = std::min(kRelief_m * share, kMax_m);
   }
   return params;
 }
@@ -178,7 +178,7 @@ std::string mesh_key(const ParameterSet& parameters, double relief_m, const Heig
   hasher.add(kGeneratorVersion);
   ParameterSet shaping = parameters;
   shaping.set("relief_m", relief_m);
-  // Where the files lie, sun and wind, what is on the map or in the way changes no file.
+  // Folder, sun, wind, map and obstacles do not affect the files.
   for (const char* name : {"sun_azimuth_deg", "sun_elevation_deg"}) shaping.set(name, 45.0);
   shaping.set("soil", std::string("dry_grass"));
   shaping.set("mesh_folder", std::string());

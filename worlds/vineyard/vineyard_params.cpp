@@ -34,10 +34,10 @@ const ParameterTable<VineyardParams>& vineyard_table() {
           .degrees("uphill_bearing_deg", &P::uphill_bearing_rad, between(-360.0, 360.0),
                    "direction in which the ground rises, from north clockwise")
           .number("surroundings_m", "m", &P::surroundings_m, between(0.0, 5000.0),
-                  "ground beyond the parcel's box, for what flies over it")
+                  "ground beyond the parcel's box, for flying vehicles")
           .number("slope_fade_m", "m", &P::slope_fade_m, between(0.1, 1e5),
-                  "beyond the parcel the slope fades out over this way, to a ridge above "
-                  "and a valley below")
+                  "beyond the parcel the slope fades out over this distance, to a ridge above and "
+                  "a valley below")
           .path("mesh_folder", &P::mesh_folder,
                 "where mesh files are kept; default: $VINEROW_CACHE or the user's cache folder")
           .include(&P::planting, planting_table())
@@ -45,8 +45,8 @@ const ParameterTable<VineyardParams>& vineyard_table() {
           .include(&P::origin, origin_table())
           .include(&P::surroundings, surroundings_table())
           .group("neighbours", &P::neighbours, neighbours_table(),
-                 "neighbouring vineyards, meadows, tracks and trees in pictures; nothing collides "
-                 "with them and nothing else sees them; absent: none")
+                 "neighbouring vineyards, meadows, tracks and trees in pictures only; nothing "
+                 "collides with them; absent: none")
           .include(&P::map, mapping::map_table())
           .include(&P::obstacles, obstacles_table());
   return table;

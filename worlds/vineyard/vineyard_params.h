@@ -1,5 +1,5 @@
 #pragma once
-/// What can be said of the world `vineyard` in a scenario.
+/// Parameters of the world `vineyard`.
 
 #include <filesystem>
 #include <optional>
@@ -15,9 +15,9 @@
 
 namespace vinerow::worlds {
 
-/// Parcel F of a Barolo vineyard (Biosystems Engineering 2022), unless something else is said.
+/// Defaults: Parcel F of a Barolo vineyard (Biosystems Engineering 2022).
 struct VineyardParams {
-  /// The parcel and as much ground around it as is there by default keep the slope of the rows.
+  /// The parcel, and the ground within the default margin around it, have the slope of the rows.
   static constexpr double kGroundMargin_m = 6.0;
 
   int row_count = 16;

@@ -35,7 +35,7 @@ Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
 
 Eigen::Quaterniond exp_rotation(const Eigen::Vector3d& angle_rad) {
   const double angle = angle_rad.norm();
-  // sin(x/2)/x by its series where the quotient would be 0/0; the next term is below 1e-18.
+  // sin(x/2)/x by its series if the quotient would be 0/0; the next term is below 1e-18.
   const double factor = angle < 1e-4 ? 0.5 - angle * angle / 48.0 : std::sin(0.5 * angle) / angle;
   const Eigen::Vector3d v = factor * angle_rad;
   return {std::cos(0.5 * angle), v.x(), v.y(), v.z()};

@@ -1,16 +1,18 @@
 #pragma once
-/// The fifteen errors of strapdown navigation, their order, and how they grow over a time step.
+/// Error state of strapdown navigation: the fifteen errors, their order, and their transition over
+/// a time step.
 ///
 /// Source: J. Sola, "Quaternion kinematics for the error-state Kalman filter", 2017
 /// (arXiv:1711.02508): section 5.3 for the kinematics, section 7 for the attitude error in W, which
-/// is the one used here: R_true = Exp(dtheta) R. So the third of it is a turn about the vertical.
+/// is used here: R_true = Exp(dtheta) R. Its third component is therefore a rotation about the
+/// vertical.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
 namespace vinerow::controllers {
 
-/// Where each block of three begins: position, velocity, attitude, gyro bias, accelerometer bias.
+/// First index of each block of three: position, velocity, attitude, gyro bias, accelerometer bias.
 struct ErrorIndex {
   static constexpr int kPosition = 0;
   static constexpr int kVelocity = 3;
@@ -46,8 +48,8 @@ Eigen::Quaterniond exp_rotation(const Eigen::Vector3d& angle_rad);
 /// Rotation vector of a unit quaternion, |angle| <= pi (Sola eq. 103).
 Eigen::Vector3d log_rotation(const Eigen::Quaterniond& q);
 
-/// The errors' transition over dt under constant specific force and attitude. With A of Sola's
-/// section 7.2 (A^4 = 0) this is exp(A dt) exactly, not its first order; dt may be negative.
+/// Transition of the errors over dt under constant specific force and attitude. With A of Sola's
+/// section 7.2 (A^4 = 0) this is exp(A dt) exactly, not its first order. dt may be negative.
 class ErrorTransition {
  public:
   /// @param f_W  specific force in W, m/s2

@@ -6,7 +6,7 @@
 
 #include "controllers/estimation/inertial/error_state_sources.h"
 #include "controllers/estimation/inertial/navigation_start.h"
-#include "controllers/estimation/parts/estimator_news.h"
+#include "controllers/estimation/parts/estimator_events.h"
 
 namespace vinerow::controllers {
 namespace {
@@ -110,7 +110,7 @@ class ErrorStateEstimator final : public Estimator {
         sources_.see_reading(w_B, f_B);
       }
     }
-    // What the vehicle does while the IMU is silent nobody knows; as late as its readings come.
+    // The motion is unknown while the IMU is silent. Coast with the same delay as its readings.
     const Time until = now - lag_;
     const double silent_s = (until - filter_.time()).s();
     if (silent_s > options_.filter.longest_step_s || (is_silent_ && silent_s > 0.0)) {
@@ -162,7 +162,7 @@ class ErrorStateEstimator final : public Estimator {
   SignalReader<ImuSample> imu_;
   SignalWriter<Odometry> estimate_;
   SignalWriter<NamedValues> state_;
-  EstimatorNews news_;
+  EstimatorEvents news_;
 };
 
 }  // namespace
@@ -171,8 +171,8 @@ PartSpec error_state_kalman_spec() {
   PartSpec spec;
   spec.name = "error_state_kalman";
   spec.description =
-      "Inertial navigation held by satellite fixes: error-state Kalman filter with 15 states (Sola "
-      "2017); barometer, magnetometer, wheels and two antennas where there are any.";
+      "Inertial navigation aided by satellite fixes: error-state Kalman filter with 15 states "
+      "(Sola 2017); optionally barometer, magnetometer, wheels and two antennas.";
   spec.parameters = ErrorStateOptions::parameters();
   spec.default_rate_Hz = 100.0;
   spec.reads = {"<imu>",

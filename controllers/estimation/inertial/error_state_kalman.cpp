@@ -7,13 +7,43 @@
 namespace vinerow::controllers {
 namespace {
 
-/// Beyond what any unit on a vehicle reads: a broken message.
+/// Limits of plausible readings: more than any unit on a vehicle measures, so a broken message.
+/// Chosen.
 constexpr double kMaxRate_radps = 200.0;
 constexpr double kMaxForce_mps2 = 2000.0;
-/// A variance beyond this says nothing any more, and squares of it must stay finite.
+/// Largest variance (m2, m2/s2, rad2, ...): larger ones mean nothing, and their squares must stay
+/// finite. Chosen.
 constexpr double kMaxVariance = 1e15;
+/// Share of kMaxVariance to which a repair limits a variance, and the variance of an error of which
+/// nothing is known. Chosen.
+constexpr double kRepairedShare = 0.1;
+constexpr double kUnknownVariance = 1.0;
+/// Rounding allowed in P_ij^2 <= P_ii P_jj, relative and absolute. Chosen.
+constexpr double kMaxCorrelation2 = 1.0 + 1e-6;
+constexpr double kMinProduct = 1e-30;
 
 }  // namespace
+
+// Nominal state x = (p, v, q, b_w, b_f), error dx = (dp, dv, dtheta, db_w, db_f) with covariance P.
+// Over a step dt with readings w, f, means of this reading and the one before (propagate):
+//
+//   q <- q Exp((w - b_w) dt),   f_W = (R_old (f_old - b_f) + R_new (f - b_f)) / 2,   a = f_W - g z
+//   p <- p + v dt + a dt^2/2,   v <- v + a dt
+//   P <- F P F' + Q,   F = ErrorTransition at the mid-step attitude
+//
+// Q of white acceleration noise n_f (variance density per axis) and of the gyro noise n_w:
+//
+//   Q_pp = n_f dt^3/3,  Q_pv = n_f dt^2/2,  Q_vv = n_f dt,  Q_theta = n_w dt
+//
+// and the random walks of the biases times dt. Correction (Sola eq. 274-276), then injection and
+// reset (eq. 283-287):
+//
+//   S = H P H' + R,  NIS = y' S^-1 y,  K = P H'/s per scalar,  x <- x (+) dx,  dx <- 0
+//
+// Late measurements: every correction at time t_i changes the past too, since the motion between is
+// known. With t the time since the start, a correction (dp, dv) at t_i moves the position at t <
+// t_i by dp - (t_i - t) dv. Sums of dp - t_i dv, dv and dtheta, kept with each past state, give the
+// change since then (past).
 
 PastState interpolate(const PastState& older, const PastState& newer, double share) {
   const auto mix = [share](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
@@ -50,6 +80,7 @@ bool ErrorStateKalman::predict(Time stamp, const Eigen::Vector3d& w_B, const Eig
                                int samples) {
   const bool absurd = !w_B.allFinite() || !f_B.allFinite() || w_B.norm() > kMaxRate_radps ||
                       f_B.norm() > kMaxForce_mps2;
+  // The first reading may have the time of the start: it is kept for the first step.
   const bool is_first = stamp == time_ && !has_reading_;
   if (!started_ || absurd || (stamp <= time_ && !is_first)) {
     ++refused_readings_;
@@ -79,6 +110,7 @@ void ErrorStateKalman::coast(Time now) {
   ImuNoise noise = params_.imu;
   noise.gyro_radps_rtHz = params_.gap_gyro_radps_rtHz;
   noise.accel_mps2_rtHz = params_.gap_accel_mps2_rtHz;
+  // Straight motion: no rotation, and a specific force that balances gravity.
   const Eigen::Vector3d f_B =
       state_.q_WB.conjugate() * Eigen::Vector3d(0.0, 0.0, params_.gravity_mps2);
   propagate(Eigen::Vector3d::Zero(), f_B, f_B, now, noise, 1);
@@ -101,8 +133,8 @@ void ErrorStateKalman::propagate(const Eigen::Vector3d& w_B, const Eigen::Vector
   time_ = now;
 
   ErrorTransition(R_WB_, f_W_, dt).propagate(P_);
-  // White noise per reading is density / sqrt(its period): over n readings of which one was seen
-  // its share of velocity and angle has n times the variance.
+  // The white noise of a reading is density / sqrt(period). If one of n readings was used for the
+  // whole step, its noise has n times the variance.
   const double accel = samples * noise.accel_mps2_rtHz * noise.accel_mps2_rtHz;
   const double gyro = samples * noise.gyro_radps_rtHz * noise.gyro_radps_rtHz;
   const double gyro_walk = noise.gyro_walk_radps2_rtHz * noise.gyro_walk_radps2_rtHz;
@@ -139,6 +171,7 @@ Correction ErrorStateKalman::correct(const Eigen::Matrix<double, N, 1>& innovati
   const bool valid = started_ && innovation.allFinite() && H.allFinite() && variances.allFinite() &&
                      variances.minCoeff() >= 0.0;
   if (!valid) return {};
+  // Gate the whole vector, then apply it as scalars.
   if (!is_sound()) repair();
   Eigen::Matrix<double, N, N> S = H * P_ * H.transpose();
   if (!(S.diagonal().minCoeff() >= 0.0)) {
@@ -165,7 +198,7 @@ Correction ErrorStateKalman::correct(const Eigen::Matrix<double, N, 1>& innovati
   return {Correction::Verdict::kUsed, nis};
 }
 
-/// Sola eq. 274-276 for one component, Joseph's form: (1 - K H) P (1 - K H)' + K R K'.
+/// Sola eq. 274-276 for one component, Joseph form: (1 - K H) P (1 - K H)' + K R K'.
 void ErrorStateKalman::apply_scalar(double innovation, const ErrorRow& H, double variance,
                                     ErrorVector& dx) {
   const ErrorVector PH = P_ * H.transpose();
@@ -179,7 +212,7 @@ void ErrorStateKalman::apply_scalar(double innovation, const ErrorRow& H, double
   P_ = (0.5 * (P_ + P_.transpose())).eval();
 }
 
-/// Sola eq. 283 and the reset 285-287 with section 7's G = 1 + [dtheta / 2]x.
+/// Injection, Sola eq. 283, and reset, eq. 285-287, with section 7's G = 1 + [dtheta / 2]x.
 bool ErrorStateKalman::inject(const ErrorVector& dx) {
   const NavState corrected = state_.plus(dx);
   if (!corrected.is_finite()) return false;
@@ -197,21 +230,21 @@ bool ErrorStateKalman::inject(const ErrorVector& dx) {
   return true;
 }
 
-/// Necessary conditions that cost little: finite, variances not negative, correlations <= 1.
+/// Cheap necessary conditions: finite, variances not negative, correlations <= 1.
 bool ErrorStateKalman::is_sound() const {
   const ErrorVector variances = P_.diagonal();
   if (!(variances.minCoeff() >= 0.0 && variances.maxCoeff() < kMaxVariance)) return false;
-  const double bound = 1.0 + 1e-6;
   for (int i = 0; i < ErrorIndex::kCount; ++i) {
     for (int j = 0; j < i; ++j) {
-      if (!(P_(i, j) * P_(i, j) <= bound * variances[i] * variances[j] + 1e-30)) return false;
+      if (!(P_(i, j) * P_(i, j) <= kMaxCorrelation2 * variances[i] * variances[j] + kMinProduct))
+        return false;
     }
   }
   return true;
 }
 
-/// Keeps what variances are left, without correlations, which is certainly positive. Where there is
-/// none, that of the start.
+/// Keeps the valid variances and drops all correlations, which is positive definite. An invalid
+/// variance is replaced by that of the start.
 void ErrorStateKalman::repair() {
   ++repairs_;
   const ErrorVector variances = P_.diagonal();
@@ -220,8 +253,8 @@ void ErrorStateKalman::repair() {
     const auto good = [](double variance) { return variance > 0.0 && std::isfinite(variance); };
     const double variance = good(variances[i])          ? variances[i]
                             : good(start_variances_[i]) ? start_variances_[i]
-                                                        : 1.0;
-    P_(i, i) = std::min(variance, 0.1 * kMaxVariance);
+                                                        : kUnknownVariance;
+    P_(i, i) = std::min(variance, kRepairedShare * kMaxVariance);
   }
 }
 
@@ -252,9 +285,9 @@ bool ErrorStateKalman::remembers(Time time) const {
 
 PastState ErrorStateKalman::past(Time time) const {
   PastState past = trace_.at(time);
-  // A correction of today's velocity moves what was before it back along its way.
-  const double since_begin_s = (std::min(time, time_) - begin_).s();
-  past.p_WI += drift_p_ - past.drift_p + since_begin_s * (drift_v_ - past.drift_v);
+  // Change of the past since then: dp - t_i dv + t dv, dv, dtheta.
+  const double since_start_s = (std::min(time, time_) - begin_).s();
+  past.p_WI += drift_p_ - past.drift_p + since_start_s * (drift_v_ - past.drift_v);
   past.v_WI += drift_v_ - past.drift_v;
   past.q_WB = exp_rotation(drift_att_ - past.drift_att) * past.q_WB;
   return past;

@@ -19,15 +19,15 @@ const ParameterTable<ErrorStateOptions>& error_state_table() {
           .text("barometer", &P::barometer, "signal of the barometer; empty = none")
           .text("magnetometer", &P::magnetometer, "signal of the magnetometer; empty = none")
           .text("wheels", &P::wheels,
-                "signal of the wheel speeds of a ground vehicle; empty = none. With it the "
-                "vehicle is also taken not to slide sideways or to leave the ground")
+                "signal of the wheel speeds of a ground vehicle; empty = none. If set, the filter "
+                "also assumes that the vehicle does not slide sideways or leave the ground")
           .text("heading", &P::heading,
                 "signal of two satellite antennas (gnss_heading); empty = none")
           .choice("start", &P::starts_level, {{"drawn", false}, {"levelling", true}},
-                  "drawn: about the truth at the first tick; levelling: tilt by the "
-                  "accelerometer at rest, place by the first fix, heading by two antennas, by "
+                  "drawn: about the truth at the first tick; levelling: tilt from the "
+                  "accelerometer at rest, position from the first fix, heading from two antennas, "
                   "the magnetometer or start_yaw_deg")
-          .number("levelling_s", "s", &P::levelling_s, kPositive, "how long levelling takes a mean")
+          .number("levelling_s", "s", &P::levelling_s, kPositive, "averaging time of levelling")
           .degrees("start_yaw_deg", &P::start_yaw_rad, between(-360.0, 360.0),
                    "heading at the start (levelling without antennas and magnetometer)")
           .number("start_std_m", "m", &P::start_std_m, kPositive,
@@ -53,31 +53,31 @@ const ParameterTable<ErrorStateOptions>& error_state_table() {
           .number("accel_walk_mps3_rtHz", "m/s3/sqrt(Hz)", imu(&ImuNoise::accel_walk_mps3_rtHz),
                   between(0.0, 10.0), "random walk of the accelerometer's bias")
           .number("imu_timeout_s", "s", inside(&P::filter, &Filter::longest_step_s), kPositive,
-                  "after so long without a reading the vehicle is taken to go straight on")
+                  "time without a reading after which the filter assumes straight motion")
           .number("gate_sigma", "", &P::gate_sigma, kPositive,
-                  "measurements farther off are refused")
+                  "limit of the innovation; measurements beyond it are rejected")
           .number("restart_after_s", "s", &P::restart_after_s, kPositive,
-                  "position begins again at a fix when none was accepted for so long")
+                  "time without an accepted fix after which the position restarts at a fix")
           .number("gnss_std_m", "m", &P::gnss_std_m, between(0.0, 100.0),
                   "1 sigma of a fix; 0 = as the receiver states")
           .number("gnss_velocity_std_mps", "m/s", &P::gnss_velocity_std_mps, between(0.0, 100.0),
-                  "1 sigma of the satellite velocity; 0 = as the receiver states, not used "
-                  "where it states none")
+                  "1 sigma of the satellite velocity; 0 = as the receiver states, not used if it "
+                  "states none")
           .number("gnss_correlation_s", "s", &P::gnss_correlation_s, between(0.0, 1e4),
-                  "how long an error of the position stays; its variance is taken times "
-                  "2 correlation / period")
+                  "correlation time of the position's error; inflates its variance by 2 "
+                  "correlation / period")
           .number("barometer_std_m", "m", &P::barometer_std_m, kPositive,
                   "1 sigma of the barometer's height")
           .number("barometer_correlation_s", "s", &P::barometer_correlation_s, between(0.0, 1e4),
-                  "how long an error of that stays")
+                  "correlation time of the error of the height")
           .degrees("magnetometer_std_deg", &P::magnetometer_std_rad, kPositive,
                    "1 sigma of the direction of the magnetic field")
           .number("magnetometer_correlation_s", "s", &P::magnetometer_correlation_s,
-                  between(0.0, 1e4), "how long an error of that stays")
+                  between(0.0, 1e4), "correlation time of the error of the direction")
           .number("heading_correlation_s", "s", &P::heading_correlation_s, between(0.0, 1e4),
-                  "how long an error of the baseline of two antennas stays")
+                  "correlation time of the error of the two antennas' baseline")
           .degrees("declination_deg", &P::declination_rad, between(-180.0, 180.0),
-                   "magnetic north from true north, positive to the east")
+                   "angle from true north to magnetic north, positive to the east")
           .number("wheel_std_mps", "m/s", &P::wheel_std_mps, kPositive,
                   "1 sigma of the wheels' speed: slip")
           .number("lateral_std_mps", "m/s", &P::lateral_std_mps, kPositive,
@@ -85,25 +85,26 @@ const ParameterTable<ErrorStateOptions>& error_state_table() {
           .number("vertical_std_mps", "m/s", &P::vertical_std_mps, kPositive,
                   "1 sigma of the speed along body z")
           .number("wheel_correlation_s", "s", &P::wheel_correlation_s, between(0.0, 1e4),
-                  "how long slip and sliding stay")
+                  "correlation time of slip and sliding")
           .numbers("constraint_point_m", "m", &P::constraint_point_B, kAnyNumber,
-                   "place in B that does not slide sideways (x, y, z)")
-          .choice("zero_velocity", &P::standing,
+                   "point in B that does not slide sideways (x, y, z)")
+          .choice("zero_velocity", &P::stationary,
                   {{"off", P::Standing::kOff},
                    {"wheels", P::Standing::kWheels},
                    {"imu", P::Standing::kImu}},
-                  "how a standing vehicle is known: by its wheels, or by a quiet IMU while the "
-                  "estimate is slow")
-          .number("standing_s", "s", &P::standing_s, kPositive, "so long it must be quiet")
+                  "detector of a stationary vehicle: by its wheels, or by a quiet IMU while the "
+                  "estimated speed is low")
+          .number("standing_s", "s", &P::standing_s, kPositive,
+                  "quiet time before the vehicle counts as stationary")
           .number("standing_std_mps", "m/s", &P::standing_std_mps, kPositive,
-                  "1 sigma of a standing vehicle's speed")
+                  "1 sigma of a stationary vehicle's speed")
           .rule([](const P& p) -> std::string {
             return p.gnss && p.gps != P{}.gps
-                       ? "gps and gnss, its old form, are both given: leave out gnss"
+                       ? "gps and its old form gnss are both given: remove gnss"
                        : "";
           })
           .rule([](const P& p) -> std::string {
-            return p.standing == P::Standing::kWheels && p.wheels.empty()
+            return p.stationary == P::Standing::kWheels && p.wheels.empty()
                        ? "zero_velocity = wheels, but no signal is named in 'wheels'"
                        : "";
           });

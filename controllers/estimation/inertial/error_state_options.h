@@ -15,14 +15,14 @@ struct ErrorStateOptions {
   std::string imu = "imu", gps = "gps";                  ///< signals
   std::string barometer, magnetometer, wheels, heading;  ///< signals; empty: none
 
-  std::optional<std::string> gnss;  ///< gps by its old key; read() puts it in its place
-  std::string old_key;              ///< what to say about that; empty: nothing
+  std::optional<std::string> gnss;  ///< `gps` by its old key; read() copies it to `gps`
+  std::string old_key;              ///< note about the old key; empty: none
 
-  bool starts_level = false;  ///< by levelling instead of a draw about the truth
+  bool starts_level = false;  ///< from levelling instead of a draw about the truth
   double levelling_s = 1.0;
   double start_yaw_rad = 0.0;
   double start_std_m = 0.5;
-  double start_height_std_m = 0.0;  ///< 0: as start_std_m; read() puts that in its place
+  double start_height_std_m = 0.0;  ///< 0: as start_std_m; read() copies that value
   double start_velocity_std_mps = 0.05;
   double start_tilt_std_rad = rad_from_deg(1.0);
   double start_yaw_std_rad = rad_from_deg(2.0);
@@ -45,12 +45,12 @@ struct ErrorStateOptions {
   double vertical_std_mps = 0.1;
   double wheel_correlation_s = 2.0;
   Eigen::Vector3d constraint_point_B = Eigen::Vector3d::Zero();
-  enum class Standing { kOff, kWheels, kImu } standing = Standing::kOff;
+  enum class Standing { kOff, kWheels, kImu } stationary = Standing::kOff;
   double standing_s = 0.5;
   double standing_std_mps = 0.01;
 
-  /// @throws ConfigError where zero_velocity: wheels is asked for without wheels, or
-  /// gps is given by both keys
+  /// @throws ConfigError if zero_velocity is wheels and no wheels are named, or if gps is given by
+  /// both keys
   static ErrorStateOptions read(const ParameterSet& parameters, const std::string& who);
   static std::vector<ParameterSpec> parameters();
 };

@@ -9,11 +9,11 @@
 namespace vinerow::controllers {
 namespace {
 
-constexpr double kLeastStd_m = 1e-3;       // an ideal receiver states zero
-constexpr double kLargestTurn_rad = 0.05;  // 3 deg, up to which a baseline is a vector
-constexpr double kStandingPeriod_s = 0.2;  // between zero-velocity updates
+constexpr double kMinStd_m = 1e-3;           // an ideal receiver states zero
+constexpr double kLargestTurn_rad = 0.05;    // 3 deg; up to it the baseline is used as a vector
+constexpr double kStationaryPeriod_s = 0.2;  // between zero-velocity updates
 constexpr double kRestartVelocityStd_mps = 5.0;
-constexpr int kRestartRejections = 5;  // a receiver at 1 Hz takes as long
+constexpr int kRestartRejections = 5;  // 5 s of a receiver at 1 Hz
 
 }  // namespace
 
@@ -30,7 +30,7 @@ ErrorStateSources::ErrorStateSources(const ErrorStateOptions& options,
     : options_(options),
       filter_(filter),
       gravity_mps2_(context.gravity_mps2),
-      standing_(options.standing_s),
+      stationary_(options.standing_s),
       p_IA_B_(mounting_of(context, options.gps).p - p_BI_B),
       p_I_barometer_B_(mounting_of(context, options.barometer).p - p_BI_B),
       p_I_constraint_B_(options.constraint_point_B - p_BI_B),
@@ -51,8 +51,8 @@ void ErrorStateSources::connect(Ports& ports) {
 }
 
 void ErrorStateSources::start(Time now) {
-  for (MeasurementSource& source : sources_) source.forgive(now);
-  // What was measured before is no news, and no fault.
+  for (MeasurementSource& source : sources_) source.reset_rejections(now);
+  // Ignore a fix from before the start without counting it as rejected.
   if (gnss_.has_value() && gnss_.stamp() < filter_.time()) seen_fix_ = gnss_.sequence();
 }
 
@@ -63,8 +63,9 @@ std::optional<Eigen::Vector3d> ErrorStateSources::field_B() const {
 
 void ErrorStateSources::see_reading(const Eigen::Vector3d& w_B, const Eigen::Vector3d& f_B) {
   reading_w_B_ = w_B;
-  if (options_.standing != ErrorStateOptions::Standing::kImu) return;
-  standing_.see_imu(filter_.time(), filter_.w_B(), f_B, filter_.state().v_WI.norm(), gravity_mps2_);
+  if (options_.stationary != ErrorStateOptions::Standing::kImu) return;
+  stationary_.see_imu(filter_.time(), filter_.w_B(), f_B, filter_.state().v_WI.norm(),
+                      gravity_mps2_);
 }
 
 void ErrorStateSources::correct(bool has_reading) {
@@ -73,10 +74,10 @@ void ErrorStateSources::correct(bool has_reading) {
   take_field();
   take_wheels();
   take_baseline();
-  if (has_reading) take_standing();
+  if (has_reading) apply_zero_velocity();
 }
 
-/// True once for a reading that the state has reached and still remembers.
+/// True once for each reading whose time the state has reached and still remembers.
 template <class T>
 bool ErrorStateSources::is_due(const SignalReader<T>& reader, std::uint64_t& seen,
                                MeasurementSource& source) {
@@ -108,7 +109,7 @@ void ErrorStateSources::take_fix() {
   const Time stamp = gnss_.stamp();
   const Eigen::Vector3d std_m = options_.gnss_std_m > 0.0
                                     ? Eigen::Vector3d::Constant(options_.gnss_std_m)
-                                    : Eigen::Vector3d(fix.std_m.cwiseMax(kLeastStd_m));
+                                    : Eigen::Vector3d(fix.std_m.cwiseMax(kMinStd_m));
   const Eigen::Vector3d variances =
       sources_[kPosition].inflation(stamp, options_.gnss_correlation_s) * std_m.cwiseAbs2();
   correct(kPosition, stamp, place_measurement(filter_.past(stamp), p_IA_B_, fix.p_W), variances);
@@ -121,7 +122,7 @@ void ErrorStateSources::take_fix() {
           Eigen::Vector3d::Constant(velocity_std_mps * velocity_std_mps));
 }
 
-/// Who refuses every fix for seconds is himself wrong.
+/// If every fix is rejected for several seconds, the filter itself has diverged: restart.
 void ErrorStateSources::restart_if_lost(const GnssFix& fix, Time stamp,
                                         const Eigen::Vector3d& variances) {
   MeasurementSource& source = sources_[kPosition];
@@ -136,11 +137,11 @@ void ErrorStateSources::restart_if_lost(const GnssFix& fix, Time stamp,
                      v_W, v_std_mps * v_std_mps);
   filter_.loosen_attitude(std::pow(options_.start_tilt_std_rad, 2),
                           std::pow(options_.start_yaw_std_rad, 2));
-  for (MeasurementSource& each : sources_) each.forgive(stamp);
+  for (MeasurementSource& each : sources_) each.reset_rejections(stamp);
   ++restarts_;
 }
 
-/// Height above that of the first reading, which is the estimate's then.
+/// Height relative to the first reading, whose height is the estimate at that time.
 void ErrorStateSources::take_pressure() {
   if (!is_due(pressure_, seen_pressure_, sources_[kBarometer])) return;
   const double height_m = standard_height_m(pressure_.value().pressure_Pa);
@@ -179,8 +180,8 @@ void ErrorStateSources::take_wheels() {
   if (!is_due(wheels_, seen_wheels_, sources_[kWheels])) return;
   const Time stamp = wheels_.stamp();
   const double speed_mps = wheel_speed_.read_mps(wheels_.value());
-  if (options_.standing == ErrorStateOptions::Standing::kWheels && std::isfinite(speed_mps)) {
-    standing_.see_wheels(stamp, speed_mps);
+  if (options_.stationary == ErrorStateOptions::Standing::kWheels && std::isfinite(speed_mps)) {
+    stationary_.see_wheels(stamp, speed_mps);
   }
   const Eigen::Vector3d std_mps(options_.wheel_std_mps, options_.lateral_std_mps,
                                 options_.vertical_std_mps);
@@ -189,7 +190,7 @@ void ErrorStateSources::take_wheels() {
           sources_[kWheels].inflation(stamp, options_.wheel_correlation_s) * std_mps.cwiseAbs2());
 }
 
-/// The way between two antennas turns with the body: z = R l a, with a along the baseline.
+/// The baseline between two antennas rotates with the body: z = R l a, with a along the baseline.
 void ErrorStateSources::take_baseline() {
   if (!is_due(baseline_, seen_baseline_, sources_[kHeading])) return;
   const GnssHeading& reading = baseline_.value();
@@ -197,16 +198,17 @@ void ErrorStateSources::take_baseline() {
   const Time stamp = baseline_.stamp();
   const PastState past = filter_.past(stamp);
   const double inflation = sources_[kHeading].inflation(stamp, options_.heading_correlation_s);
-  // Far off, the vectors' difference is no linear function of the turn: their headings' is.
+  // With a large heading error the difference of the vectors is not linear in it; that of the
+  // headings is.
   const ScalarMeasurement heading =
       magnetic_measurement(past, baseline_axis_B_, reading.heading_rad);
   const double variance_rad2 = (heading.H * filter_.covariance()).dot(heading.H);
   if (variance_rad2 > kLargestTurn_rad * kLargestTurn_rad) {
-    const double std_rad = std::max(reading.heading_std_rad, kLeastStd_m / reading.length_m);
+    const double std_rad = std::max(reading.heading_std_rad, kMinStd_m / reading.length_m);
     correct(kHeading, stamp, heading, inflation * std_rad * std_rad);
     return;
   }
-  const Eigen::Vector3d std_m = reading.std_m.cwiseMax(kLeastStd_m);
+  const Eigen::Vector3d std_m = reading.std_m.cwiseMax(kMinStd_m);
   correct(kHeading, stamp,
           direction_measurement(past, reading.length_m * baseline_axis_B_, reading.baseline_W),
           inflation * std_m.cwiseAbs2());
@@ -220,21 +222,21 @@ std::optional<double> ErrorStateSources::heading_rad(const Eigen::Quaterniond& q
   return wrap_angle(baseline_.value().heading_rad - std::atan2(axis.y(), axis.x()));
 }
 
-void ErrorStateSources::take_standing() {
+void ErrorStateSources::apply_zero_velocity() {
   const Time now = filter_.time();
-  const bool due = options_.standing != ErrorStateOptions::Standing::kOff &&
-                   standing_.stands(now) && (now - last_standing_).s() >= kStandingPeriod_s;
+  const bool due = options_.stationary != ErrorStateOptions::Standing::kOff &&
+                   stationary_.stands(now) && (now - last_stationary_).s() >= kStationaryPeriod_s;
   if (!due) return;
-  last_standing_ = now;
+  last_stationary_ = now;
   const double std_mps = options_.standing_std_mps;
-  correct(kStanding, now,
+  correct(kStationary, now,
           velocity_measurement(filter_.past(now), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()),
           Eigen::Vector3d::Constant(std_mps * std_mps));
-  // One reading of the gyro, whose noise is density / sqrt(period); no slower IMU is used.
+  // The noise of one gyro reading is density / sqrt(period); a short period bounds it from above.
   constexpr double kShortestPeriod_s = 1e-3;
   const double density = options_.filter.imu.gyro_radps_rtHz;
   const VectorMeasurement rate =
-      standing_rate_measurement(reading_w_B_, filter_.state().gyro_bias_B);
+      stationary_rate_measurement(reading_w_B_, filter_.state().gyro_bias_B);
   filter_.correct_vector(rate.innovation, rate.H,
                          Eigen::Vector3d::Constant(density * density / kShortestPeriod_s),
                          options_.gate_sigma);

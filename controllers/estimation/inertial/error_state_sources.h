@@ -1,6 +1,6 @@
 #pragma once
-/// Everything but the inertial unit that holds the navigation of `error_state_kalman`: satellite
-/// fixes, barometer, magnetometer, wheels, and the knowledge that the vehicle stands.
+/// Aiding sources of `error_state_kalman`: satellite fixes, barometer, magnetometer, wheels, two
+/// antennas, and zero velocity of a stationary vehicle.
 
 #include <array>
 #include <optional>
@@ -10,7 +10,7 @@
 #include "controllers/estimation/inertial/error_state_options.h"
 #include "controllers/estimation/inertial/measurement_source.h"
 #include "controllers/estimation/inertial/navigation_measurements.h"
-#include "controllers/estimation/parts/standing.h"
+#include "controllers/estimation/parts/stationary_detector.h"
 #include "controllers/estimation/parts/wheel_speed.h"
 #include "engine/api/messages/commands.h"
 #include "engine/api/messages/heading.h"
@@ -21,31 +21,32 @@ namespace vinerow::controllers {
 
 class ErrorStateSources {
  public:
-  /// @throws ConfigError if wheels are named and the vehicle has none
+  /// @throws ConfigError if wheels are named and the vehicle has no wheels
   /// @param p_BI_B  the inertial unit in B
   ErrorStateSources(const ErrorStateOptions& options, const EstimatorContext& context,
                     const Eigen::Vector3d& p_BI_B, ErrorStateKalman& filter);
 
   void connect(Ports& ports);
-  /// From now on it counts how long fixes are refused.
+  /// Starts the clock of rejected fixes.
   void start(Time now);
-  /// A reading of the IMU that the filter took, along B's axes.
+  /// Passes on a reading of the IMU that the filter used, along B's axes.
   void see_reading(const Eigen::Vector3d& w_B, const Eigen::Vector3d& f_B);
-  /// Corrects by what is new and not newer than the state.
-  /// @param has_reading  whether the IMU speaks
+  /// Corrects by readings that are new and not newer than the state. @param has_reading whether the
+  /// IMU delivers readings
   void correct(bool has_reading);
 
   const GnssFix* fix() const { return gnss_.has_value() ? &gnss_.value() : nullptr; }
   const Eigen::Vector3d& p_IA_B() const { return p_IA_B_; }
   bool has_compass() const { return !options_.magnetometer.empty(); }
-  /// Magnetic field along B's axes; nothing yet: nullopt.
+  /// Magnetic field along B's axes; nullopt before the first reading.
   std::optional<Eigen::Vector3d> field_B() const;
   double north_rad() const { return north_rad_; }
   bool has_antennas() const { return !options_.heading.empty(); }
-  /// Heading of the body's x axis by two antennas, its tilt given; nothing yet: nullopt.
+  /// Heading of the body's x axis from two antennas, for a known tilt; nullopt before the first
+  /// reading.
   std::optional<double> heading_rad(const Eigen::Quaterniond& q_level_B) const;
 
-  /// nis_, used_, rejected_ of each source, and restarts.
+  /// Appends the names nis_, used_, rejected_ of each source, and restarts.
   static void name_report(std::vector<std::string>& names);
   /// @returns how many values were written
   std::size_t fill_report(std::vector<double>& values) const;
@@ -58,7 +59,7 @@ class ErrorStateSources {
     kMagnetometer,
     kWheels,
     kHeading,
-    kStanding,
+    kStationary,
     kSources
   };
 
@@ -74,12 +75,12 @@ class ErrorStateSources {
   void take_field();
   void take_wheels();
   void take_baseline();
-  void take_standing();
+  void apply_zero_velocity();
 
   const ErrorStateOptions& options_;
   ErrorStateKalman& filter_;
   double gravity_mps2_;
-  StandDetector standing_;
+  StationaryDetector stationary_;
   WheelSpeed wheel_speed_;
   Eigen::Vector3d p_IA_B_, p_I_barometer_B_, p_I_constraint_B_;
   Eigen::Quaterniond q_BM_;
@@ -88,7 +89,7 @@ class ErrorStateSources {
   std::array<MeasurementSource, kSources> sources_;
   std::int64_t restarts_ = 0;
   Eigen::Vector3d reading_w_B_ = Eigen::Vector3d::Zero();
-  Time last_standing_;
+  Time last_stationary_;
   bool has_pressure_zero_ = false;
   double pressure_zero_m_ = 0.0, pressure_zero_variance_m2_ = 0.0;
   std::uint64_t seen_fix_ = 0, seen_pressure_ = 0, seen_field_ = 0, seen_wheels_ = 0,
@@ -100,7 +101,7 @@ class ErrorStateSources {
   SignalReader<GnssHeading> baseline_;
 };
 
-/// Where a sensor sits; identity where none of that name has a mounting.
+/// Mounting of a sensor; identity if no sensor of that name has one.
 Pose mounting_of(const EstimatorContext& context, const std::string& sensor);
 
 }  // namespace vinerow::controllers

@@ -1,6 +1,6 @@
 #pragma once
-/// What a filter remembers of one source of measurements: counts, NIS, and how much its readings
-/// say of their own.
+/// Statistics of one source of measurements: counts, NIS, and the variance inflation of correlated
+/// readings.
 
 #include <algorithm>
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace vinerow::controllers {
 
 class MeasurementSource {
  public:
-  /// A reading must be newer than the one before. Counts it as rejected if it is not.
+  /// Whether the reading is newer than the one before. Counts it as rejected if it is not.
   bool is_newer(Time stamp) {
     if (has_last_ && stamp <= last_) {
       reject();
@@ -19,9 +19,9 @@ class MeasurementSource {
     }
     return true;
   }
-  /// Factor on the variance of a reading whose error stays for a time: max(1, 2 tau / T), with T
-  /// the time since the reading before. n readings then say as much as the error's independent
-  /// pieces do.
+  /// Factor on the variance of a reading whose error has the correlation time tau: max(1, 2 tau /
+  /// T), with T the time since the reading before. n readings then weigh as much as their number of
+  /// independent errors.
   double inflation(Time stamp, double correlation_s) const {
     if (!has_last_ || correlation_s <= 0.0) return 1.0;
     return std::max(1.0, 2.0 * correlation_s / (stamp - last_).s());
@@ -42,8 +42,8 @@ class MeasurementSource {
     ++rejected_;
     ++rejected_in_a_row_;
   }
-  /// Begins to count the time without use anew.
-  void forgive(Time now) {
+  /// Restarts the count of rejections and the time since the last use.
+  void reset_rejections(Time now) {
     rejected_in_a_row_ = 0;
     last_used_ = now;
   }
@@ -52,7 +52,7 @@ class MeasurementSource {
   std::int64_t rejected() const { return rejected_; }
   std::int64_t rejected_in_a_row() const { return rejected_in_a_row_; }
   Time last_used() const { return last_used_; }
-  double nis() const { return nis_; }  ///< of the last one used; 0 before
+  double nis() const { return nis_; }  ///< of the last reading used; 0 before
 
  private:
   std::int64_t used_ = 0, rejected_ = 0, rejected_in_a_row_ = 0;

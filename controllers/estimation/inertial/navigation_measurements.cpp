@@ -7,7 +7,7 @@
 namespace vinerow::controllers {
 namespace {
 
-/// How the direction of a horizontal vector changes with a small turn dtheta of it in W.
+/// Gradient of a vector's horizontal direction with respect to a small rotation dtheta in W.
 Eigen::RowVector3d azimuth_gradient(const Eigen::Vector3d& v_W) {
   const double square = v_W.head<2>().squaredNorm();
   return {-v_W.z() * v_W.x() / square, -v_W.z() * v_W.y() / square, 1.0};
@@ -72,8 +72,8 @@ VectorMeasurement direction_measurement(const PastState& state, const Eigen::Vec
   return m;
 }
 
-VectorMeasurement standing_rate_measurement(const Eigen::Vector3d& reading_B,
-                                            const Eigen::Vector3d& gyro_bias_B) {
+VectorMeasurement stationary_rate_measurement(const Eigen::Vector3d& reading_B,
+                                              const Eigen::Vector3d& gyro_bias_B) {
   VectorMeasurement m;
   m.innovation = reading_B - gyro_bias_B;
   m.H.middleCols<3>(ErrorIndex::kGyroBias).setIdentity();

@@ -19,9 +19,9 @@ const ParameterTable<GpsPoseParams>& gps_pose_table() {
       ParameterTable<P>()
           .text("gps", &P::gps, "signal of the satellite receiver")
           .numbers("antenna_m", "m", &P::p_BA, between(-100.0, 100.0),
-                   "where the antenna sits in B (x, y, z); taken off the fix")
+                   "position of the antenna in B (x, y, z); subtracted from the fix")
           .boolean("extrapolate", &P::extrapolate,
-                   "carry the fix on by its velocity until the next one comes")
+                   "extrapolate the fix with its velocity until the next one")
           .include(&P::heading, heading_table());
   return table;
 }
@@ -47,7 +47,7 @@ class GpsPose final : public Estimator {
       fix_time_ = gps_.stamp();
     }
     heading_.step(is_new ? &fix_ : nullptr);
-    if (!heading_.ready() || !fix_.valid) return;  // nothing to say before the first fix
+    if (!heading_.ready() || !fix_.valid) return;  // no estimate before the first fix
 
     const Eigen::Quaterniond& q_WB = heading_.q_WB();
     Odometry estimate;
@@ -78,9 +78,8 @@ PartSpec gps_pose_spec() {
   PartSpec spec;
   spec.name = "gps_pose";
   spec.description =
-      "Takes the last satellite fix as the position, unfiltered (Martelli, Mocera, Soma 2024, "
-      "location "
-      "error), and the heading from a gyro, drawn to the course.";
+      "Uses the last satellite fix as the position, unfiltered (Martelli, Mocera, Soma 2024, "
+      "location error), and the heading of a gyro, corrected by the course.";
   spec.parameters = gps_pose_table().specs();
   spec.default_rate_Hz = 40.0;
   spec.reads = {"<gps>", "<imu>", "truth (start; heading: truth)"};

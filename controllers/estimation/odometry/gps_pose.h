@@ -1,5 +1,5 @@
 #pragma once
-/// Estimator `gps_pose`: the satellite fix taken as the position (paper B: noisy position, exact
+/// Estimator `gps_pose`: the satellite fix is the position (paper B: noisy position, exact
 /// heading).
 
 #include <memory>

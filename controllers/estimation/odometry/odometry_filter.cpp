@@ -24,7 +24,7 @@ struct OdometryFilterParams {
   Source source = Source::kCommand;
   double odometry_scale = 1.0;
   bool gain_is_fixed = false;
-  double position_gain = 0.05;  ///< where it is
+  double position_gain = 0.05;  ///< if the gain is fixed
   OdometryKalmanParams filter;
   double gps_std_m = 0.0;  ///< 0: as the receiver states
   HeadingParams heading;
@@ -36,26 +36,28 @@ const ParameterTable<OdometryFilterParams>& odometry_filter_table() {
       ParameterTable<P>()
           .text("gps", &P::gps, "signal of the satellite receiver")
           .numbers("antenna_m", "m", &P::p_BA, between(-100.0, 100.0),
-                   "where the antenna sits in B (x, y, z); taken off the fix")
-          .choice("odometry_source", &P::source,
-                  {{"command", P::Source::kCommand},
-                   {"wheels", P::Source::kWheels},
-                   {"gps_velocity", P::Source::kGpsVelocity}},
-                  "what is summed up: the controller's command, the wheels, or the satellite "
-                  "velocity, which alone sees a skid-steered vehicle slide")
+                   "position of the antenna in B (x, y, z); subtracted from the fix")
+          .choice(
+              "odometry_source", &P::source,
+              {{"command", P::Source::kCommand},
+               {"wheels", P::Source::kWheels},
+               {"gps_velocity", P::Source::kGpsVelocity}},
+              "speed that is integrated: the controller's command, the wheels, or the satellite "
+              "velocity; only the latter measures the sliding of a skid-steered vehicle")
           .text("wheels", &P::wheels, "signal of the wheel speeds (odometry_source: wheels)")
           .number("odometry_scale", "", &P::odometry_scale, kPositive,
                   "factor on the odometry's speed: calibration, or an error to study")
-          .choice("gain", &P::gain_is_fixed, {{"kalman", false}, {"fixed", true}},
-                  "kalman: from the stated noises, odometry scale learnt; fixed: position_gain")
+          .choice(
+              "gain", &P::gain_is_fixed, {{"kalman", false}, {"fixed", true}},
+              "kalman: from the stated noise, estimates the odometry scale; fixed: position_gain")
           .number("position_gain", "", &P::position_gain, between(0.0, 1.0),
-                  "share of the difference taken over with each fix (gain: fixed)")
+                  "share of the difference that each fix corrects (gain: fixed)")
           .number("drift_m_per_sqrt_m", "m/sqrt(m)",
                   inside(&P::filter, &OdometryKalmanParams::drift_m_per_sqrt_m), kPositive,
-                  "1 sigma by which dead reckoning errs over one metre (gain: kalman)")
+                  "1 sigma of the error of dead reckoning over one metre (gain: kalman)")
           .number("scale_std", "", inside(&P::filter, &OdometryKalmanParams::scale_std),
                   between(0.0, 1.0),
-                  "1 sigma of the odometry's scale at the start (gain: kalman); 0 = not learnt")
+                  "1 sigma of the odometry's scale at the start (gain: kalman); 0 = not estimated")
           .number("gps_std_m", "m", &P::gps_std_m, between(0.0, 100.0),
                   "1 sigma of a fix; 0 = as the receiver states")
           .include(&P::heading, heading_table());
@@ -116,7 +118,7 @@ class OdometryFilter final : public Estimator {
 
     const Eigen::Vector2d v_B = odometry_scale_ * read_velocity_B();
     if (filter_.ready() && was_ready) {
-      // An arc: the velocity turns with the heading, so its chord lies along the mean heading.
+      // An arc: the velocity turns with the heading, so its chord has the mean heading.
       const double turn = wrap_angle(heading_.yaw_rad() - yaw_before);
       const double slide_rad = std::atan2(v_B.y(), v_B.x());
       const double way_m = v_B.norm() * period_s_;
@@ -136,7 +138,7 @@ class OdometryFilter final : public Estimator {
     height_m_ = p_B.z();
     const Eigen::Vector2d std_m = gps_std_m_ > 0.0
                                       ? Eigen::Vector2d(gps_std_m_, gps_std_m_)
-                                      : Eigen::Vector2d(fix.std_m.head<2>().cwiseMax(kLeastStd_m));
+                                      : Eigen::Vector2d(fix.std_m.head<2>().cwiseMax(kMinStd_m));
     if (!filter_.ready()) {
       filter_.start(p_B.head<2>(), std_m);
       trace_.add(now, filter_.p());
@@ -146,7 +148,7 @@ class OdometryFilter final : public Estimator {
     filter_.correct(p_B.head<2>() - was, std_m);
   }
 
-  /// Velocity in the plane of B, m/s. Wheels and command know nothing of sliding sideways.
+  /// Velocity in the plane of B, m/s. Wheels and command do not contain sideways sliding.
   Eigen::Vector2d read_velocity_B() {
     if (source_ == Source::kWheels) return {read_wheel_speed_mps(), 0.0};
     if (source_ == Source::kCommand)
@@ -194,7 +196,7 @@ class OdometryFilter final : public Estimator {
     estimate_.write(now, estimate);
   }
 
-  static constexpr double kLeastStd_m = 1e-3;  // an ideal receiver states zero
+  static constexpr double kMinStd_m = 1e-3;  // an ideal receiver states zero
 
   std::string gps_name_;
   Source source_;
@@ -208,7 +210,7 @@ class OdometryFilter final : public Estimator {
   double wheel_radius_m_ = 0.0;
   std::vector<Wheel> wheels_;
   double height_m_ = 0.0;
-  Eigen::Vector2d velocity_B_ = Eigen::Vector2d::Zero();  ///< last from a valid fix
+  Eigen::Vector2d velocity_B_ = Eigen::Vector2d::Zero();  ///< from the last valid fix
   RecentTrace<Eigen::Vector2d> trace_;                    ///< of the estimate
   std::uint64_t seen_fix_ = 0;
   SignalReader<GnssFix> gps_;
@@ -223,9 +225,8 @@ PartSpec odometry_filter_spec() {
   PartSpec spec;
   spec.name = "odometry_filter";
   spec.description =
-      "Dead reckoning along the heading by wheel or commanded speed, drawn to satellite fixes with "
-      "a "
-      "Kalman gain (position and odometry scale) or a fixed one.";
+      "Dead reckoning along the heading with wheel, commanded or satellite speed, corrected by "
+      "satellite fixes with a Kalman gain (position and odometry scale) or a fixed gain.";
   spec.parameters = odometry_filter_table().specs();
   spec.default_rate_Hz = 40.0;
   spec.reads = {"<gps>", "<imu>", "command or <wheels>", "truth (start; heading: truth)"};

@@ -1,5 +1,5 @@
 #pragma once
-/// Estimator `odometry_filter`: dead reckoning, drawn to the satellite fixes.
+/// Estimator `odometry_filter`: dead reckoning, corrected by satellite fixes.
 
 #include <memory>
 

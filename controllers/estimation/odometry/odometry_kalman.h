@@ -1,12 +1,11 @@
 #pragma once
-/// Position from dead reckoning and fixes: a Kalman filter over east, north and the odometry's
-/// scale.
+/// Kalman filter over east, north and the scale of the odometry, from dead reckoning and fixes.
 ///
-/// Model: per step p += (1 + s) d + noise, with d the way that odometry and heading tell, s the
-/// constant by which the wheels mismeasure (worn tyre, steady slip) and noise of variance q^2 |d|
+/// Model: each step p += (1 + s) d + noise, with d the displacement from odometry and heading, s
+/// the constant scale error of the wheels (worn tyre, steady slip) and noise of variance q^2 |d|
 /// along each axis. Fix: z = p + noise of the receiver. Standard equations (Kalman 1960; Joseph
-/// form of the covariance). The gain follows from the stated noises: with good odometry it becomes
-/// as small as 1/n, and the learnt scale keeps so small a gain from lagging behind.
+/// form of the covariance). The gain follows from the stated noise. With good odometry it falls to
+/// 1/n; the estimated scale prevents such a small gain from lagging behind.
 
 #include <Eigen/Core>
 
@@ -16,7 +15,7 @@ struct OdometryKalmanParams {
   double drift_m_per_sqrt_m = 0.002;  ///< q
   double scale_std = 0.03;            ///< of s at the start
   double scale_drift_per_sqrt_m = 1e-4;
-  double fixed_gain = 0.0;  ///< > 0: this gain on the position, scale not learnt
+  double fixed_gain = 0.0;  ///< > 0: this gain on the position, scale not estimated
 };
 
 class OdometryKalman {
@@ -25,7 +24,7 @@ class OdometryKalman {
 
   bool ready() const { return ready_; }
   void start(const Eigen::Vector2d& p, const Eigen::Vector2d& std_m);
-  /// @param d  displacement as odometry tells it, m, in W
+  /// @param d  displacement of the odometry, m, in W
   void predict(const Eigen::Vector2d& d);
   /// @param innovation  fix minus the estimate at the time of the fix, m
   /// @param std_m  1 sigma of the fix, > 0

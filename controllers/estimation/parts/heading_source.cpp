@@ -16,15 +16,15 @@ const ParameterTable<HeadingParams>& heading_table() {
                   {{"truth", P::Mode::kTruth},
                    {"gyro", P::Mode::kGyro},
                    {"gyro_course", P::Mode::kGyroCourse}},
-                  "gyro: summed yaw rate of the IMU; gyro_course: that, drawn to the course of the "
-                  "satellite velocity; truth: without error, for studies")
+                  "gyro: integrated yaw rate of the IMU; gyro_course: the same, corrected by the "
+                  "course of the satellite velocity; truth: without error, for studies")
           .text("imu", &P::imu, "signal of the IMU (gyro, gyro_course)")
           .number("course_time_s", "s", &P::course_time_s, kPositive,
-                  "how fast gyro_course follows the course")
+                  "time constant with which gyro_course follows the course")
           .number("course_speed_mps", "m/s", &P::course_speed_mps, kPositive,
-                  "slower than this the course is not used")
+                  "speed below which the course is not used")
           .degrees("start_yaw_std_deg", &P::start_yaw_std_rad, between(0.0, 180.0),
-                   "1 sigma of the heading at which the vehicle was set down (gyro, gyro_course)");
+                   "1 sigma of the heading at the start (gyro, gyro_course)");
   return table;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Where an estimator takes attitude and turning rate from.
+/// Source of an estimator's attitude and angular rate.
 
 #include <string>
 #include <vector>
@@ -13,16 +13,17 @@
 namespace vinerow::controllers {
 
 /// `heading` of the estimators:
-///   gyro_course  yaw rate of the IMU summed up from the heading at which the vehicle was set down,
-///                drawn to the course of the satellite velocity while driving; level ground assumed
-///   gyro         the sum alone
+///   gyro_course  integral of the IMU yaw rate from the heading at the start,
+///                corrected by the course of the satellite velocity while driving; assumes level
+///                ground
+///   gyro         the integral alone
 ///   truth        the true attitude (paper B: heading without error), for studies; never by default
-/// Who sets a vehicle down knows its heading with `start_yaw_std_deg`: drawn about the truth once.
+/// The heading at the start is drawn once about the truth with `start_yaw_std_deg`.
 struct HeadingParams {
   enum class Mode { kTruth, kGyro, kGyroCourse } mode = Mode::kGyroCourse;
   std::string imu = "imu";        ///< signal
-  double course_time_s = 5.0;     ///< how fast kGyroCourse follows the course
-  double course_speed_mps = 0.3;  ///< slower than this the course is not used
+  double course_time_s = 5.0;     ///< time constant with which kGyroCourse follows the course
+  double course_speed_mps = 0.3;  ///< below this speed the course is not used
   double start_yaw_std_rad = rad_from_deg(1.0);
 };
 
@@ -31,7 +32,7 @@ const ParameterTable<HeadingParams>& heading_table();
 
 class HeadingSource {
  public:
-  /// @param random  draws the error of the heading at the start
+  /// @param random  draws the heading error at the start
   HeadingSource(const HeadingParams& params, Duration period, RandomStream random);
 
   void connect(Ports& ports);

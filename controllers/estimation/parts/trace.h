@@ -1,5 +1,5 @@
 #pragma once
-/// What was known at past moments: late data are compared with the past they saw.
+/// Ring buffer of past values, so that late data are compared with the state at their own time.
 
 #include <array>
 #include <cstddef>
@@ -8,9 +8,8 @@
 
 namespace vinerow::controllers {
 
-/// The last `Capacity` entries, oldest overwritten. No heap.
-/// @tparam Value  with interpolate(older, newer, share), found by its namespace, or + - and scalar
-/// *
+/// The last `Capacity` entries; a new one overwrites the oldest. No heap. @tparam Value with
+/// interpolate(older, newer, share), found by its namespace, or + - and scalar *
 template <class Value, std::size_t Capacity = 256>
 class RecentTrace {
  public:
@@ -19,8 +18,8 @@ class RecentTrace {
     next_ = (next_ + 1) % Capacity;
     if (count_ < Capacity) ++count_;
   }
-  /// Between the neighbours in time; the oldest kept for what is older, the newest for what is
-  /// newer. @pre !empty()
+  /// Interpolates between the neighbours in time. Returns the oldest entry for earlier times and
+  /// the newest for later ones. @pre !empty()
   Value at(Time time) const {
     const Entry* newer = &entry(0);
     if (time >= newer->time) return newer->value;

@@ -1,5 +1,5 @@
 #pragma once
-/// Speed over ground as the wheels of the vehicle's left and right sides tell it.
+/// Speed over ground from the wheels on the left and right sides of a vehicle.
 
 #include <string>
 #include <vector>
@@ -12,11 +12,11 @@ namespace vinerow::controllers {
 class WheelSpeed {
  public:
   WheelSpeed() = default;
-  /// @throws ConfigError if the vehicle has no left or no right wheels, or tells no wheel_radius_m
-  /// @param who  part that asks, e.g. "rover.estimator (error_state_kalman)"
+  /// @throws ConfigError if the vehicle has no left or no right wheels, or lacks wheel_radius_m
+  /// @param who name of the part for errors, e.g. "rover.estimator (error_state_kalman)"
   WheelSpeed(const VehicleDescription& description, const std::string& who);
 
-  /// Mean rim speed of both sides, m/s; NaN where a side says nothing.
+  /// Mean rim speed of both sides, m/s; NaN if a side has no reading.
   double read_mps(const NamedValues& speeds);
 
  private:

@@ -8,7 +8,7 @@
 
 #include "controllers/estimation/row_localisation/distance_filter_law.h"
 #include "controllers/estimation/row_localisation/distance_filter_params.h"
-#include "controllers/estimation/parts/estimator_news.h"
+#include "controllers/estimation/parts/estimator_events.h"
 #include "controllers/estimation/row_localisation/ground_reference.h"
 #include "controllers/estimation/row_localisation/map_watch.h"
 #include "controllers/estimation/row_localisation/range_sensors.h"
@@ -26,7 +26,7 @@ using Eigen::Vector3d;
 struct DistanceEstimatorParams {
   std::string ins = "ins", gps = "gps";            ///< signals
   Eigen::Vector3d p_BA = Eigen::Vector3d::Zero();  ///< antenna in B
-  std::vector<std::string> ranges;                 ///< range sensors; empty: all ultrasounds
+  std::vector<std::string> ranges;                 ///< range sensors; empty: all ultrasonic sensors
   bool use_map = true;
   double start_std_m = 0.26;
   double range_bound_m = 0.003;
@@ -44,11 +44,11 @@ const ParameterTable<DistanceEstimatorParams>& distance_filter_table() {
           .text("ins", &P::ins, "signal of the inertial unit: velocity, attitude, position")
           .text("gps", &P::gps, "signal of the satellite receiver")
           .numbers("antenna_m", "m", &P::p_BA, between(-100.0, 100.0),
-                   "where the antenna sits in B (x, y, z); taken off the fix")
-          .texts("ranges", &P::ranges, "names of the range sensors; empty: all ultrasounds")
+                   "position of the antenna in B (x, y, z); subtracted from the fix")
+          .texts("ranges", &P::ranges, "names of the range sensors; empty: all ultrasonic sensors")
           .boolean("use_map", &P::use_map, "false: satellite fixes and inertial unit only")
           .number("start_std_m", "m", &P::start_std_m, between(1e-3, 100.0),
-                  "how well each coordinate of the start is known (paper C: 0.26)")
+                  "1 sigma of each coordinate at the start (paper C: 0.26)")
           .number("range_bound_m", "m", &P::range_bound_m, kPositive,
                   "largest error of a range (HC-SR04: 3 mm)")
           .boolean("cone", &P::cone,
@@ -130,7 +130,7 @@ class DistanceFilter final : public Estimator {
     take_inertial(now);
     if (gps_.is_newer_than(seen_fix_) && gps_.value().valid) {
       const GnssFix& fix = gps_.value();
-      law_.take_fix(gps_.stamp(), fix.p_W, fix.std_m.cwiseMax(kLeastStd_m), p_BA_);
+      law_.take_fix(gps_.stamp(), fix.p_W, fix.std_m.cwiseMax(kMinStd_m), p_BA_);
     }
     while (const auto plane = ground_.read(now, law_.q_WB(), law_.kalman().p_W())) {
       law_.take_plane(plane->measured, plane->normal_W, plane->offset_m, plane->std_m);
@@ -143,11 +143,11 @@ class DistanceFilter final : public Estimator {
  private:
   std::optional<RowMeshIndex> make_index(const EstimatorContext& context) const {
     if (sensors_.empty()) return std::nullopt;
-    demand_row_meshes(context, distance_filter_name(context), "say use_map: false");
+    demand_row_meshes(context, distance_filter_name(context), "set use_map: false");
     return std::optional<RowMeshIndex>(std::in_place, *context.map);
   }
 
-  /// As someone who knows roughly where the vehicle stands.
+  /// Starts at a draw about the true position, like a user's rough knowledge of it.
   void start(Time now) {
     Vector3d p_W = truth_.value().X_WB.p;
     for (int i = 0; i < 3; ++i) p_W[i] += start_std_m_ * random_.normal();
@@ -157,7 +157,7 @@ class DistanceFilter final : public Estimator {
 
   void take_inertial(Time now) {
     const bool is_new = ins_.is_newer_than(seen_ins_);
-    if (!ins_.has_value()) {  // as it was set down, until the unit says more
+    if (!ins_.has_value()) {  // stationary until the unit delivers data
       law_.predict(now, Vector3d::Zero(), q_start_WB_, kStatedYawStd_rad);
       return;
     }
@@ -171,7 +171,7 @@ class DistanceFilter final : public Estimator {
     law_.take_inertial_position(ins_.stamp(), ins.X_WB.p, std_m);
   }
 
-  /// Readings of one moment together, in the order of the sensors.
+  /// Applies readings of the same time together, in the order of the sensors.
   void take_ranges() {
     for (std::size_t i = 0; i < ranges_.size(); ++i) {
       taken_[i] = !ranges_[i].is_newer_than(seen_ranges_[i]);
@@ -200,16 +200,16 @@ class DistanceFilter final : public Estimator {
   void tell(Time now) {
     const Pose X_WB{law_.q_WB(), law_.kalman().p_W()};
     const DistanceFilterLaw::Counters& counters = law_.counters();
-    if (lost_news_.is_due(now, counters.lost)) {
+    if (lost_event_.is_due(now, counters.lost)) {
       news_.tell(Event::Level::kWarning,
-                 fmt::format("lost near ({:.1f}, {:.1f}): echoes or fixes contradict the estimate, "
-                             "which takes itself for less sure now ({} so far)",
+                 fmt::format("lost near ({:.1f}, {:.1f}): echoes or fixes contradict the estimate; "
+                             "its variance has been increased ({} so far)",
                              X_WB.p.x(), X_WB.p.y(), counters.lost));
     }
-    if (set_news_.is_due(now, counters.set_restarts)) {
+    if (has_event_.is_due(now, counters.set_restarts)) {
       news_.tell(Event::Level::kWarning,
                  fmt::format("the ellipsoid was empty near ({:.1f}, {:.1f}): its bounds contradict "
-                             "each other; it starts again about the estimate ({} so far)",
+                             "each other; it restarts at the estimate ({} so far)",
                              X_WB.p.x(), X_WB.p.y(), counters.set_restarts));
     }
     if (index_) watch_.look(now, *index_, sensors_, X_WB, reach_m_, news_);
@@ -245,9 +245,9 @@ class DistanceFilter final : public Estimator {
     state_out_.write(now, state_);
   }
 
-  static constexpr double kLeastStd_m = 1e-3;            // an ideal receiver states zero
+  static constexpr double kMinStd_m = 1e-3;            // an ideal receiver states zero
   static constexpr double kStatedYawStd_rad = 3.491e-3;  // 0.2 deg, VN-200
-  static constexpr double kReach_m = 4.0;  // of range sensors at least (HC-SR04); they tell more
+  static constexpr double kReach_m = 4.0;  // minimum reach of the range sensors (HC-SR04)
 
   std::string ins_name_, gps_name_;
   double start_std_m_, yaw_std_rad_, inertial_std_m_;
@@ -265,8 +265,8 @@ class DistanceFilter final : public Estimator {
   Vector3d w_WB_B_ = Vector3d::Zero();
   Eigen::Quaterniond q_start_WB_ = Eigen::Quaterniond::Identity();
   MapWatch watch_;
-  CountedNews lost_news_, set_news_;
-  EstimatorNews news_;
+  CountedEvent lost_event_, has_event_;
+  EstimatorEvents news_;
   NamedValues state_;
   std::uint64_t seen_ins_ = 0, seen_fix_ = 0;
   SignalReader<Odometry> truth_, ins_;
@@ -283,8 +283,9 @@ PartSpec distance_filter_spec() {
   PartSpec spec;
   spec.name = "distance_filter";
   spec.description =
-      "Position from an inertial unit, satellite fixes and echoes off mapped rows: the 3D distance "
-      "filter of Donati et al. 2022, section 3, in several readings, and an EKF on the range.";
+      "Position from an inertial unit, satellite fixes and echoes from mapped rows: the 3D "
+      "distance filter of Donati et al. 2022, section 3, in several variants, and an EKF on the "
+      "range.";
   spec.parameters = distance_filter_table().specs();
   spec.default_rate_Hz = 100.0;
   spec.reads = {"truth", "<ins>", "<gps>", "<ranges>", "<down>"};

@@ -8,17 +8,38 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kLeastSpeed_mps = 0.1;  // slower than this the map's error counts as no slower
-constexpr double kLongestPeriod_s = 1.0;
-constexpr int kFixesToBelieve = 10;  // as many gated in a row are right, and the estimate is wrong
+// Values without a source are chosen.
+constexpr double kMinSpeed_mps = 0.1;     // lower bound of the speed at which the map error changes
+constexpr double kLongestPeriod_s = 1.0;  // a longer pause of a sensor is not its period
+constexpr int kFixesToBelieve = 10;       // this many gated fixes in a row prove the estimate wrong
+constexpr double kRandomWalk_m2_per_s = 0.023;      // R2, fitted to paper C's table 3
+constexpr double kPositionFixWalk_m2_per_s = 1.98;  // R1, fitted to paper C's table 3
+constexpr double kMaxNormError = 1e-3;  // of a quaternion: beyond it the message is broken
+constexpr double kMinDrift_mps = 0.01;  // growth of the set even if the velocity has no slow error
+constexpr std::size_t kSliceSegments = 8192;  // reserved, so that a step allocates nothing
 
 }  // namespace
+
+// Time T ago the vehicle was at
+//
+//   p_T = p - D - c T
+//
+// with p and c of the Kalman filter now and D the integrated displacement since then (position_at).
+// All data are compared with p_T; their gradient is PositionKalman::gradient_of.
+//
+//   fix      z = p_T + R p_BA                       gate fix_gate_sigma
+//   plane    z = n.p_T                              gate fix_gate_sigma
+//   range    see DistanceFusion and distance_filter_law_fusion.cpp
+//
+// The integrity set is cut by the same data with bounds b = bound_sigma times their deviations. A
+// slab at time T ago is moved by N.D and widened by b sigma_v T.
 
 PositionKalmanParams kalman_params_of(InertialReading reading) {
   PositionKalmanParams params;
   if (reading == InertialReading::kVelocity) return params;
   params.velocity_std_mps = 0.0;
-  params.walk_m2_per_s = reading == InertialReading::kPositionFix ? 1.98 : 0.023;
+  params.walk_m2_per_s =
+      reading == InertialReading::kPositionFix ? kPositionFixWalk_m2_per_s : kRandomWalk_m2_per_s;
   return params;
 }
 
@@ -31,7 +52,7 @@ DistanceFilterLaw::DistanceFilterLaw(const DistanceFilterParams& params,
       sensors_(std::move(sensors)),
       sensor_states_(sensors_.size()),
       kalman_(params.kalman) {
-  if (params_.association == EchoAssociation::kClosestSegment) slice_.reserve(8192);
+  if (params_.association == EchoAssociation::kClosestSegment) slice_.reserve(kSliceSegments);
 }
 
 bool DistanceFilterLaw::start(Time now, const Vector3d& p_W, const Eigen::Matrix3d& covariance_m2) {
@@ -47,7 +68,7 @@ bool DistanceFilterLaw::start(Time now, const Vector3d& p_W, const Eigen::Matrix
 }
 
 void DistanceFilterLaw::start_set() {
-  // Contains a Gaussian's bound_sigma box in every direction.
+  // The ellipsoid of shape 3 b^2 P, P diagonal, contains the box of half widths b sigma.
   const double scale = 3.0 * params_.bound_sigma * params_.bound_sigma;
   set_.start(kalman_.p_W(), scale * kalman_.position_covariance());
 }
@@ -55,10 +76,10 @@ void DistanceFilterLaw::start_set() {
 void DistanceFilterLaw::predict(Time now, const Vector3d& v_W, const Eigen::Quaterniond& q_WB,
                                 double yaw_std_rad) {
   if (!has_started()) return;
-  if (!v_W.allFinite() || !q_WB.coeffs().allFinite() || !(std::abs(q_WB.norm() - 1.0) < 1e-3) ||
-      !std::isfinite(yaw_std_rad)) {
+  if (!v_W.allFinite() || !q_WB.coeffs().allFinite() ||
+      !(std::abs(q_WB.norm() - 1.0) < kMaxNormError) || !std::isfinite(yaw_std_rad)) {
     ++counters_.bad_numbers;
-    // Time goes on with what was known last.
+    // Continue with the last valid data.
     if (now > kalman_.time()) predict(now, v_W_, q_WB_, yaw_std_rad_);
     return;
   }
@@ -70,11 +91,11 @@ void DistanceFilterLaw::predict(Time now, const Vector3d& v_W, const Eigen::Quat
   const Vector3d before = kalman_.p_W();
   kalman_.predict(now, v_W);
   set_.predict(kalman_.p_W() - before,
-               dt * params_.bound_sigma * std::max(params_.kalman.velocity_std_mps, 0.01));
+               dt * params_.bound_sigma * std::max(params_.kalman.velocity_std_mps, kMinDrift_mps));
   q_WB_ = q_WB;
   v_W_ = v_W;
   yaw_std_rad_ = yaw_std_rad;
-  now_.way_W += std::min(dt, params_.kalman.longest_step_s) * v_W;
+  now_.displacement_W += std::min(dt, params_.kalman.longest_step_s) * v_W;
   now_.q_WB = q_WB;
   trace_.add(now, now_);
 }
@@ -85,12 +106,14 @@ bool DistanceFilterLaw::recall(Time measured, Moment& moment) {
     return false;
   }
   const Past past = trace_.at(measured);
-  moment = {std::max(0.0, (kalman_.time() - measured).s()), now_.way_W - past.way_W, past.q_WB};
+  moment = {std::max(0.0, (kalman_.time() - measured).s()),
+            now_.displacement_W - past.displacement_W, past.q_WB};
   return true;
 }
 
 Vector3d DistanceFilterLaw::position_at(const Moment& moment) const {
-  return kalman_.p_W() - moment.way_since_W - moment.age_s * kalman_.velocity_correction_W();
+  return kalman_.p_W() - moment.displacement_since_W -
+         moment.age_s * kalman_.velocity_correction_W();
 }
 
 void DistanceFilterLaw::count(DatumStatus status, int& taken, int& gated) {
@@ -132,6 +155,7 @@ void DistanceFilterLaw::take_fix(Time measured, const Vector3d& p_W, const Vecto
   DatumStatus status =
       kalman_.correct_position(innovation, variance, moment.age_s, params_.fix_gate_sigma);
   if (status != DatumStatus::kGated) fixes_gated_in_a_row_ = 0;
+  // If every fix is gated for long, the estimate has diverged: widen it by the innovation.
   if (status == DatumStatus::kGated && ++fixes_gated_in_a_row_ >= kFixesToBelieve) {
     fixes_gated_in_a_row_ = 0;
     ++counters_.lost;
@@ -141,8 +165,8 @@ void DistanceFilterLaw::take_fix(Time measured, const Vector3d& p_W, const Vecto
   }
   count(status, counters_.fixes, counters_.fixes_gated);
   if (status != DatumStatus::kTaken) return;
-  fix_nis_ = 3.0 * kalman_.last_nis();  // it tells the mean over the coordinates
-  cut_set_by_fix(p_B + moment.way_since_W, std_m);
+  fix_nis_ = 3.0 * kalman_.last_nis();  // last_nis() is the mean over the coordinates
+  cut_set_by_fix(p_B + moment.displacement_since_W, std_m);
 }
 
 void DistanceFilterLaw::take_plane(Time measured, const Vector3d& normal_W, double offset_m,
@@ -171,6 +195,7 @@ bool DistanceFilterLaw::take_stamp(Time measured, SensorState& sensor) {
 void DistanceFilterLaw::take_ranges(Time measured, std::span<const RangeReading> readings) {
   Moment moment;
   if (map_ == nullptr || !recall(measured, moment)) return;
+  // kJoint: the ellipse of shape k^2 P starts at the prediction, and each echo cuts it.
   joint_centre_ = kalman_.p_W().head<2>();
   joint_shape_ =
       params_.set_scale * params_.set_scale * kalman_.position_covariance().topLeftCorner<2, 2>();
@@ -182,7 +207,7 @@ void DistanceFilterLaw::take_ranges(Time measured, std::span<const RangeReading>
       ++counters_.bad_numbers;
       continue;
     }
-    if (!(reading.range_m < reading.max_range_m)) continue;  // nothing seen: nothing told
+    if (!(reading.range_m < reading.max_range_m)) continue;  // no echo
     const Vector3d p_m = position_at(moment);
     const auto echo = associate({moment.q_WB, p_m}, reading);
     if (!echo) {
@@ -203,6 +228,7 @@ void DistanceFilterLaw::take_ranges(Time measured, std::span<const RangeReading>
 
 void DistanceFilterLaw::watch(bool refused, double weight_s) {
   if (params_.lost_time_s <= 0.0) return;
+  // Low pass of the rejected share with the time constant lost_time_s.
   const double share = std::min(1.0, weight_s / params_.lost_time_s);
   refused_share_ += share * ((refused ? 1.0 : 0.0) - refused_share_);
   if (refused_share_ < params_.lost_share) return;
@@ -216,7 +242,7 @@ void DistanceFilterLaw::watch(bool refused, double weight_s) {
 double DistanceFilterLaw::inflation_of(const SensorState& sensor) const {
   if (params_.inflation > 0.0) return params_.inflation;
   return correlation_inflation(accuracy_.correlation_length_m,
-                               std::max(v_W_.head<2>().norm(), kLeastSpeed_mps), sensor.period_s);
+                               std::max(v_W_.head<2>().norm(), kMinSpeed_mps), sensor.period_s);
 }
 
 EchoBounds DistanceFilterLaw::bounds_of(const RangeReading& reading) const {
@@ -225,9 +251,9 @@ EchoBounds DistanceFilterLaw::bounds_of(const RangeReading& reading) const {
 }
 
 void DistanceFilterLaw::cut_set(const EchoSlab& slab, const Moment& moment) {
-  // The slab of that moment, carried along with what was dead reckoned since.
+  // Move the slab from its own time to now by the integrated displacement.
   EchoSlab moved = slab;
-  const double way = slab.normal_W.dot(moment.way_since_W);
+  const double way = slab.normal_W.dot(moment.displacement_since_W);
   const double drift = params_.bound_sigma * params_.kalman.velocity_std_mps * moment.age_s;
   moved.lower_m += way - drift;
   moved.upper_m += way + drift;

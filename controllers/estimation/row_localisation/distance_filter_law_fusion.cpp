@@ -1,4 +1,4 @@
-// How the distance filter finds the facet of an echo and fuses it: one function per DistanceFusion.
+// Association of an echo with a facet, and its fusion: one function for each DistanceFusion.
 
 #include <cmath>
 #include <numbers>
@@ -25,14 +25,14 @@ std::optional<RangePrediction> DistanceFilterLaw::find_closest_segment(
   const Vector3d origin_W = X_WB * sensor.X_BS.p;
   const Vector3d dir_W = X_WB.q * (sensor.X_BS.q * Vector3d::UnitX());
   const std::span<const RowMeshIndex::Segment> slice = slice_at(X_WB, reading.max_range_m);
-  // "In the proximity": the beam may miss the segment by what the position is uncertain by.
+  // "In the proximity": the beam may miss the segment by the uncertainty of the position.
   const double near_m =
       params_.bound_sigma * std::sqrt(kalman_.position_covariance().topLeftCorner<2, 2>().trace());
   std::optional<RangePrediction> best;
-  double least_m = 0.0;
+  double min_m = 0.0;
   for (const RowMeshIndex::Segment& segment : slice) {
     const double slope = segment.normal_W.dot(dir_W);
-    if (!(slope < -1e-3)) continue;  // seen from behind, or along
+    if (!(slope < -1e-3)) continue;  // seen from behind or edge-on
     const double range_m = segment.normal_W.dot(segment.from_W - origin_W) / slope;
     if (!(range_m > 0.0) || range_m > reading.max_range_m) continue;
     const Vector3d along_W = segment.to_W - segment.from_W;
@@ -41,8 +41,8 @@ std::optional<RangePrediction> DistanceFilterLaw::find_closest_segment(
     const double at_m = (origin_W + range_m * dir_W - segment.from_W).dot(along_W) / length_m;
     if (at_m < -near_m || at_m > length_m + near_m) continue;
     const double off_m = std::abs(range_m - reading.range_m);
-    if (best && off_m >= least_m) continue;
-    least_m = off_m;
+    if (best && off_m >= min_m) continue;
+    min_m = off_m;
     RowMeshIndex::Hit hit;
     hit.distance_m = range_m;
     hit.normal_W = segment.normal_W;
@@ -83,7 +83,7 @@ DatumStatus DistanceFilterLaw::fuse_range(const RangePrediction& echo, const Ran
                                   sensors_[reading.sensor].bound_m, yaw_std_rad_);
   datum.gate_sigma = params_.gate_sigma;
   datum.huber_sigma = params_.huber_sigma;
-  // One reading by itself has the map's error once: r is for what many share.
+  // A single reading has the map's error once; the inflation is for readings that share it.
   const double alone = range_variance(echo, p_m, accuracy_.surface_std_m, 1.0,
                                       sensors_[reading.sensor].bound_m, yaw_std_rad_);
   return correct_by_echo(datum, alone);
@@ -110,11 +110,12 @@ DatumStatus DistanceFilterLaw::correct_by_echo(const PositionKalman::Scalar& dat
 }
 
 EchoSlab2 DistanceFilterLaw::horizontal(const EchoSlab& slab, const Moment& moment) const {
-  // Sets are of the position now: the slab is carried along with the way since.
-  const Vector3d way_W = moment.way_since_W + moment.age_s * kalman_.velocity_correction_W();
+  // The sets are of the current position: move the slab by the displacement since.
+  const Vector3d displacement_W =
+      moment.displacement_since_W + moment.age_s * kalman_.velocity_correction_W();
   EchoSlab moved = slab;
-  moved.lower_m += slab.normal_W.dot(way_W);
-  moved.upper_m += slab.normal_W.dot(way_W);
+  moved.lower_m += slab.normal_W.dot(displacement_W);
+  moved.upper_m += slab.normal_W.dot(displacement_W);
   return horizontal_slab(moved, kalman_.p_W().z(),
                          params_.bound_sigma * std::sqrt(kalman_.position_covariance()(2, 2)));
 }
@@ -180,7 +181,7 @@ DatumStatus DistanceFilterLaw::fuse_increment_matrix(const Vector2d& centre,
   const Vector2d p = kalman_.p_W().head<2>();
   const Matrix2d after = covariance_m2.inverse();
   const Matrix2d added = after - kalman_.position_covariance().topLeftCorner<2, 2>().inverse();
-  // Information along each axis of the difference; the negative one is left out.
+  // Information along each principal axis of the difference; negative information is left out.
   const SymmetricEigen<2> axes = decompose_symmetric<2>(0.5 * (added + added.transpose()));
   const Vector2d moved = after * (centre - p);
   const Matrix2d& directions = axes.vectors;

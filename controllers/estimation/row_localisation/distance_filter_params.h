@@ -8,16 +8,16 @@
 
 namespace vinerow::controllers {
 
-/// What the file says of the law and of what goes into it.
+/// Options of the law and its inputs, as read from the scenario.
 struct DistanceFilterOptions {
-  DistanceFilterParams law;             ///< its `kalman` before the reading is taken into account
-  std::optional<double> walk_m2_per_s;  ///< absent: the reading's
+  DistanceFilterParams law;             ///< its `kalman` without the defaults of `reading`
+  std::optional<double> walk_m2_per_s;  ///< absent: the value of `reading`
   double yaw_std_rad = 0.0;             ///< 0: as the inertial unit states
-  double inertial_std_m = 1.0;          ///< of positions where the inertial unit states none
+  double inertial_std_m = 1.0;          ///< of inertial positions without a stated deviation
 };
 
 const ParameterTable<DistanceFilterOptions>& distance_filter_law_table();
-/// The law's parameters with the process noise of the reading (kalman_params_of).
+/// Parameters of the law, with the process noise of the interpretation (kalman_params_of).
 DistanceFilterParams make_distance_filter_params(const DistanceFilterOptions& options);
 
 }  // namespace vinerow::controllers

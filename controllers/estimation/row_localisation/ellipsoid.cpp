@@ -6,8 +6,8 @@
 namespace vinerow::controllers {
 namespace {
 
-constexpr double kLeastGain = 1e-9;    // of a pseudo-measurement
-constexpr double kLeastShape = 1e-14;  // of what is left, along a and across, of 1
+constexpr double kMinGain = 1e-9;    // least K of a pseudo-measurement
+constexpr double kMinShape = 1e-14;  // least remaining shape, along a and across it, of 1
 
 }  // namespace
 
@@ -37,7 +37,7 @@ ParallelCut parallel_cut(int dimension, double alpha, double alpha_hat) {
   cut.alpha_hat = alpha_hat;
   const double n = dimension;
   if (std::isnan(alpha) || std::isnan(alpha_hat)) return cut;
-  // An infinite bound is a plane that is not there; both at -infinity leave the ellipsoid.
+  // An infinite bound means no plane; both at -infinity leave the ellipsoid unchanged.
   const auto end_with = [&cut](CutStatus status) {
     cut.status = status;
     return cut;
@@ -53,7 +53,7 @@ ParallelCut parallel_cut(int dimension, double alpha, double alpha_hat) {
     cut.tau = 0.5 * (b - h);
     const double half = 0.5 * (b + h);
     cut.delta = half * half;
-    if (!(cut.delta > kLeastShape)) {
+    if (!(cut.delta > kMinShape)) {
       cut.tau = 0.0, cut.delta = 1.0;
       return end_with(CutStatus::kDegenerate);
     }
@@ -69,8 +69,8 @@ ParallelCut parallel_cut(int dimension, double alpha, double alpha_hat) {
       (0.5 * n * n + (0.25 * n * n * (h - b) * (h - b) - 1.0) / (1.0 + b * h + 0.5 * rho)) /
       ((n + 1.0) * apart);
   const double delta = n * n / (n * n - 1.0) * (1.0 - 0.5 * (b * b + h * h - rho / n));
-  // Not (rest <= small), so that NaN (0/0, a slab that touches) ends here too.
-  if (!(rest > kLeastShape) || !(delta > kLeastShape)) {
+  // Not (rest <= small), so that NaN (0/0, for a slab that only touches) ends here too.
+  if (!(rest > kMinShape) || !(delta > kMinShape)) {
     return end_with(CutStatus::kDegenerate);
   }
   cut.rest = rest;
@@ -113,7 +113,7 @@ template ParallelCut cut_ellipsoid<3>(Eigen::Vector3d&, Eigen::Matrix3d&, const 
 PseudoMeasurement pseudo_measurement(const ParallelCut& cut, double centre_along_a, double spread_m,
                                      double set_scale) {
   PseudoMeasurement measurement;
-  if (!cut.cuts() || cut.gain() < kLeastGain) return measurement;
+  if (!cut.cuts() || cut.gain() < kMinGain) return measurement;
   const double K = cut.gain();
   const double spread = spread_m / set_scale;
   measurement.valid = true;

@@ -1,5 +1,6 @@
 #pragma once
-/// Smallest ellipsoid that contains what two parallel planes leave of an ellipsoid.
+/// Parallel cut: the smallest ellipsoid that contains the part of an ellipsoid between two parallel
+/// planes.
 ///
 /// E = {x : (x - c)' P^-1 (x - c) <= 1}, slab lower <= a'x <= upper, s = sqrt(a' P a),
 /// alpha = (a'c - upper) / s, alpha_hat = (lower - a'c) / s:
@@ -27,22 +28,22 @@ namespace vinerow::controllers {
 
 enum class CutStatus {
   kCut,         ///< both planes count
-  kSingleCut,   ///< one plane lies outside the ellipsoid; the other cuts it (deep or shallow)
-  kInterval,    ///< n = 1: what is left, exactly
-  kNoUpdate,    ///< the ellipsoid is already the smallest that contains what is left
+  kSingleCut,   ///< one plane is outside the ellipsoid; the other cuts it (deep or shallow)
+  kInterval,    ///< n = 1: the remaining interval, exactly
+  kNoUpdate,    ///< the ellipsoid is already the smallest that contains the remaining part
   kEmpty,       ///< the slab does not meet the ellipsoid
   kInverted,    ///< lower > upper
-  kDegenerate,  ///< what is left has no volume (slab without width, slab that touches), or P is not
-                ///< positive along a, or a number is not finite
+  kDegenerate,  ///< the remaining part has no volume (slab of zero width, or one that only
+                ///< touches), P is not positive along a, or a number is not finite
 };
 
-/// "single_cut": for signals and errors.
+/// Name such as "single_cut", for signals and errors.
 const char* to_string(CutStatus status);
 
 struct ParallelCut {
   CutStatus status = CutStatus::kDegenerate;
   double alpha = 0.0, alpha_hat = 0.0;         ///< clamped to >= -1 after the tests for kEmpty
-  double sigma = 0.0, tau = 0.0, delta = 1.0;  ///< of no change where nothing was cut
+  double sigma = 0.0, tau = 0.0, delta = 1.0;  ///< values of no change if nothing was cut
   double rest = 1.0;                           ///< 1 - sigma, to full precision for thin slabs too
 
   /// Whether the ellipsoid becomes smaller.
@@ -50,7 +51,7 @@ struct ParallelCut {
     return status == CutStatus::kCut || status == CutStatus::kSingleCut ||
            status == CutStatus::kInterval;
   }
-  /// K = 1 - delta (1 - sigma): by how much the shape shrinks along a; > 0 where it cuts.
+  /// K = 1 - delta (1 - sigma): share by which the shape shrinks along a; > 0 if it cuts.
   double gain() const { return 1.0 - delta * rest; }
 };
 
@@ -63,18 +64,18 @@ struct CutOptions {
   bool printed_square_root = false;
 };
 
-/// Cuts the ellipsoid in place; only where ParallelCut::cuts(). P stays symmetric.
-/// Instantiated for N = 1, 2, 3. @param a  normal of the slab, any length > 0
+/// Cuts the ellipsoid in place, if ParallelCut::cuts(). P stays symmetric. Instantiated for N = 1,
+/// 2, 3. @param a  normal of the slab, any length > 0
 template <int N>
 ParallelCut cut_ellipsoid(Eigen::Matrix<double, N, 1>& c, Eigen::Matrix<double, N, N>& P,
                           const Eigen::Matrix<double, N, 1>& a, double lower, double upper,
                           const CutOptions& options = {});
 
-/// What a cut tells about a'x, as a measurement with noise: fusing it with the covariance that the
-/// ellipsoid was made of (shape = k^2 covariance) counts nothing twice. What the cut adds across a
-/// (delta > 1) is no information and is left out.
+/// Information of a cut about a'x, as a measurement with noise. Fusing it with the covariance from
+/// which the ellipsoid was made (shape = k^2 covariance) counts nothing twice. The growth of the
+/// ellipsoid across a (delta > 1) carries no information and is left out.
 struct PseudoMeasurement {
-  bool valid = false;     ///< false where the cut tells nothing (K < 1e-9)
+  bool valid = false;     ///< false if the cut has no information (K < 1e-9)
   double value = 0.0;     ///< z = a'c - tau s / K
   double variance = 0.0;  ///< (s/k)^2 (1 - K) / K
 };

@@ -13,22 +13,22 @@
 namespace vinerow::controllers {
 namespace {
 
-constexpr Duration kPeriod{200'000'000};  // of the ground under wheels: as a slow sensor's
-constexpr double kGrass_m = 0.1;          // and clods, that echo before the ground does
-constexpr double kGradeStd = 0.05;        // of the plane's slope, where it leaves the rows
+constexpr Duration kPeriod{200'000'000};  // of heights from wheels, like that of a slow sensor
+constexpr double kGrass_m = 0.1;          // height of grass and clods, which echo first
+constexpr double kGradeStd = 0.05;        // 1 sigma of the plane's slope away from the rows
 
-/// Of the body's origin, where the vehicle rolls on the ground.
-std::optional<double> standing_height_m(const std::optional<bool>& on_ground,
-                                        const VehicleDescription* vehicle, const RowMap* map,
-                                        const std::string& who) {
+/// Height of the body's origin above the ground, for a vehicle that rolls on it.
+std::optional<double> rest_height_m(const std::optional<bool>& on_ground,
+                                    const VehicleDescription* vehicle, const RowMap* map,
+                                    const std::string& who) {
   const bool may =
       vehicle != nullptr && !vehicle->flies() && map != nullptr && map->rows.size() >= 2;
   if (on_ground.value_or(false) && !may) {
-    throw ConfigError(fmt::format("{}: on_ground is true, but {}", who,
-                                  vehicle == nullptr ? "nothing is known of the vehicle"
-                                  : vehicle->flies() ? "the vehicle flies"
-                                                     : "the map has no two rows that tell its "
-                                                       "ground"));
+    throw ConfigError(fmt::format(
+        "{}: on_ground is true, but {}", who,
+        vehicle == nullptr ? "the vehicle is unknown"
+        : vehicle->flies() ? "the vehicle flies"
+                           : "the map has fewer than two rows, so its ground is unknown"));
   }
   if (!may || !on_ground.value_or(true)) return std::nullopt;
   return vehicle->height_above_ground_m;
@@ -42,8 +42,8 @@ const ParameterTable<GroundParams>& ground_table() {
       ParameterTable<P>()
           .text("down", &P::down, "name of a range sensor that looks at the ground; '' = none")
           .boolean("on_ground", &P::on_ground,
-                   "whether wheels stand on the mapped ground, which tells the height; if absent: "
-                   "yes for what does not fly")
+                   "whether wheels are on the mapped ground, which gives the height; if absent: "
+                   "true for vehicles that do not fly")
           .number("ground_std_m", "m", &P::ground_std_m, kPositive,
                   "1 sigma of a height above the ground between the rows");
   return table;
@@ -52,14 +52,15 @@ const ParameterTable<GroundParams>& ground_table() {
 GroundReference::GroundReference(const GroundParams& params, const EstimatorContext& context,
                                  const RowMap* map, const std::string& who)
     : ground_std_m_(params.ground_std_m),
-      height_m_(standing_height_m(params.on_ground, context.vehicle_description, map, who)) {
+      height_m_(rest_height_m(params.on_ground, context.vehicle_description, map, who)) {
   if (map != nullptr && map->rows.size() >= 2) ground_.emplace(*map);
   const std::string& down = params.down;
   if (down.empty()) return;
   down_ = find_range_sensors({down}, context, who, "down").front();
   if (!ground_) {
     throw ConfigError(fmt::format(
-        "{}: down is '{}', but the map has no two rows whose ground it could see", who, down));
+        "{}: down is '{}', but the map has fewer than two rows, so its ground is unknown", who,
+        down));
   }
 }
 
@@ -101,8 +102,8 @@ double GroundReference::std_m(const GroundPlane& ground) const {
 std::optional<PlaneReading> GroundReference::read_down(const Eigen::Quaterniond& q_WB,
                                                        const Eigen::Vector3d& p_W) const {
   const RangeSample& sample = reader_.value();
-  if (std::isinf(sample.range_m)) return std::nullopt;  // no echo tells nothing
-  // What is no distance goes to the estimator as no number: there it is refused and counted.
+  if (std::isinf(sample.range_m)) return std::nullopt;  // a missing echo has no information
+  // An invalid distance becomes NaN, which the estimator rejects and counts.
   const double range_m =
       sample.range_m >= 0.0 ? sample.range_m : std::numeric_limits<double>::quiet_NaN();
   const auto ground = ground_->at(p_W);

@@ -1,6 +1,6 @@
 #pragma once
-/// What ties a vehicle to the ground between mapped rows: a range sensor that looks down at it, or
-/// wheels that stand on it.
+/// Height reference of a vehicle between mapped rows: a range sensor that looks down at the ground,
+/// or wheels on the ground.
 
 #include <Eigen/Geometry>
 #include <optional>
@@ -15,7 +15,7 @@
 
 namespace vinerow::controllers {
 
-/// n.p of the body's origin p in W, n unit.
+/// Measurement of n.p for the body's origin p in W, n unit.
 struct PlaneReading {
   Time measured;
   Eigen::Vector3d normal_W = Eigen::Vector3d::UnitZ();
@@ -25,7 +25,7 @@ struct PlaneReading {
 
 struct GroundParams {
   std::string down;               ///< range sensor that looks at the ground; empty: none
-  std::optional<bool> on_ground;  ///< absent: whether the vehicle does not fly
+  std::optional<bool> on_ground;  ///< absent: true if the vehicle does not fly
   double ground_std_m = 0.05;     ///< 1 sigma of a height above the ground between the rows
 };
 
@@ -34,23 +34,23 @@ const ParameterTable<GroundParams>& ground_table();
 
 class GroundReference {
  public:
-  /// @param map  nullptr: the estimator uses none  @param who  for errors: "rover.estimator (x)"
-  /// @throws ConfigError where `down` is no sensor of the vehicle, `on_ground` is said of what
-  /// flies, or no two rows tell the ground
+  /// @param map  nullptr: the estimator uses no map @param who  for errors: "rover.estimator (x)"
+  /// @throws ConfigError if `down` is not a range sensor of the vehicle, if `on_ground` is true for
+  /// a flying vehicle, or if either is set and the map has fewer than two rows
   GroundReference(const GroundParams& params, const EstimatorContext& context, const RowMap* map,
                   const std::string& who);
 
-  /// Whether a sensor of this name is the one that looks down, and so at no wall.
+  /// Whether the sensor of this name looks down, and so not at a wall.
   bool looks_down(const std::string& sensor) const { return down_ && down_->name == sensor; }
   void connect(Ports& ports);
-  /// One after another what is new; then nothing. @param q_WB, p_W  the vehicle as far as it is
-  /// known
+  /// Returns new readings one after another, then nullopt. @param q_WB, p_W estimated pose of the
+  /// vehicle
   std::optional<PlaneReading> read(Time now, const Eigen::Quaterniond& q_WB,
                                    const Eigen::Vector3d& p_W);
 
-  /// Whether an echo may come from the ground, which stands on no map of walls: it is as long as
-  /// the way to the nearest ground in the sensor's cone, or longer. So it is when a vehicle that
-  /// flies stands on a slope.
+  /// Whether an echo may come from the ground, which is not on a map of walls: whether it is at
+  /// least as long as the distance to the nearest ground in the sensor's cone. This happens when a
+  /// flying vehicle stands on a slope.
   bool may_be_ground(const Pose& X_WB, const RangeSensorModel& sensor, double half_angle_rad,
                      double range_m) const;
 
@@ -60,10 +60,10 @@ class GroundReference {
   std::optional<PlaneReading> stand(Time now, const Eigen::Vector3d& p_W) const;
   double std_m(const GroundPlane& ground) const;
 
-  std::optional<RowGround> ground_;  // where the map has rows that tell it
+  std::optional<RowGround> ground_;  // if the map defines it
   double ground_std_m_;
-  std::optional<double> height_m_;  // of B's origin where wheels stand on the ground
-  Time next_;                       // when they tell it again
+  std::optional<double> height_m_;  // of B's origin above the ground, if the vehicle is on wheels
+  Time next_;                       // time of the next height from wheels
   std::optional<RangeSensorModel> down_;
   SignalReader<RangeSample> reader_;
   std::uint64_t seen_ = 0;

@@ -11,10 +11,11 @@ void IntegritySet::start(const Eigen::Vector3d& centre_W, const Eigen::Matrix3d&
   has_started_ = true;
 }
 
-void IntegritySet::predict(const Eigen::Vector3d& way_W, double growth_m) {
-  centre_W_ += way_W;
+void IntegritySet::predict(const Eigen::Vector3d& displacement_W, double growth_m) {
+  centre_W_ += displacement_W;
   if (!(growth_m > 0.0)) return;
-  // E(P) + E(Q) lies in E((1 + 1/w) P + (1 + w) Q) for every w > 0; least trace: w^2 = tr P / tr Q.
+  // E((1 + 1/w) P + (1 + w) Q) contains E(P) + E(Q) for every w > 0; least trace: w^2 = tr P / tr
+  // Q.
   const double w = std::sqrt(shape_m2_.trace() / 3.0) / growth_m;
   shape_m2_ *= 1.0 + 1.0 / w;
   shape_m2_.diagonal().array() += (1.0 + w) * growth_m * growth_m;

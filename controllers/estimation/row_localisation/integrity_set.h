@@ -1,7 +1,7 @@
 #pragma once
-/// An ellipsoid that is to contain the true position, from bounded errors alone: parallel cuts
-/// (controllers/estimation/row_localisation/ellipsoid.h) beside a filter, never fed back into it as
-/// a covariance.
+/// Ellipsoid that contains the true position if all errors keep their bounds. Parallel cuts
+/// (controllers/estimation/row_localisation/ellipsoid.h) update it next to a filter; it is never
+/// fed back to the filter as a covariance.
 
 #include "controllers/estimation/row_localisation/echo_slab.h"
 #include "controllers/estimation/row_localisation/ellipsoid.h"
@@ -13,9 +13,11 @@ class IntegritySet {
   bool has_started() const { return has_started_; }
   /// @param shape_m2  P, symmetric positive definite
   void start(const Eigen::Vector3d& centre_W, const Eigen::Matrix3d& shape_m2);
-  /// Moves and grows: the smallest sum (by trace) with a ball. @param growth_m  its radius, >= 0
-  void predict(const Eigen::Vector3d& way_W, double growth_m);
-  /// @returns the status; kEmpty: the set and the slab contradict each other, nothing was changed
+  /// Moves the set and grows it: the smallest ellipsoid (by trace) around its sum with a ball.
+  /// @param growth_m  its radius, >= 0
+  void predict(const Eigen::Vector3d& displacement_W, double growth_m);
+  /// @returns the status; kEmpty: the set and the slab contradict each other, and the set is
+  /// unchanged
   CutStatus cut(const EchoSlab& slab);
 
   const Eigen::Vector3d& centre_W() const { return centre_W_; }

@@ -5,11 +5,11 @@
 namespace vinerow::controllers {
 namespace {
 
-/// Of a slow error over dt: what is kept of it.
+/// Factor by which a slow error decays over dt.
 double decay(const SlowError& error, double dt_s) {
   return std::exp(-dt_s / error.time_s);
 }
-/// And the variance that is added, so that it keeps its own.
+/// Variance that is added over dt, so that the variance of the error stays constant.
 double kick(const SlowError& error, double kept) {
   return error.std * error.std * (1.0 - kept * kept);
 }
@@ -36,7 +36,7 @@ void LocalisationState::start(const LocalisationNoise& noise, const Eigen::Vecto
 
 void LocalisationState::predict(const Eigen::Vector3d& v_W, double dt_s) {
   x_.segment<3>(kPosition) += dt_s * (v_W - x_.segment<3>(kVelocity));
-  // F is the identity but for p <- p - dt b: rows, then columns.
+  // F is the identity except for p <- p - dt b: rows, then columns.
   P_.middleRows<3>(kPosition) -= dt_s * P_.middleRows<3>(kVelocity);
   P_.middleCols<3>(kPosition) -= dt_s * P_.middleCols<3>(kVelocity);
   Vector kept = Vector::Ones(), added = Vector::Zero();
@@ -62,7 +62,8 @@ bool LocalisationState::correct(const Vector& h, double innovation, double r) {
   if (!std::isfinite(innovation) || !(s > 0.0) || !(r > 0.0)) return false;
   x_ += Ph * (innovation / s);
   P_ -= (Ph / s) * Ph.transpose();
-  // Rounding only: the downdate is symmetric in exact arithmetic and with r > 0 keeps P positive.
+  // Removes rounding only: in exact arithmetic the update is symmetric, and with r > 0 P stays
+  // positive.
   P_ = (0.5 * (P_ + P_.transpose())).eval();
   return true;
 }

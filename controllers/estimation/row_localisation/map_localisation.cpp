@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "controllers/estimation/parts/estimator_news.h"
+#include "controllers/estimation/parts/estimator_events.h"
 #include "controllers/estimation/row_localisation/ground_reference.h"
 #include "controllers/estimation/row_localisation/map_localisation_law.h"
 #include "controllers/estimation/row_localisation/map_watch.h"
@@ -23,7 +23,7 @@ namespace {
 struct MapEstimatorParams {
   std::string ins = "ins", gps = "gps";            ///< signals; gps empty: none
   Eigen::Vector3d p_BA = Eigen::Vector3d::Zero();  ///< antenna in B
-  std::vector<std::string> ranges;                 ///< range sensors; empty: all ultrasounds
+  std::vector<std::string> ranges;                 ///< range sensors; empty: all ultrasonic sensors
   int cone_rays = 7;
   double range_bound_m = 0.003;
   double start_std_m = 0.26;
@@ -43,8 +43,8 @@ const ParameterTable<MapEstimatorParams>& map_localisation_table() {
           .text("ins", &P::ins, "signal of the aided inertial unit: velocity and attitude")
           .text("gps", &P::gps, "signal of the satellite receiver; '' = none")
           .numbers("antenna_m", "m", &P::p_BA, between(-100.0, 100.0),
-                   "where the antenna sits in B (x, y, z); taken off the fix")
-          .texts("ranges", &P::ranges, "names of the range sensors; empty: all ultrasounds")
+                   "position of the antenna in B (x, y, z); subtracted from the fix")
+          .texts("ranges", &P::ranges, "names of the range sensors; empty: all ultrasonic sensors")
           .integer("cone_rays", &P::cone_rays, between(1, 31),
                    "rays over a sensor's cone whose first return is predicted")
           .number("range_bound_m", "m", &P::range_bound_m, kPositive,
@@ -52,9 +52,9 @@ const ParameterTable<MapEstimatorParams>& map_localisation_table() {
           .number("max_range_m", "m", law(&Law::max_range_m), kPositive,
                   "walls farther away than this are not used")
           .number("start_std_m", "m", &P::start_std_m, between(0.0, 100.0),
-                  "1 sigma of the place at the start, each axis")
+                  "1 sigma of each coordinate at the start")
           .number("velocity_density_m_rts", "m/sqrt(s)", noise(&Noise::velocity_density_m_rts),
-                  between(0.0, 10.0), "white part of the velocity's error, summed up")
+                  between(0.0, 10.0), "density of the white part of the velocity's error")
           .number("velocity_std_mps", "m/s", noise(&Noise::velocity_mps, &SlowError::std),
                   between(0.0, 10.0), "1 sigma of the velocity's slow error, each axis")
           .number("velocity_time_s", "s", noise(&Noise::velocity_mps, &SlowError::time_s),
@@ -71,29 +71,30 @@ const ParameterTable<MapEstimatorParams>& map_localisation_table() {
           .number("fix_walk_time_s", "s", noise(&Noise::fix_horizontal_m, &SlowError::time_s),
                   kPositive, "its correlation time")
           .number("fix_slow_share", "", law(&Law::fix_slow_share), between(0.0, 0.999),
-                  "share of the variance that a fix states which is slow error, another one "
-                  "in each of the receiver's modes, as with RTK; 0: a fix states its white "
-                  "error alone, and fix_walk_std_m holds")
+                  "share of a fix's stated variance that is slow error, a different one in each "
+                  "mode of the receiver, as with RTK; 0: a fix states its white error alone, "
+                  "and fix_walk_std_m is the slow one")
           .number("map_shift_std_m", "m", law(&Law::map_shift_std_m), between(0.0, 100.0),
-                  "1 sigma of a shift of the whole map, beside what its maker states")
+                  "1 sigma of a shift of the whole map, in addition to the map's own")
           .choice("place", &P::on_map, {{"on_map", true}, {"in_world", false}},
-                  "where a map's shift is a state, the estimate is the place beside the map's "
-                  "walls, where planners on the same map want it, or that in the world; the "
-                  "covariance is against the world either way")
+                  "on_map: the estimate is the position relative to the map's walls, which "
+                  "planners on the same map need; in_world: it contains the estimated shift of "
+                  "the map; the covariance refers to the world in both cases")
           .number("gate_sigma", "", law(&Law::gate_sigma), kPositive,
-                  "echoes farther from their prediction are false")
-          .number("fix_gate_sigma", "", law(&Law::fix_gate_sigma), kPositive, "so are fixes")
+                  "limit of the innovation; echoes beyond it count as false")
+          .number("fix_gate_sigma", "", law(&Law::fix_gate_sigma), kPositive,
+                  "limit of the innovation; fixes beyond it are rejected")
           .number("huber_sigma", "", law(&Law::huber_sigma), kPositive,
-                  "echoes farther off than this weigh less")
+                  "innovation above which echoes weigh less")
           .boolean("walls_tell_height", law(&Law::walls_tell_height),
-                   "whether echoes off walls that lean correct the height; false on maps of "
-                   "point clouds, whose walls lean otherwise than the true ones")
+                   "whether echoes from leaning walls correct the height; use false on maps from "
+                   "point clouds, whose walls lean differently from the true ones")
           .number("false_share", "", law(&Law::false_share), between(1e-6, 0.9),
-                  "share of the echoes that no wall explains, for the alleys' weights")
+                  "share of echoes that no wall explains, for the weights of the alleys")
           .integer("bank", law(&Law::bank), between(1, 8),
-                   "filters at most, one per alley in question")
+                   "maximum number of filters, one for each possible alley")
           .number("bank_std_m", "m", law(&Law::bank_std_m), kPositive,
-                  "a place known less well than this begins with one filter per alley")
+                  "deviation of the start above which there is one filter for each alley")
           .include(&P::ground, ground_table());
   return table;
 }
@@ -168,7 +169,7 @@ class MapLocalisation final : public Estimator {
     if (!ins_.has_value() || !truth_.has_value()) return;
     if (is_finite(ins_.value())) known_ins_ = ins_.value();
     if (!law_.has_started()) {
-      // The inertial unit's attitude is known from the first reading; the place is drawn.
+      // The attitude comes from the inertial unit's first reading; the position is drawn.
       const double z = random_.normal(), y = random_.normal(), x = random_.normal();
       law_.start(now, truth_.value().X_WB.p + start_std_m_ * Eigen::Vector3d(x, y, z),
                  start_std_m_ * start_std_m_ * Eigen::Matrix3d::Identity());
@@ -208,7 +209,7 @@ class MapLocalisation final : public Estimator {
     const Time stamp = range.reader.stamp();
     const double period_s = range.last.ns > 0 ? (stamp - range.last).s() : 0.05;
     range.last = std::max(range.last, stamp);
-    // No echo tells nothing: leaves swallow some.
+    // A missing echo has no information: leaves absorb some.
     if (std::isinf(sample.range_m)) return;
     const Pose X_WB{known_ins_.X_WB.q, law_.state().p_W()};
     if (ground_.may_be_ground(X_WB, sensors_[i], sample.half_angle_rad, sample.range_m)) {
@@ -222,10 +223,10 @@ class MapLocalisation final : public Estimator {
   void tell(Time now) {
     const LocalisationState& state = law_.state();
     const int lost = law_.counters().lost;
-    if (lost_news_.is_due(now, lost)) {
+    if (lost_event_.is_due(now, lost)) {
       news_.tell(Event::Level::kWarning,
-                 fmt::format("lost: echoes or fixes contradict the estimate; begins again near "
-                             "({:.1f}, {:.1f}), alleys in question: {} ({} so far)",
+                 fmt::format("lost: echoes or fixes contradict the estimate; it restarts near "
+                             "({:.1f}, {:.1f}), possible alleys: {} ({} so far)",
                              state.p_W().x(), state.p_W().y(), law_.filter_count(), lost));
     }
     const Pose X_MB{known_ins_.X_WB.q, state.p_W() - state.map_shift_W()};
@@ -287,11 +288,11 @@ class MapLocalisation final : public Estimator {
   SignalReader<Odometry> truth_, ins_;
   SignalReader<GnssFix> gps_;
   std::vector<Range> ranges_;
-  Odometry known_ins_;  // the last that was finite
+  Odometry known_ins_;  // the last finite one
   MapWatch watch_;
   int ground_echoes_ = 0;
-  CountedNews lost_news_;
-  EstimatorNews news_;
+  CountedEvent lost_event_;
+  EstimatorEvents news_;
   std::uint64_t seen_fix_ = 0;
   SignalWriter<Odometry> estimate_;
   SignalWriter<NamedValues> state_writer_;
@@ -304,8 +305,8 @@ PartSpec map_localisation_spec() {
   PartSpec spec;
   spec.name = "map_localisation";
   spec.description =
-      "Place between mapped rows from an inertial unit, satellite fixes and echoes: a bank of "
-      "extended Kalman filters on the echoes themselves, one per alley in question.";
+      "Position between mapped rows from an inertial unit, satellite fixes and echoes: a bank of "
+      "extended Kalman filters on the echoes themselves, one for each possible alley.";
   spec.parameters = map_localisation_table().specs();
   spec.default_rate_Hz = 100.0;
   spec.reads = {"truth", "<ins>", "<gps>", "<ranges>", "<down>"};

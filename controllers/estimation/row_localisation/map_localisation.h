@@ -3,8 +3,8 @@
 ///
 /// Reads `ins` (Odometry of an aided inertial unit: its velocity and attitude, never its position),
 /// `gps` (GnssFix) and range sensors; writes "estimate" with its full covariance, "estimator_state"
-/// and "estimator_event". Starts at the first tick, about the truth with a draw of `start_std_m`:
-/// as a vehicle does that was put down at a place known as well as that.
+/// and "estimator_event". It starts at the first tick from the true position plus an error drawn
+/// with `start_std_m`, like a vehicle that was placed at a position known to that accuracy.
 
 #include <memory>
 
@@ -13,7 +13,8 @@
 namespace vinerow::controllers {
 
 PartSpec map_localisation_spec();
-/// @throws ConfigError where the map has no row meshes, or a range sensor is not the vehicle's
+/// @throws ConfigError if the map has no row meshes, or the vehicle lacks a range sensor that is
+/// named
 std::unique_ptr<Estimator> make_map_localisation(const ParameterSet& parameters,
                                                  const EstimatorContext& context);
 

@@ -1,4 +1,4 @@
-// The bank of filters: one per alley in question, weighed, dropped, and begun anew when lost.
+// The bank of filters: one for each possible alley, reweighted, dropped, and restarted when lost.
 
 #include <algorithm>
 #include <cmath>
@@ -11,13 +11,14 @@
 namespace vinerow::controllers {
 namespace {
 
-constexpr double kLeastWeight = 1e-6;  // a filter that is less likely is dropped
-constexpr double kLeastPrior = 0.02;   // an alley beside is never ruled out by the start alone
-constexpr double kSame_m = 0.3;        // filters as near as this are one,
-constexpr double kMuchWider = 3.0;     // but for those that are this much less sure
+constexpr double kMinWeight = 1e-6;  // a filter with a smaller weight is dropped
+constexpr double kMinPrior = 0.02;   // the start alone never rules out a neighbouring alley
+constexpr double kSame_m = 0.3;      // filters closer than this are the same hypothesis,
+constexpr double kMuchWider = 3.0;   // except if their deviation is this many times larger
 
-/// Whether it tells nothing beyond another. A filter about the same place that is far less sure of
-/// it may still go elsewhere: where the other is lost it is what is left of their alley.
+/// Whether a filter adds nothing to another one. A filter at the same position with a much larger
+/// deviation is kept, since it may move elsewhere: if the other filter is lost, it is the only one
+/// left in their alley.
 bool follows(const LocalisationState& state, const LocalisationState& other) {
   const auto variance_m2 = [](const LocalisationState& s) {
     return s.covariance().topLeftCorner<2, 2>().trace();
@@ -42,26 +43,26 @@ void MapLocalisationLaw::add_filter(const Eigen::Vector3d& p_W,
   filter.weight = weight;
 }
 
-void MapLocalisationLaw::begin_bank(const Eigen::Vector3d& p_W,
+void MapLocalisationLaw::start_bank(const Eigen::Vector3d& p_W,
                                     const Eigen::Matrix3d& covariance_m2) {
   count_ = 0;
   best_ = 0;
   const double std_m = std::sqrt(covariance_m2.topLeftCorner<2, 2>().trace() / 2.0);
   if (params_.bank > 1 && std_m > params_.bank_std_m) {
-    // A vehicle stands in an alley, not in a row: one filter in the middle of each within reach.
+    // A vehicle is in an alley, not in a row: one filter in the middle of each alley within reach.
     struct Candidate {
       LinePoint at;
       double weight;
     };
-    std::array<Candidate, kMostFilters> candidates;
+    std::array<Candidate, kMaxFilters> candidates;
     int found = 0;
     for (const Alley& alley : map_.alleys) {
       const LinePoint at = nearest_on(alley.line_W, p_W);
       if (!(at.distance_m < 3.0 * std_m + alley.width_m)) continue;
       const double spread_m = std::hypot(std_m, params_.start_lateral_std_m);
       const Candidate candidate{
-          at, std::exp(-0.5 * std::pow(at.distance_m / spread_m, 2)) + kLeastPrior};
-      // The likeliest first; of equals the first in the map.
+          at, std::exp(-0.5 * std::pow(at.distance_m / spread_m, 2)) + kMinPrior};
+      // The likeliest first; among equals the first in the map.
       int place = found < params_.bank ? found++ : found;
       while (place > 0 && candidates[place - 1].weight < candidate.weight) {
         if (place < params_.bank) candidates[place] = candidates[place - 1];
@@ -81,10 +82,10 @@ void MapLocalisationLaw::begin_bank(const Eigen::Vector3d& p_W,
     }
   }
   if (count_ == 0) add_filter(p_W, covariance_m2, 1.0);
-  weigh_anew();
+  reweight();
 }
 
-void MapLocalisationLaw::weigh_anew() {
+void MapLocalisationLaw::reweight() {
   for (int i = 0; i < count_; ++i) filters_[i].log_gain = 0.0;
   weigh();
 }
@@ -99,7 +100,7 @@ void MapLocalisationLaw::weigh() {
     sum += filters_[i].weight;
   }
   if (!(sum > 0.0)) {
-    // Every filter has lost its footing: what is left is the first one's position, widely.
+    // No filter is sound: restart at the position of the first one with a wide covariance.
     ++counters_.lost;
     const Eigen::Vector3d p_W = filters_[0].state.p_W();
     count_ = 0;
@@ -109,10 +110,10 @@ void MapLocalisationLaw::weigh() {
     return;
   }
   for (int i = 0; i < count_; ++i) filters_[i].weight /= sum;
-  // Those that are unlikely, or follow another one, go.
+  // Drop filters that are unlikely or follow another one.
   int kept = 0;
   for (int i = 0; i < count_; ++i) {
-    bool goes = filters_[i].weight < kLeastWeight;
+    bool goes = filters_[i].weight < kMinWeight;
     for (int k = 0; k < count_ && !goes; ++k) {
       const bool is_stronger = filters_[k].weight > filters_[i].weight ||
                                (filters_[k].weight == filters_[i].weight && k < i);
@@ -137,25 +138,25 @@ void MapLocalisationLaw::watch_gates(bool gated, double period_s) {
       std::min(1.0, period_s / params_.lost_time_s / static_cast<double>(sensors_.size()));
   gated_share_ += share * ((gated ? 1.0 : 0.0) - gated_share_);
   if (gated_share_ < params_.lost_share) return;
-  begin_anew();
+  restart();
 }
 
-void MapLocalisationLaw::begin_anew() {
+void MapLocalisationLaw::restart() {
   ++counters_.lost;
   gated_share_ = 0.0;
   const LocalisationNoise& noise = params_.noise;
   Filter old = filters_[best_];
   old.weight = 1.0;
   if (!has_fix_) {
-    begin_bank(old.state.p_W(), Eigen::Matrix3d::Identity());
+    start_bank(old.state.p_W(), Eigen::Matrix3d::Identity());
     keep(old);
     return;
   }
   const Eigen::Vector3d slow_m(noise.fix_horizontal_m.std, noise.fix_horizontal_m.std,
                                noise.fix_vertical_m.std);
   const Eigen::Vector3d variance_m2 = last_fix_.std_m.cwiseAbs2() + slow_m.cwiseAbs2();
-  begin_bank(last_fix_.p_W + way_W_ - last_fix_.way_W, variance_m2.asDiagonal());
-  // As likely as all that is new, but for the fixes' slow error that it needs.
+  start_bank(last_fix_.p_W + displacement_W_ - last_fix_.displacement_W, variance_m2.asDiagonal());
+  // As likely as all new filters together, except for the slow error of the fixes that it implies.
   const double slow_sigma =
       old.state.fix_error_W().head<2>().norm() / std::max(noise.fix_horizontal_m.std, 1e-3);
   old.weight = std::exp(-0.5 * slow_sigma * slow_sigma);
@@ -164,10 +165,10 @@ void MapLocalisationLaw::begin_anew() {
 
 void MapLocalisationLaw::keep(const Filter& filter) {
   if (params_.bank == 1) return;
-  // Where there is no room, for the least likely: that began last.
+  // If the bank is full, it replaces the least likely new filter, which was added last.
   count_ = std::min(count_, params_.bank - 1);
   filters_[count_++] = filter;
-  weigh_anew();
+  reweight();
 }
 
 Eigen::Matrix3d MapLocalisationLaw::position_covariance() const {

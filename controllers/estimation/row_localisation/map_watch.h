@@ -1,26 +1,27 @@
 #pragma once
-/// Watches whether the map has walls where a vehicle's range sensors look. Without them echoes tell
-/// nothing, and the estimate is that of fixes and inertial unit: people should know.
+/// Monitor of whether the map has walls within reach of a vehicle's range sensors. Without walls,
+/// echoes add no information and the estimate comes from fixes and inertial unit alone; the monitor
+/// reports this.
 
 #include <string>
 #include <vector>
 
-#include "controllers/estimation/parts/estimator_news.h"
+#include "controllers/estimation/parts/estimator_events.h"
 #include "controllers/estimation/row_localisation/range_prediction.h"
 
 namespace vinerow::controllers {
 
 class MapWatch {
  public:
-  static constexpr Duration kPeriod{200'000'000};  ///< between looks
-  static constexpr Duration kLong{5'000'000'000};  ///< so long without a wall is told
+  static constexpr Duration kPeriod{200'000'000};  ///< between checks
+  static constexpr Duration kLong{5'000'000'000};  ///< time without a wall that is reported
 
-  /// Looks if it is time to, and tells when for kLong no sensor has a wall on the map within reach,
-  /// and when one has again. No sensors: nothing is watched.
-  /// @param X_MB  the vehicle on the map, as it is estimated  @param reach_m  of the sensors
+  /// Checks once per kPeriod. Reports if no sensor had a wall of the map within reach for kLong,
+  /// and when one has a wall again. Does nothing without sensors.
+  /// @param X_MB  estimated pose of the vehicle on the map @param reach_m  of the sensors
   void look(Time now, const RowMeshIndex& map, const std::vector<RangeSensorModel>& sensors,
-            const Pose& X_MB, double reach_m, EstimatorNews& news);
-  /// Times that it was told that there are none.
+            const Pose& X_MB, double reach_m, EstimatorEvents& news);
+  /// Number of reports of missing walls.
   int times_without() const { return times_without_; }
 
  private:

@@ -16,8 +16,20 @@ bool is_positive(const Matrix3d& m) {
 
 }  // namespace
 
+// State x = (p, c), covariance P, blocks pp, pc, cc. Per step of length dt, with keep =
+// exp(-dt/tau) and the velocity input v as known:
+//
+//   p <- p + (v + c) dt,   c <- keep c,   F = [I dt; 0 keep]
+//   P <- F P F' + diag(q dt, sigma_v^2 (1 - keep^2))
+// The noise of c within a step does not act on p until the next step.
+//
+// Measurement of f(p) at age T with gradient g: p was p - c T - (known displacement), so
+// h = (g, -T g). Scalar update with innovation nu and noise R:
+//
+//   K = P h / (h'P h + R),   x <- x + K nu,   P <- (I - K h')P(I - K h')' + K R K'   (Joseph)
+
 bool PositionKalman::is_sound(const Vector& x, const Matrix& P) const {
-  // The velocity's block may be exactly zero, where the input has no slow error.
+  // The block cc may be exactly zero, if the input has no slow error.
   return x.allFinite() && P.allFinite() && P.diagonal().minCoeff() >= 0.0 &&
          is_positive(P.topLeftCorner<3, 3>());
 }
@@ -85,11 +97,11 @@ DatumStatus PositionKalman::correct(const Scalar& datum) {
     return DatumStatus::kGated;
   }
   if (datum.huber_sigma > 0.0 && nis > datum.huber_sigma * datum.huber_sigma) {
-    // Huber's weight huber / |e|: the innovation's variance grows until it weighs just that much.
+    // Huber's weight w = huber / |e| with e = nu / sqrt(S): S grows to S / w, so K to w K.
     R = (known + R) * std::sqrt(nis) / datum.huber_sigma - known;
   }
   const Vector K = Ph / (known + R);
-  // Joseph: (I - K h') P (I - K h')' + K R K', written out for one row h.
+  // Joseph form written out for one h: kept = (I - K h') P h.
   const Vector kept = Ph - known * K;
   const Matrix P = P_ - K * Ph.transpose() - kept * K.transpose() + R * (K * K.transpose());
   return accept(x_ + datum.innovation * K, P);
@@ -114,7 +126,7 @@ DatumStatus PositionKalman::correct_position(const Vector3d& innovation, const V
   for (int axis = 0; axis < 3; ++axis) {
     Scalar datum;
     datum.gradient = gradient_of(Vector3d::Unit(axis), age_s);
-    // What the axes before have moved already.
+    // Minus the correction by the axes before.
     datum.innovation = innovation[axis] - datum.gradient.dot(x_ - before);
     datum.variance = variance[axis];
     if (const DatumStatus status = correct(datum); status != DatumStatus::kTaken) {
@@ -130,6 +142,7 @@ DatumStatus PositionKalman::correct_position(const Vector3d& innovation, const V
 DatumStatus PositionKalman::correct_horizontal(const Vector2d& p, const Matrix2d& R) {
   if (!p.allFinite() || !R.allFinite()) return DatumStatus::kBadNumber;
   if (Eigen::LLT<Matrix2d>(R).info() != Eigen::Success) return DatumStatus::kNotPositive;
+  // H = [I 0] on the horizontal position.
   const Eigen::Matrix<double, kSize, 2> PH = P_.leftCols<2>();
   const Matrix2d S = PH.topRows<2>() + R;
   const Eigen::Matrix<double, kSize, 2> K = PH * S.inverse();
@@ -145,7 +158,8 @@ DatumStatus PositionKalman::replace_horizontal(const Vector2d& p, const Matrix2d
   if (Eigen::LLT<Matrix2d>(covariance_m2).info() != Eigen::Success) {
     return DatumStatus::kNotPositive;
   }
-  // G maps a change of the horizontal position to that of the whole state.
+  // Jeffrey's rule: G = P H' (H P H')^-1 maps a change of the horizontal position to one of the
+  // whole state; the conditional distribution of the rest stays.
   const Matrix2d before = P_.topLeftCorner<2, 2>();
   const Eigen::Matrix<double, kSize, 2> G = P_.leftCols<2>() * before.inverse();
   return accept(x_ + G * (p - x_.head<2>()), P_ + G * (covariance_m2 - before) * G.transpose());

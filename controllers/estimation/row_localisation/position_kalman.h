@@ -1,6 +1,6 @@
 #pragma once
-/// The linear Kalman filter on a vehicle's position: paper C (Donati et al., Remote Sensing 14(6)
-/// 1374, 2022), eq. 16-22, with the velocity told by an inertial unit as its input.
+/// Linear Kalman filter on a vehicle's position: paper C (Donati et al., Remote Sensing 14(6) 1374,
+/// 2022), eq. 16-22, with the velocity of an inertial unit as its input.
 ///
 /// State: position p in W and the correction c of the velocity input, v = v_input + c, a
 /// first-order Gauss-Markov process of standard deviation sigma_v and correlation time tau:
@@ -8,10 +8,10 @@
 ///     p+ = p + (v_input + c) dt,  c+ = exp(-dt/tau) c,  Q = q dt on p, sigma_v^2 (1 -
 ///     exp(-2dt/tau)) on c
 ///
-/// Data come one after another, as scalars or vectors, when they come: the filter runs at the rate
-/// of the fastest. Late data are data about p - c age - (way since). Joseph form; whatever would
-/// make the state not finite or the covariance not positive is refused and leaves no trace.
-/// Cost: no heap.
+/// Data are applied one after another as they arrive, as scalars or vectors. Late data are
+/// measurements of p - c age - (displacement since). Updates have Joseph form. An update that would
+/// make the state not finite or the covariance not positive definite is rejected and changes
+/// nothing. No heap.
 
 #include <Eigen/Core>
 
@@ -23,14 +23,14 @@ struct PositionKalmanParams {
   double velocity_std_mps = 0.05;  ///< sigma_v, each axis; 0: the input has no slow error
   double velocity_time_s = 5.0;    ///< tau, > 0
   double walk_m2_per_s = 1e-6;     ///< q, each axis
-  double longest_step_s = 1.0;     ///< a longer gap between predictions counts as this
+  double longest_step_s = 1.0;     ///< a longer time between predictions is shortened to this
 };
 
 enum class DatumStatus {
   kTaken,
-  kGated,        ///< further off than the gate allows
+  kGated,        ///< the innovation exceeds the gate
   kBadNumber,    ///< not finite, or a variance that is not positive
-  kNotPositive,  ///< the covariance would not have stayed positive definite
+  kNotPositive,  ///< the covariance would have lost its positive definiteness
   kBackwards,    ///< older than the last prediction
 };
 
@@ -43,7 +43,7 @@ class PositionKalman {
   explicit PositionKalman(const PositionKalmanParams& params) : params_(params) {}
 
   bool has_started() const { return has_started_; }
-  /// @returns whether the numbers were sound: finite, covariance positive definite
+  /// @returns false if a number is not finite or the covariance not positive definite
   bool start(Time now, const Eigen::Vector3d& p_W, const Eigen::Matrix3d& covariance_m2);
 
   /// @param v_W  velocity input over the time since the last prediction, m/s
@@ -54,24 +54,24 @@ class PositionKalman {
     double innovation = 0.0;           ///< measured minus predicted
     double variance = 1.0;             ///< R
     double gate_sigma = 0.0;           ///< 0: none
-    double huber_sigma = 0.0;          ///< from here on R grows with the innovation; 0: never
+    double huber_sigma = 0.0;          ///< beyond it R grows with the innovation; 0: never
   };
   DatumStatus correct(const Scalar& datum);
 
   /// All three coordinates of a position, one after another. @param age_s  of the data, >= 0
   /// @param innovation  measured minus predicted, at the time of the data
-  /// @param gate_sigma  of the whole vector: with it none or all are taken
+  /// @param gate_sigma  of the whole vector: either all coordinates are used or none
   DatumStatus correct_position(const Eigen::Vector3d& innovation, const Eigen::Vector3d& variance,
                                double age_s, double gate_sigma);
 
   /// Two horizontal coordinates with a full covariance.
   DatumStatus correct_horizontal(const Eigen::Vector2d& p, const Eigen::Matrix2d& R);
 
-  /// Puts another mean and covariance in place of those of the horizontal position. What is known
-  /// of the rest given that position stays (Jeffrey's rule).
+  /// Replaces mean and covariance of the horizontal position. The distribution of the other states
+  /// given that position stays the same (Jeffrey's rule).
   DatumStatus replace_horizontal(const Eigen::Vector2d& p, const Eigen::Matrix2d& covariance_m2);
 
-  /// Adds to the position's variance, after the filter was found lost. @param variance_m2  >= 0
+  /// Adds to the position's variance, for a filter that is lost. @param variance_m2  >= 0
   void widen(const Eigen::Vector3d& variance_m2);
 
   Time time() const { return time_; }
@@ -80,7 +80,8 @@ class PositionKalman {
   Eigen::Matrix3d position_covariance() const { return P_.topLeftCorner<3, 3>(); }
   const Vector& x() const { return x_; }
   const Matrix& covariance() const { return P_; }
-  /// innovation^2 / (H P H' + R) of the last scalar asked for, or their mean over a vector.
+  /// innovation^2 / (H P H' + R) of the last scalar, or the mean over the coordinates of the last
+  /// vector.
   double last_nis() const { return last_nis_; }
 
   /// H of a linear function of the position `age_s` ago.

@@ -6,7 +6,7 @@
 namespace vinerow::controllers {
 
 double RangePrediction::gradient_yaw(const Eigen::Vector3d& p_WB) const {
-  // The turn carries the point of the echo about the body; the facet stays.
+  // The rotation moves the point of the echo about the body; the facet does not move.
   const Eigen::Vector3d lever_W = origin_W + range_m * dir_W - p_WB;
   return -hit.normal_W.dot(Eigen::Vector3d::UnitZ().cross(lever_W)) / slope();
 }
@@ -23,13 +23,13 @@ std::optional<RangePrediction> predict_range(const RowMeshIndex& map, const Pose
   const auto look = [&](const Eigen::Vector3d& dir_W) {
     const auto hit = map.cast_ray(origin_W, dir_W, reach_m);
     if (!hit) return;
-    reach_m = hit->distance_m;  // what is farther does not count
+    reach_m = hit->distance_m;  // farther hits do not count
     first = RangePrediction{hit->distance_m, origin_W, dir_W, *hit};
   };
   look(ahead_W);
   const int side_rays = sensor.half_angle_rad > 0.0 ? (sensor.fan_rays - 1) / 2 : 0;
   if (side_rays == 0) return first;
-  // Cosine and sine of k steps by adding one step at a time.
+  // Cosine and sine of k steps from the addition theorem, one step at a time.
   const double step_rad = sensor.half_angle_rad / side_rays;
   const double c = std::cos(step_rad), s = std::sin(step_rad);
   double along = 1.0, across = 0.0;
@@ -46,11 +46,11 @@ std::optional<RangePrediction> predict_range(const RowMeshIndex& map, const Pose
 SpreadPrediction predict_spread(const RowMeshIndex& map, const Pose& X_WB,
                                 const RangeSensorModel& sensor, double max_range_m,
                                 const RangePrediction& middle, const Eigen::Vector3d& along_W,
-                                double std_m, double most_along, bool stands) {
-  constexpr double kLeastSpread_m = 1e-4, kNear_m = 0.15;
+                                double std_m, double max_along, bool stands) {
+  constexpr double kMinSpread_m = 1e-4;  // below it the tangent is exact enough
+  constexpr double kNear_m = 0.15;       // below it the same ray of the fan returns first
   const SpreadPrediction tangent{middle.range_m, middle.gradient_p().dot(along_W), 0.0};
-  if (!(std_m > kLeastSpread_m)) return tangent;
-  // Nearby the same ray of the fan is the first to return.
+  if (!(std_m > kMinSpread_m)) return tangent;
   const auto look_from = [&](double way_m) -> std::optional<RowMeshIndex::Hit> {
     if (std_m < kNear_m) {
       return map.cast_ray(middle.origin_W + way_m * along_W, middle.dir_W, max_range_m);
@@ -58,14 +58,14 @@ SpreadPrediction predict_spread(const RowMeshIndex& map, const Pose& X_WB,
     const auto first = predict_range(map, {X_WB.q, X_WB.p + way_m * along_W}, sensor, max_range_m);
     return first ? std::optional(first->hit) : std::nullopt;
   };
-  // Of way and range, the latter from the middle's: weighted sums, then moments.
+  // Weighted moments of the distance x along the line and the range y relative to the middle.
   double weights = 1.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
   bool is_whole = true;
   for (const int sigmas : {-2, -1, 1, 2}) {
     const double way_m = sigmas * std_m;
     const auto there = look_from(way_m);
     if (!there || there->row != middle.hit.row ||
-        std::abs(there->normal_W.head<2>().dot(along_W.head<2>().normalized())) > most_along) {
+        std::abs(there->normal_W.head<2>().dot(along_W.head<2>().normalized())) > max_along) {
       is_whole = false;
       continue;
     }
@@ -84,7 +84,7 @@ SpreadPrediction predict_spread(const RowMeshIndex& map, const Pose& X_WB,
   xy /= weights;
   yy /= weights;
   const double spread_m2 = xx - x * x;
-  if (!(spread_m2 > 0.0)) return tangent;  // nothing but the middle is left
+  if (!(spread_m2 > 0.0)) return tangent;  // only the middle is usable
   const double fitted = (xy - x * y) / spread_m2;
   if (is_whole && !stands) {
     const double variance_m2 = yy - y * y - fitted * fitted * spread_m2;
@@ -94,7 +94,7 @@ SpreadPrediction predict_spread(const RowMeshIndex& map, const Pose& X_WB,
   if (fitted * tangent.slope > 0.0) {
     slope = std::abs(fitted) < std::abs(tangent.slope) ? fitted : tangent.slope;
   }
-  // About the line through the middle.
+  // Variance about the line through the middle.
   const double variance_m2 = yy - 2.0 * slope * xy + slope * slope * xx;
   return {middle.range_m, slope, std::max(0.0, variance_m2)};
 }

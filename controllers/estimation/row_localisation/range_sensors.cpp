@@ -46,7 +46,7 @@ void demand_row_meshes(const EstimatorContext& context, const std::string& who,
   if (context.map != nullptr && !context.map->meshes.empty()) return;
   throw ConfigError(
       fmt::format("{}: the map has no row meshes to compare ranges with; give the vehicle a map "
-                  "that has them{}",
+                  "with row meshes{}",
                   who, advice.empty() ? "" : ", or " + advice));
 }
 

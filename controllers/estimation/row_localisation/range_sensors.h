@@ -1,5 +1,5 @@
 #pragma once
-/// Which of a vehicle's range sensors an estimator uses, and the map they are compared with.
+/// Selection of the range sensors that an estimator uses, and the check of its map.
 
 #include <string>
 #include <vector>
@@ -9,17 +9,17 @@
 
 namespace vinerow::controllers {
 
-/// Those named, or all ultrasounds where no name is given: name and mounting.
+/// Name and mounting of the named sensors, or of all ultrasonic sensors if no name is given.
 /// @param who  for errors: "rover.estimator (distance_filter)"  @param key  the parameter that
 /// names
-/// @throws ConfigError naming the sensors there are
+/// @throws ConfigError with the names of the vehicle's sensors if a name is not among them
 std::vector<RangeSensorModel> find_range_sensors(const std::vector<std::string>& names,
                                                  const EstimatorContext& context,
                                                  const std::string& who,
                                                  const std::string& key = "ranges");
 
-/// @param advice  what else the user may do, "say use_map: false", or ""
-/// @throws ConfigError where the vehicle's map has no row meshes
+/// @param advice  alternative for the user, such as "set use_map: false", or ""
+/// @throws ConfigError if the vehicle's map has no row meshes
 void demand_row_meshes(const EstimatorContext& context, const std::string& who,
                        const std::string& advice);
 

@@ -1,15 +1,15 @@
 #pragma once
-/// Whether a ray passes through a triangle, without gaps between neighbours.
+/// Watertight test of whether a ray passes through a triangle.
 
 #include <Eigen/Core>
 #include <utility>
 
 namespace vinerow::controllers {
 
-/// Looks along a ray. Source: Woop, Benthin, Wald, "Watertight ray/triangle intersection", Journal
-/// of Computer Graphics Techniques 2 (2013). Corners are sheared so that the ray becomes an axis;
-/// the sides on which it passes the edges then follow from the same plane points for all facets,
-/// and no ray slips through between neighbours.
+/// Sheared coordinates along a ray. Source: Woop, Benthin, Wald, "Watertight ray/triangle
+/// intersection", Journal of Computer Graphics Techniques 2 (2013). Corners are sheared so that the
+/// ray becomes an axis. The side on which it passes an edge then follows from the same plane points
+/// for both facets of that edge, so no ray passes between neighbours.
 class RayShear {
  public:
   explicit RayShear(const Eigen::Vector3d& u) {

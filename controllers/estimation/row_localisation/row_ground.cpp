@@ -11,7 +11,7 @@
 namespace vinerow::controllers {
 namespace {
 
-constexpr double kReach_m = 1.0;  // to each side of where the terrain's slope is wanted
+constexpr double kReach_m = 1.0;  // reach of the differences for the terrain's slope, to each side
 
 }  // namespace
 
@@ -46,7 +46,7 @@ std::optional<GroundPlane> RowGround::at(const Eigen::Vector3d& p_W) const {
 
 namespace {
 
-/// Between the plane's downward normal and the ray of the cone that is nearest to it.
+/// Angle between the plane's downward normal and the nearest ray of the cone.
 double nearest_ray_rad(const GroundPlane& ground, const Eigen::Vector3d& dir_W,
                        double half_angle_rad) {
   const double off_rad = std::acos(std::clamp(-ground.normal_W.dot(dir_W), -1.0, 1.0));
@@ -57,7 +57,7 @@ double nearest_ray_rad(const GroundPlane& ground, const Eigen::Vector3d& dir_W,
 
 std::optional<double> plane_distance_m(const GroundPlane& ground, const Eigen::Vector3d& dir_W,
                                        double half_angle_rad, double range_m) {
-  // The nearest point of the plane is at a right angle if the cone reaches so far.
+  // The nearest point of the plane is on its normal if the cone contains the normal.
   const double ray_rad = nearest_ray_rad(ground, dir_W, half_angle_rad);
   if (ray_rad > 0.45 * kPi) return std::nullopt;
   return range_m * std::cos(ray_rad);

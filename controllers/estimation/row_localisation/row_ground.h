@@ -1,6 +1,6 @@
 #pragma once
-/// The ground of a map of rows, as a plane: what a rangefinder that looks down sees, and what
-/// wheels roll on. Maps that have a terrain tell it there; of others the rows' lines do.
+/// Ground of a map of rows as a local plane, for rangefinders that look down and for wheels. It
+/// comes from the map's terrain or, without one, from the rows' lines.
 
 #include <Eigen/Core>
 #include <optional>
@@ -14,8 +14,8 @@ namespace vinerow::controllers {
 struct GroundPlane {
   Eigen::Vector3d normal_W = Eigen::Vector3d::UnitZ();
   double offset_m = 0.0;
-  double away_m = 0.0;  ///< from where the map knows the ground, seen from above: its terrain, or
-                        ///< the strip between the two rows; 0 in an alley
+  double away_m = 0.0;  ///< horizontal distance from the strip between the two rows; 0 in an alley
+                        ///< and on a terrain
 };
 
 class RowGround {
@@ -23,10 +23,10 @@ class RowGround {
   /// Copies the terrain and the rows' lines.
   explicit RowGround(const RowMap& map) : terrain_(map.terrain), lines_(map) {}
 
-  /// On the terrain the plane through the ground below, as steep as the ground is over the length
-  /// of a vehicle. Elsewhere through the nearest piece of the nearest row's line and the nearest
-  /// point of the next row's.
-  /// @returns nothing where the map has fewer than two rows, or they meet there
+  /// On the terrain: the plane through the ground below, with the slope of the ground over the
+  /// length of a vehicle. Elsewhere: the plane through the nearest segment of the nearest row's
+  /// line and the nearest point of the second nearest row's line.
+  /// @returns nullopt if the map has fewer than two rows, or if the plane is undefined or vertical
   std::optional<GroundPlane> at(const Eigen::Vector3d& p_W) const;
 
  private:
@@ -36,16 +36,16 @@ class RowGround {
   RowLineIndex lines_;
 };
 
-/// Distance from the sensor to the plane, at a right angle to it, of an echo that is the first
-/// return in a cone.
+/// Perpendicular distance from the sensor to the plane for an echo that is the first return in a
+/// cone.
 /// @param dir_W  the cone's axis, unit, towards the plane
-/// @returns nothing where the cone looks past it
+/// @returns nullopt if the cone misses the plane
 std::optional<double> plane_distance_m(const GroundPlane& ground, const Eigen::Vector3d& dir_W,
                                        double half_angle_rad, double range_m);
 
 /// Distance from a sensor at sensor_W to the nearest point of the plane in its cone.
 /// @param dir_W  the cone's axis, unit
-/// @returns nothing where the cone looks past it; 0 for a sensor below it
+/// @returns nullopt if the cone misses the plane; 0 for a sensor below it
 std::optional<double> nearest_in_cone_m(const GroundPlane& ground, const Eigen::Vector3d& sensor_W,
                                         const Eigen::Vector3d& dir_W, double half_angle_rad);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The line of a row or an alley of a map, seen from above.
+/// Nearest points on the line of a row or an alley, seen from above.
 
 #include <Eigen/Core>
 #include <limits>
@@ -7,20 +7,19 @@
 
 namespace vinerow::controllers {
 
-/// A point on such a line.
+/// A point on a line.
 struct LinePoint {
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
-  Eigen::Vector3d edge_W = Eigen::Vector3d::UnitX();  ///< the piece it lies on, m, not unit
+  Eigen::Vector3d edge_W = Eigen::Vector3d::UnitX();  ///< the segment that contains it, m, not unit
   double distance_m = std::numeric_limits<double>::infinity();  ///< seen from above
 };
 
-/// The nearest one of a single piece.
-/// @returns a distance of +infinity where the piece has no length
+/// Nearest point of a single segment. @returns a distance of +infinity if the segment has no length
 LinePoint nearest_on_piece(const Eigen::Vector3d& from_W, const Eigen::Vector3d& to_W,
                            const Eigen::Vector3d& p_W);
 
-/// The nearest one, seen from above; of equals the first.
-/// @returns a distance of +infinity where the line has no piece of any length
+/// Nearest point of a line; the first among equals. @returns a distance of +infinity if no segment
+/// of the line has any length
 LinePoint nearest_on(std::span<const Eigen::Vector3d> line_W, const Eigen::Vector3d& p_W);
 
 }  // namespace vinerow::controllers

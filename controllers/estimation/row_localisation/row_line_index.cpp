@@ -13,13 +13,13 @@ namespace {
 using Eigen::Vector2d, Eigen::Vector3d;
 
 constexpr std::uint32_t kLeafPieces = 4;
-constexpr std::size_t kDeepest = 64;  // halving 2^32 pieces takes 32 boxes
-// Of the coordinates: far more than what rounding moves a distance by.
+constexpr std::size_t kDeepest = 64;  // halving 2^32 segments takes 32 levels
+// Relative to the coordinates: far more than the rounding of a distance.
 constexpr double kRounding = 1e-12;
 
 }  // namespace
 
-/// The two nearest rows among the pieces seen so far, in whatever order they came.
+/// The two nearest rows among the segments so far, independent of their order.
 struct RowLineIndex::Search {
   struct Candidate {
     LinePoint point;
@@ -52,7 +52,7 @@ RowLineIndex::RowLineIndex(const RowMap& map) {
     const std::vector<Vector3d>& line_W = map.rows[row].line_W;
     for (std::uint32_t i = 0; i + 1 < line_W.size(); ++i) {
       const Vector2d from_W = line_W[i].head<2>(), to_W = line_W[i + 1].head<2>();
-      // These are at no distance from anything.
+      // Such segments have no defined distance.
       if (!from_W.allFinite() || !to_W.allFinite() || (to_W - from_W).isZero()) continue;
       pieces_.push_back({line_W[i], line_W[i + 1], row, i});
       largest_m_ = std::max({largest_m_, from_W.cwiseAbs().maxCoeff(), to_W.cwiseAbs().maxCoeff()});

@@ -1,8 +1,8 @@
 #pragma once
-/// The rows of a map that are nearest to a point, seen from above.
+/// Index of the rows of a map that finds the two nearest to a point, seen from above.
 ///
-/// The pieces of the rows' lines lie in a tree of boxes (a bounding volume hierarchy over east and
-/// north, each box cut at the median of its longer side), so that only what lies near is looked at.
+/// The segments of the rows' lines are in a bounding volume hierarchy over east and north; each box
+/// is split at the median of its longer side. A query visits only nearby boxes.
 
 #include <cstdint>
 #include <vector>
@@ -15,14 +15,14 @@ namespace vinerow::controllers {
 class RowLineIndex {
  public:
   struct NearestRows {
-    LinePoint first, second;  ///< of two rows; +infinity away where there is none
+    LinePoint first, second;  ///< of two different rows; distance +infinity if there is no such row
   };
 
   /// Copies the lines.
   explicit RowLineIndex(const RowMap& map);
 
-  /// What nearest_on() tells of the two nearest of all rows, to the bit; of equals those that the
-  /// map lists first. No heap, thread safe.
+  /// The two nearest rows: equal to the bit to nearest_on() over all rows. Among equals, the rows
+  /// that the map lists first. No heap, thread safe.
   NearestRows nearest_rows(const Eigen::Vector3d& p_W) const;
 
  private:
@@ -33,7 +33,8 @@ class RowLineIndex {
   struct Box {
     Eigen::Vector2d low_W, high_W;
     std::uint32_t begin, end;  // pieces
-    std::uint32_t second = 0;  // box of the second half, the first one's is the next; 0: a leaf
+    std::uint32_t second =
+        0;  // box of the second half (that of the first half is the next box); 0: a leaf
   };
   struct Search;
 

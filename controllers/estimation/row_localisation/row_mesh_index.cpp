@@ -15,11 +15,16 @@
 namespace vinerow::controllers {
 namespace {
 
+// Squares of the grid at most: 16 MB of list starts. Chosen.
 constexpr double kMaxSquares = 4e6;
-// By this much a facet counts as wider when it is listed, so that rounding loses none at the edge
-// of a square.
+// Step by which squares are enlarged until their number is allowed. Chosen.
+constexpr double kSquareGrowth = 1.25;
+// Enlarges facets in the lists, so that rounding loses none at the edge of a square. Chosen: larger
+// than the rounding of coordinates up to some kilometres, negligible against a square.
 constexpr double kMargin_m = 1e-6;
-// Marks a listed facet in the one square that its centre is in, its home.
+// Twice the area below which a triangle has no reliable normal and is not listed. Chosen.
+constexpr double kMinDoubleArea_m2 = 1e-12;
+// Marks a listed facet in the one square that contains its centre, its home.
 constexpr std::uint32_t kHome = 1u << 31;
 
 Eigen::Vector2d from_above(const Eigen::Vector3f& p) {
@@ -33,7 +38,7 @@ double distance_2d(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eig
   return (a + share * ab - p).norm();
 }
 
-/// Part of a line that lies between low and high on one axis.
+/// Part of a line between low and high on each axis (slab method).
 struct Clip {
   double from = 0.0, to = kInfinity;
   void axis(double p, double inverse_dir, double low, double high) {
@@ -49,6 +54,21 @@ struct Clip {
 
 }  // namespace
 
+// Set-up: facets with unit normals N; a grid of squares over their extent; for each square the list
+// of the facets above it, in one array (listed_) with the start of each list (first_).
+//
+// Ray p + t u (cast_ray): clip it to the grid, then walk from square to square by the smaller of
+// the parameters at which it leaves the square along x and y. In each square, a facet with plane
+// N.x = N.a is hit at
+//
+//   t = N.(a - p) / (N.u) = height / -slope,   slope = N.u < 0,   height = -N.(a - p) >= 0
+//
+// if the ray passes through the triangle (RayShear). The walk ends if the ray leaves the square
+// beyond the nearest hit.
+//
+// Plane n.(x - p) = 0 (cut): each facet with corners on both sides gives one segment between the
+// two edges of the corner that is alone on its side.
+
 RowMeshIndex::RowMeshIndex(const RowMap& map, double cell_m) {
   VINEROW_DEMAND(cell_m > 0.0);
   read_facets(map);
@@ -62,8 +82,8 @@ void RowMeshIndex::read_facets(const RowMap& map) {
   VINEROW_DEMAND(count < kHome);
   if (count == 0) {
     throw ConfigError(
-        "the map has no row meshes to measure distances to: give the vehicle a map that has them, "
-        "such as map: {type: row_mesh}");
+        "the map has no row meshes to measure distances to: give the vehicle a map with row "
+        "meshes, such as map: {type: row_mesh}");
   }
   facets_.reserve(count);
   for (const RowMesh& mesh : map.meshes) {
@@ -84,7 +104,8 @@ void RowMeshIndex::read_facets(const RowMap& map) {
       const Eigen::Vector3d a = facet.a.cast<double>();
       const Eigen::Vector3d across = (facet.b.cast<double>() - a).cross(facet.c.cast<double>() - a);
       const double area2 = across.norm();
-      facet.normal = area2 > 1e-12 ? Eigen::Vector3d(across / area2) : Eigen::Vector3d::Zero();
+      facet.normal =
+          area2 > kMinDoubleArea_m2 ? Eigen::Vector3d(across / area2) : Eigen::Vector3d::Zero();
       facets_.push_back(facet);
     }
   }
@@ -105,7 +126,7 @@ void RowMeshIndex::lay_grid(double cell_m) {
   high_.array() += 2.0 * kMargin_m;
   const Eigen::Vector2d size = high_ - low_;
   const auto squares = [&] { return std::ceil(size.x() / cell_m) * std::ceil(size.y() / cell_m); };
-  while (squares() > kMaxSquares) cell_m *= 1.25;
+  while (squares() > kMaxSquares) cell_m *= kSquareGrowth;
   cell_m_ = cell_m;
   columns_ = std::max(1, static_cast<int>(std::ceil(size.x() / cell_m)));
   lines_ = std::max(1, static_cast<int>(std::ceil(size.y() / cell_m)));
@@ -129,7 +150,7 @@ void RowMeshIndex::for_each_square_below(const Facet& facet, Visit&& visit) cons
   const double half_m = 0.5 * cell_m_;
   for (int j = first.j; j <= last.j; ++j) {
     for (int i = first.i; i <= last.i; ++i) {
-      // Separating axes: those of the grid are done; one across each edge is left.
+      // Separating axes: the loop covers those of the grid; one across each edge remains.
       const Eigen::Vector2d middle = low_ + cell_m_ * Eigen::Vector2d(i + 0.5, j + 0.5);
       bool apart = false;
       for (int k = 0; k < 3 && !apart; ++k) {
@@ -146,6 +167,7 @@ void RowMeshIndex::for_each_square_below(const Facet& facet, Visit&& visit) cons
 }
 
 void RowMeshIndex::list_facets() {
+  // Counting sort: count the entries of each square, sum to list starts, then fill.
   first_.assign(static_cast<std::size_t>(columns_) * lines_ + 1, 0);
   for (const Facet& facet : facets_) {
     for_each_square_below(facet, [&](Square square) { ++first_[index_of(square) + 1]; });
@@ -179,7 +201,7 @@ std::optional<RowMeshIndex::Hit> RowMeshIndex::cast_ray(const Eigen::Vector3d& p
   Square square = square_at(p.x() + clip.from * u.x(), p.y() + clip.from * u.y());
   const int step_i = u.x() > 0.0 ? 1 : -1, step_j = u.y() > 0.0 ? 1 : -1;
   const bool runs_x = std::isfinite(inverse_x), runs_y = std::isfinite(inverse_y);
-  // Where the ray leaves the square, along x and y.
+  // Ray parameter at which the ray leaves the square along one axis.
   const auto leaves = [&](double low, int cell, int step, double from, double inverse) {
     return (low + cell_m_ * (cell + (step > 0 ? 1 : 0)) - from) * inverse;
   };
@@ -194,7 +216,8 @@ std::optional<RowMeshIndex::Hit> RowMeshIndex::cast_ray(const Eigen::Vector3d& p
     for (std::uint32_t k = first_[index]; k < first_[index + 1]; ++k) {
       const Facet& facet = facets_[listed_[k] & ~kHome];
       const double slope = facet.normal.dot(u);
-      if (slope >= 0.0) continue;
+      if (slope >= 0.0) continue;  // seen from behind
+      // Compare t with the nearest hit without a division.
       const double height_m = -facet.normal.dot(facet.a.cast<double>() - p);
       if (!(height_m >= 0.0 && height_m < -slope * nearest_m)) continue;
       if (!shear.passes_through(facet.a, facet.b, facet.c, p)) continue;
@@ -228,12 +251,13 @@ void RowMeshIndex::cut(const Eigen::Vector3d& p, const Eigen::Vector3d& n, doubl
       (p_2d.array() - reach_m > high_.array()).any()) {
     return;
   }
+  // A facet that reaches into the radius has its centre in one of these squares.
   const Square from = square_at(p.x() - reach_m, p.y() - reach_m);
   const Square to = square_at(p.x() + reach_m, p.y() + reach_m);
   for (int j = from.j; j <= to.j; ++j) {
     const std::uint32_t end = first_[index_of({to.i, j}) + 1];
     for (std::uint32_t k = first_[index_of({from.i, j})]; k < end; ++k) {
-      // A facet is listed in several squares and counts in its home.
+      // A facet is listed in several squares but counts only in its home.
       if ((listed_[k] & kHome) == 0) continue;
       const Facet& facet = facets_[listed_[k] & ~kHome];
       const Eigen::Vector3d corners[] = {facet.a.cast<double>(), facet.b.cast<double>(),
@@ -241,7 +265,7 @@ void RowMeshIndex::cut(const Eigen::Vector3d& p, const Eigen::Vector3d& n, doubl
       const double above[] = {n.dot(corners[0] - p), n.dot(corners[1] - p), n.dot(corners[2] - p)};
       const bool one_side = above[0] >= 0.0;
       if ((above[1] >= 0.0) == one_side && (above[2] >= 0.0) == one_side) continue;
-      // Two edges cross the plane: those of the corner that has a side for itself.
+      // The plane crosses two edges: those of the corner that is alone on its side.
       const std::size_t lone = (above[1] >= 0.0) == (above[2] >= 0.0)   ? 0
                                : (above[0] >= 0.0) == (above[2] >= 0.0) ? 1
                                                                         : 2;
@@ -251,7 +275,7 @@ void RowMeshIndex::cut(const Eigen::Vector3d& p, const Eigen::Vector3d& n, doubl
         const double share = above[upper] / (above[upper] - above[lower]);
         return corners[upper] + share * (corners[lower] - corners[upper]);
       };
-      // Where the facet's border goes down through the plane the segment begins.
+      // The segment starts where the facet's border goes down through the plane.
       const std::size_t next = (lone + 1) % 3, before = (lone + 2) % 3;
       const bool peak = above[lone] >= 0.0;
       const Segment segment{crossing(peak ? next : before), crossing(peak ? before : next),

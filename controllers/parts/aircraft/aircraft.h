@@ -1,5 +1,5 @@
 #pragma once
-/// A vehicle on wings as its controllers and guidance see it, read from its description.
+/// Fixed-wing vehicle as seen by its controllers and guidance, read from its description.
 ///
 /// Controls: throttle d_t (0..1), elevator d_e and aileron d_a in rad, mixed onto elevons: right =
 /// d_e - d_a, left = d_e + d_a (trailing edge down > 0: d_e > 0 pitches down, d_a > 0 rolls right;
@@ -20,7 +20,7 @@ struct AircraftControls {
   double aileron_rad = 0.0;
 };
 
-/// The vehicle's record with what flying it takes besides.
+/// The vehicle's record, extended by the data that its control needs.
 struct Aircraft : FixedWingAircraft {
   std::string type;
   double gravity_mps2 = 9.80665;
@@ -35,8 +35,8 @@ struct Aircraft : FixedWingAircraft {
   /// Actuator vector of the controls, not limited.
   /// @param actuator_values  actuators.size() entries
   void mix(const AircraftControls& controls, std::vector<double>& actuator_values) const;
-  /// What is left of the controls when each actuator is cut to its range: an elevon at its stop
-  /// takes from both elevator and aileron.
+  /// The controls that remain after each actuator is clamped to its range: an elevon at its stop
+  /// reduces both elevator and aileron.
   AircraftControls limit(const AircraftControls& controls) const;
 };
 

@@ -16,7 +16,7 @@ const ParameterTable<AircraftLimits>& aircraft_limit_table() {
   using L = AircraftLimits;
   static const ParameterTable<L> table = ParameterTable<L>().group(
       "limits", [](L& limits) -> AircraftRanges& { return limits; }, aircraft_range_table(),
-      "largest deviations from the reference's steady flight, to either side (paper A, section 2; "
+      "largest deviations from the reference's steady flight, on either side (paper A, section 2; "
       "defaults: the relaxed reading of its percentages)");
   return table;
 }

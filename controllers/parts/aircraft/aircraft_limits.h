@@ -1,13 +1,13 @@
 #pragma once
-/// How far a vehicle on wings may be from its reference: the constraints X and U of paper A's
-/// tube-based MPC. Defaults: the relaxed limits of the reference of paper A, section 1 ("10 %" and
-/// "20 %" of the paper are no ranges about zero).
+/// Largest deviations of a fixed-wing vehicle from its reference: the constraints X and U of paper
+/// A's tube-based MPC. Defaults: the relaxed limits of the reference of paper A, section 1 ("10 %"
+/// and "20 %" of the paper are no ranges about zero).
 
 #include "controllers/parts/aircraft/aircraft_ranges.h"
 
 namespace vinerow::controllers {
 
-/// Largest size of each, to either side.
+/// Largest magnitude of each deviation, on either side.
 struct AircraftLimits : AircraftRanges {
   AircraftLimits();
 };

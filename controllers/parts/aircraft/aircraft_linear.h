@@ -1,9 +1,9 @@
 #pragma once
-/// A vehicle on wings about a trim, as linear models: longitudinal x = [u w q theta h],
-/// u = [d_t d_e], d = [u_g w_g]; lateral x = [v p r phi psi], u = d_a, d = v_g. All deviations from
-/// the trim in SI and rad, signs of aviation (aircraft.h); h positive up; gusts are velocities of
-/// the air against the vehicle's, 1 m/s of u_g changes the air velocity by -1 m/s in u.
-/// Lags of motor and servos are left out. Reference of paper A, section 1.
+/// Linear models of a fixed-wing vehicle about a trim: longitudinal x = [u w q theta h],
+/// u = [d_t d_e], d = [u_g w_g]; lateral x = [v p r phi psi], u = d_a, d = v_g. All are deviations
+/// from the trim in SI and rad, signs of aviation (aircraft.h), h positive up. Gusts are velocities
+/// of the air against the vehicle's: 1 m/s of u_g changes the air velocity by -1 m/s in u.
+/// The lags of motor and servos are ignored. Reference of paper A, section 1.
 
 #include <Eigen/Core>
 #include <complex>
@@ -24,7 +24,7 @@ struct AircraftLinear {
   LinearAxis lateral;       ///< 5 x 5, 5 x 1, 5 x 1
 };
 
-/// Central differences of the whole six degrees of freedom, then the blocks of each axis.
+/// Central differences of the equations of six degrees of freedom, then the blocks of each axis.
 AircraftLinear linearise(const Aircraft& aircraft, const Trim& trim);
 
 /// x+ = A x + B u + E d, inputs and gusts held over `period_s`.
@@ -33,13 +33,13 @@ struct SampledAxis {
 };
 SampledAxis discretise(const LinearAxis& axis, double period_s);
 
-/// Eigenvalues of A with what pilots call them: frequency |s| and damping -Re s / |s|.
+/// Eigenvalue s of A with its frequency |s| and damping -Re s / |s|.
 struct FlightMode {
-  std::complex<double> root;  ///< rad/s; of a pair the one with positive imaginary part
+  std::complex<double> root;  ///< rad/s; of a pair, the one with positive imaginary part
   double frequency_radps = 0.0;
   double damping = 0.0;
 };
-/// Sorted by magnitude, pairs once; integrators (h, psi) included.
+/// Sorted by magnitude, one entry per pair; integrators (h, psi) are included.
 std::vector<FlightMode> calc_modes(const LinearAxis& axis);
 
 }  // namespace vinerow::controllers

@@ -11,10 +11,10 @@
 namespace vinerow::controllers {
 namespace {
 
-/// Of each axis, "lon" first: `gust`: the strongest feasible one, 0 without a tube; `iterations`
-/// and `active`: of the QP, 0 where it was not needed; `violation`: of soft limits, as a share of
-/// them; `tube`: how much of the tube x - z_0 takes; `nominal`: largest share that z_0 takes of its
-/// tightened limits; `input`: largest share that u takes of its limits; `status`: of the QP.
+/// Values of each axis, "lon" first. gust: the strongest feasible one, 0 without a tube; iterations
+/// and active: of the QP, 0 if it was not needed; violation: of soft limits, as a share of them;
+/// tube: share of the tube that x - z_0 uses; nominal: largest share of its tightened limits that
+/// z_0 uses; input: largest share of its limits that u uses; status: of the QP.
 constexpr std::array kTubeValues = {"gust_mps",   "qp_iterations", "active_rows", "soft_violation",
                                     "tube_share", "nominal_share", "input_share", "qp_status"};
 
@@ -50,8 +50,8 @@ class AircraftMpc final : public Controller {
   }
 
   void step(Time now) override {
-    const bool has_told = !promise_.empty();
-    if (has_told) {
+    const bool has_reported = !promise_.empty();
+    if (has_reported) {
       tell(now, Event::Level::kInfo, promise_);
       promise_.clear();
     }
@@ -67,14 +67,14 @@ class AircraftMpc final : public Controller {
       return;
     }
     ports_.write(now, tube_.step(ports_.deviation()));
-    if (!has_told) report(now);
+    if (!has_reported) report(now);
     write(now);
   }
 
   bool finished() const override { return ports_.has_ended(); }
 
  private:
-  /// One event a tick at most: what is not told now is told with the next tick.
+  /// At most one event per tick; a pending one is reported in the next tick.
   void report(Time now) {
     const bool fails =
         tube_.lon_status() != QpStatus::kSolved || tube_.lat_status() != QpStatus::kSolved;
@@ -95,17 +95,17 @@ class AircraftMpc final : public Controller {
     }
   }
 
-  /// @returns whether something was told
+  /// @returns whether it has reported an event
   bool report(Time now, const AxisTube& axis, const char* name, TubeWatch& watch) {
     switch (watch.update(axis.mpc.soft_violation(), now.s())) {
-      case TubeWatch::News::kNone:
+      case TubeWatch::PendingEvent::kNone:
         return false;
-      case TubeWatch::News::kLeft:
+      case TubeWatch::PendingEvent::kLeft:
         tell(now, Event::Level::kWarning,
              fmt::format("{} axis outside its tube by {}; soft constraints take over", name,
                          axis.describe_violation()));
         return true;
-      case TubeWatch::News::kBack:
+      case TubeWatch::PendingEvent::kBack:
         tell(now, Event::Level::kInfo,
              fmt::format("{} axis back inside its tube after {:.2f} s", name, watch.outside_s()));
         return true;

@@ -1,9 +1,9 @@
 #pragma once
-/// What the controllers `trmpc` and `mpc_nominal` share: a Controller about AircraftTube, which
-/// reads "estimate" and "reference", writes "actuators", "deviation" and "follower" through
-/// AircraftPorts, and further "tube" (NamedValues, see kTubeValues in the source) and
-/// "controller_event": the strongest feasible gusts once, and when an axis leaves the set of states
-/// its problem is feasible for and is back.
+/// Common implementation of the controllers `trmpc` and `mpc_nominal`: a Controller that runs
+/// AircraftTube. It reads "estimate" and "reference" and writes "actuators", "deviation" and
+/// "follower" through AircraftPorts. It also writes "tube" (NamedValues, see kTubeValues in the
+/// source) and "controller_event": the strongest feasible gusts once, and when an axis leaves the
+/// set of states for which its problem is feasible and when it returns.
 
 #include <memory>
 #include <string>
@@ -18,7 +18,7 @@ std::unique_ptr<Controller> make_aircraft_mpc(const ControllerContext& context,
                                               const std::string& type,
                                               const AircraftTubeParams& params);
 
-/// "tube" in scenario files' order of reading and writing.
+/// Declares the signal "tube" of a part.
 void describe_aircraft_mpc_signals(PartSpec& spec);
 
 }  // namespace vinerow::controllers

@@ -12,12 +12,12 @@
 namespace vinerow::controllers {
 namespace {
 
-/// Share of the wanted airspeed from which a launched aircraft is flown.
+/// Share of the wanted airspeed at which the launch ends and the controller takes over.
 constexpr double kFlownShare = 0.8;
-/// Banks of references change no faster than this: 115 deg/s.
+/// Fastest change of a reference's bank: 115 deg/s.
 constexpr double kFastestRoll_radps = 2.0;
-/// Airspeeds that trims are worked out for, as shares of the cruise speed; beyond them the nearest
-/// counts, as a deviation.
+/// Range of airspeeds of the trims, as shares of the cruise speed. Beyond it the nearest trim is
+/// used, and the difference is a deviation.
 constexpr double kSlowestShare = 0.7, kFastestShare = 1.5;
 /// Rounding, as a share of a limit.
 constexpr double kRounding = 1e-9;
@@ -85,10 +85,10 @@ bool AircraftPorts::is_flying() const {
 void AircraftPorts::add_roll_rate(double bank_rad) {
   const double rate_radps = (bank_rad - bank_before_rad_) / period_s_;
   bank_before_rad_ = bank_rad;
-  // What steps is no roll: a reference that begins, or begins anew.
+  // A step of the bank is no roll: the reference starts, or starts again.
   if (!(std::abs(rate_radps) <= kFastestRoll_radps)) return;
   trim_.p_radps += rate_radps;
-  // Damping goes with the airspeed, the aileron's moment with its square.
+  // Damping is proportional to the airspeed, the aileron's moment to its square.
   const double slower = trims_.cruise().airspeed_mps() / trims_.within(reference().airspeed_mps);
   trim_.controls.aileron_rad += aileron_per_roll_rate_s_ * slower * rate_radps;
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// One number for each deviation and control of a vehicle on wings: limits are such, and weights.
+/// One number for each deviation and control of a fixed-wing vehicle, used for limits and weights.
 
 #include <Eigen/Core>
 
@@ -17,7 +17,7 @@ struct AircraftRanges {
   double aileron_rad = 0.0;
 };
 
-/// As files have them: angles in deg, rates in deg/s.
+/// The same as in files: angles in deg, rates in deg/s.
 struct AircraftRangesInDeg {
   double u_mps, w_mps, q_degps, theta_deg, h_m;
   double throttle, elevator_deg;
@@ -27,7 +27,7 @@ struct AircraftRangesInDeg {
   AircraftRanges to_si() const;
 };
 
-/// The names of AircraftRangesInDeg, each > 0: fields of a group.
+/// Parameter table with the names of AircraftRangesInDeg, each > 0: fields of a group.
 const ParameterTable<AircraftRanges>& aircraft_range_table();
 
 }  // namespace vinerow::controllers

@@ -34,7 +34,7 @@ AxisTube make_axis(const AxisLaw& law, const Eigen::VectorXd& state_limit,
   model.state_names = words.states;
   model.input_names = words.inputs;
 
-  const Result<TubeRoom> room = calc_tube_room(model);
+  const Result<GustMargin> room = calc_gust_margin(model);
   if (!room) {
     throw ConfigError(fmt::format("{}: {} does not stabilise the {} axis: {}", who, words.gain_key,
                                   words.name, room.reason()));

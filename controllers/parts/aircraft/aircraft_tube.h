@@ -1,6 +1,6 @@
 #pragma once
-/// Tube MPC of a vehicle on wings about steady flight: one problem for the longitudinal axis, one
-/// for the lateral one. Paper A, section 2.2; tube_sets.h and tube_mpc.h.
+/// Tube MPC of a fixed-wing vehicle about steady flight: one problem for the longitudinal axis, one
+/// for the lateral axis. Paper A, section 2.2; tube_sets.h and tube_mpc.h.
 
 #include <string>
 #include <vector>
@@ -19,17 +19,17 @@ struct AircraftTubeParams {
   AircraftWeights weights;
   TubeLaw law = TubeLaw::kTube;
   TubeShape shape = TubeShape::kInvariant;
-  /// u = K x, row by row; empty: the LQR's. SI and rad.
+  /// u = K x, row by row; empty: the gain of the LQR. SI and rad.
   std::vector<double> longitudinal_gain;  ///< 10: throttle, then elevator
   std::vector<double> lateral_gain;       ///< 5
 };
 
-/// One axis of it.
+/// Model, sets and MPC of one axis.
 struct AxisTube {
   TubeModel model;
   TubeSets sets;
   TubeMpc mpc;
-  /// What a gust of any strength along each body axis leaves room for, m/s; infinite without tube.
+  /// Largest feasible gust along each body axis, m/s; infinite without tube.
   double largest_gust_mps = 0.0;
   /// "12 % of the limit of altitude" @pre mpc.soft_violation() > 0
   std::string describe_violation() const;
@@ -37,10 +37,10 @@ struct AxisTube {
 
 class AircraftTube {
  public:
-  /// Linear models about the trim, sampled; sets and problems of both axes: some tenths of a
-  /// second.
+  /// Linear models about the trim, sampled, then sets and problems of both axes. Takes some tenths
+  /// of a second.
   /// @throws ConfigError "<who>: gusts of 2.5 m/s alone take 140 % of the limit of aileron; the
-  /// largest feasible gust is 1.79 m/s (lateral)", or where a gain does not stabilise its axis
+  /// largest feasible gust is 1.79 m/s (lateral)", or if a gain does not stabilise its axis
   AircraftTube(const Aircraft& aircraft, const Trim& trim, double period_s,
                const AircraftTubeParams& params, const std::string& who);
 

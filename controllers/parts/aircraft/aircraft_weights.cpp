@@ -35,7 +35,7 @@ const ParameterTable<AircraftWeights>& aircraft_weight_table() {
   using W = AircraftWeights;
   static const ParameterTable<W> table = ParameterTable<W>().group(
       "weights", [](W& weights) -> AircraftRanges& { return weights; }, aircraft_range_table(),
-      "deviations that cost as much as each other: Q = diag(1 / x^2), R = diag(1 / u^2)");
+      "deviations of equal cost: Q = diag(1 / x^2), R = diag(1 / u^2)");
   return table;
 }
 

@@ -1,7 +1,8 @@
 #pragma once
-/// What deviations from steady flight cost, and the LQR gains that follow: of `fixed_wing_lqr` and
-/// of the ancillary law of the tube-based MPC. Q = diag(1 / x_i^2), R = diag(1 / u_i^2) with the
-/// deviations x_i, u_i that cost 1 each. Defaults: the reference of paper A, section 1.
+/// Cost of deviations from steady flight and the LQR gains that follow from it, for
+/// `fixed_wing_lqr` and for the ancillary law of the tube-based MPC. Q = diag(1 / x_i^2), R =
+/// diag(1 / u_i^2) with the deviations x_i, u_i that cost 1 each. Defaults: the reference of paper
+/// A, section 1.
 
 #include <Eigen/Core>
 #include <string>
@@ -20,7 +21,7 @@ struct AircraftWeights : AircraftRanges {
 /// 4, v_mps 1.5, p_degps 90, r_degps 60, phi_deg 12, psi_deg 8, aileron_deg 4.
 const ParameterTable<AircraftWeights>& aircraft_weight_table();
 
-/// One axis with its cost and its gain.
+/// One axis with its cost and gain.
 struct AxisLaw {
   SampledAxis model;
   Eigen::MatrixXd Q, R;

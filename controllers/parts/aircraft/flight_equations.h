@@ -1,8 +1,8 @@
 #pragma once
-/// Motion of a rigid aircraft over a flat earth in the signs of aviation (aircraft.h), from its
-/// FlightModel: what trim and linearisation differentiate.
+/// Equations of motion of a rigid aircraft over a flat earth in the signs of aviation (aircraft.h),
+/// from its FlightModel. Trim and linearisation differentiate them.
 ///
-/// Source: Beard, McLain, "Small unmanned aircraft", 2012, eq. 3.14-3.17; with any symmetric
+/// Source: Beard, McLain, "Small unmanned aircraft", 2012, eq. 3.14-3.17, with any symmetric
 /// inertia.
 
 #include <Eigen/Core>

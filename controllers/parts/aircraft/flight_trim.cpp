@@ -15,7 +15,7 @@ namespace {
 constexpr double kSpeedAccuracy_mps = 1e-3;
 constexpr double kSearchRatio = 1.05;
 constexpr double kSearchSpan = 5.0;
-constexpr const char* kAtTheLimit = "the wings are at the limit of what they carry";
+constexpr const char* kAtTheLimit = "the wings are at their largest lift";
 
 bool is_in_range(const Aircraft& aircraft, const AircraftControls& controls) {
   const AircraftControls limited = aircraft.limit(controls);
@@ -36,7 +36,7 @@ std::string say_request(const TrimRequest& request) {
                      deg_from_rad(request.climb_angle_rad), deg_from_rad(request.bank_rad));
 }
 
-/// How the elevons are beyond their range; empty if they are not.
+/// By how much the elevons are beyond their range; empty if they are within it.
 std::string say_elevons(const Aircraft& aircraft, const AircraftControls& controls) {
   const auto said = [&](const char* side, int index, double angle_rad) -> std::string {
     const ActuatorSpec& spec = aircraft.actuators[static_cast<std::size_t>(index)];
@@ -52,7 +52,7 @@ std::string say_elevons(const Aircraft& aircraft, const AircraftControls& contro
              : left;
 }
 
-/// What the wings do not carry; empty where they carry it.
+/// Lift that the wings lack; empty if it suffices.
 std::string say_lift(const Aircraft& aircraft, TrimSolver& solver, const TrimRequest& request) {
   const double needed_N = aircraft.flight_model->mass_kg() * aircraft.gravity_mps2 *
                           std::cos(request.climb_angle_rad) / std::cos(request.bank_rad);
@@ -76,7 +76,7 @@ std::string say_lift(const Aircraft& aircraft, TrimSolver& solver, const TrimReq
   return said;
 }
 
-/// Why there is no trim, without the place.
+/// Reason for the missing trim, without the request.
 std::string say_reason(const Aircraft& aircraft, TrimSolver& solver, const TrimRequest& request) {
   const std::string lift = say_lift(aircraft, solver, request);
   if (!lift.empty()) return lift;
@@ -141,7 +141,7 @@ Result<SpeedRange> find_speed_range(const Aircraft& aircraft, double climb_angle
   const auto flies = [&](double speed_mps) {
     return solve_in_range(aircraft, solver, {speed_mps, climb_angle_rad, bank_rad}).has_value();
   };
-  // A speed that does, next to the cruise speed; then outwards until one does not.
+  // A speed with a trim, near the cruise speed; then outwards until no trim exists.
   const double cruise = aircraft.cruise_speed_mps;
   double inside = 0.0;
   for (double ratio = 1.0; ratio < kSearchSpan && inside == 0.0; ratio *= kSearchRatio) {

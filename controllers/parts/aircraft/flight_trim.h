@@ -1,5 +1,5 @@
 #pragma once
-/// Steady flight of a vehicle on wings: straight, climbing, or in a coordinated turn.
+/// Trim of a fixed-wing vehicle: steady flight that is straight, climbing or a coordinated turn.
 
 #include <string>
 
@@ -11,7 +11,7 @@ namespace vinerow::controllers {
 struct TrimRequest {
   double airspeed_mps = 12.0;
   double climb_angle_rad = 0.0;  ///< of the path through the air
-  /// Of the coordinated turn, right wing down > 0; it sets the turn rate, g tan(bank) / airspeed.
+  /// Of the coordinated turn, right wing down > 0. It sets the turn rate, g tan(bank) / airspeed.
   double bank_rad = 0.0;
 };
 
@@ -30,26 +30,26 @@ struct Trim {
 };
 
 /// Newton's method with central differences on the equations of six degrees of freedom: no
-/// acceleration, no angular acceleration, climb angle and turn rate as asked. Side slip and roll
-/// follow: without a rudder a turn slips a little, and roll differs from the coordinated turn's by
-/// up to about 2 deg.
-/// @returns a failure in one sentence where there is none: stall, throttle or elevons out of range,
-/// with the numbers and the speeds that would do: "no steady flight at 7.00 m/s, climb 0.0 deg,
-/// bank 0.0 deg: it takes 11.8 N of lift and the wings give at most 8.3 N at 17.3 deg of incidence;
-/// it can fly so from 8.40 to 24.10 m/s"
+/// acceleration, no angular acceleration, climb angle and turn rate as requested. Side slip and
+/// roll are results: without a rudder a turn slips a little, and roll differs from the coordinated
+/// turn's by up to about 2 deg.
+/// @returns a failure in one sentence if no trim exists (stall, throttle or elevons out of range),
+/// with the numbers and the speeds at which one exists: "no steady flight at 7.00 m/s, climb 0.0
+/// deg, bank 0.0 deg: it takes 11.8 N of lift and the wings give at most 8.3 N at 17.3 deg of
+/// incidence; it can fly so from 8.40 to 24.10 m/s"
 Result<Trim> find_trim(const Aircraft& aircraft, const TrimRequest& request);
 
-/// Steady flight with the throttle given: the climb angle of `request` is where the search starts,
-/// that of the result what comes of it.
+/// Steady flight with a given throttle. The search starts at the climb angle of `request`; that of
+/// the result follows from the throttle.
 /// @returns a failure in one sentence
 Result<Trim> find_trim_at_throttle(const Aircraft& aircraft, const TrimRequest& request,
                                    double throttle);
 
-/// Between which speeds there is steady flight, to 1 mm/s.
+/// Range of speeds at which steady flight exists, to 1 mm/s.
 struct SpeedRange {
   double slowest_mps = 0.0, fastest_mps = 0.0;
 };
-/// @returns a failure where there is none between a fifth and five times the cruise speed
+/// @returns a failure if none exists between a fifth and five times the cruise speed
 Result<SpeedRange> find_speed_range(const Aircraft& aircraft, double climb_angle_rad,
                                     double bank_rad);
 

@@ -9,20 +9,43 @@
 namespace vinerow::controllers {
 namespace {
 
+// Newton's method for left(y) = 0 with the seven unknowns
+//   y = (alpha, beta, phi, theta, d_e, d_a, d_t), or gamma instead of d_t if the throttle is given.
+// expand() gives the steady motion at airspeed V and bank: velocity in body axes
+//   u = V cos(alpha) cos(beta),  v = V sin(beta),  w = V sin(alpha) cos(beta),
+// turn rate psi' = g tan(bank) / V and its components
+//   p = -psi' sin(theta),  q = psi' sin(phi) cos(theta),  r = psi' cos(phi) cos(theta).
+// residual() is left = (u', v', w', p', q', r', h' - V sin(gamma)). Each iteration solves
+//   slope step = -left,  slope = d left / d y by central differences,
+// and halves the step until |left| falls.
+
 enum Unknown { kAlpha = 0, kBeta, kRoll, kPitch, kElevator, kAileron, kFree };
 
+/// Bound of the iterations. Chosen.
 constexpr int kMaxIterations = 60;
 /// Steps of the central differences: the terms here are smooth over about 0.1.
 constexpr double kStep = 1e-5;
-/// What counts as steady, m/s2 and rad/s2. Rounding leaves about 1e-13.
+/// Largest acceleration of steady flight, m/s2 and rad/s2. Rounding leaves about 1e-13.
 constexpr double kSteady = 1e-9;
+/// Acceleration at which the iteration stops, m/s2 and rad/s2: just above rounding.
 constexpr double kExact = 1e-12;
-/// No unknown (rad, 1) moves further in one iteration.
+/// Largest change of an unknown (rad, 1) in one iteration. Chosen: a full step from a poor
+/// start may leave the range of meaningful angles.
 constexpr double kLongestStep = 0.3;
+/// Smallest share of Newton's step that is tried. Chosen: shorter steps gain nothing.
+constexpr double kShortestShare = 1e-3;
 
+/// Range of angles of attack for starts and for the largest lift. Chosen well beyond usual stall
+/// angles.
 constexpr double kSearchAlpha_rad = rad_from_deg(45.0);
+/// Spacing of that search. Chosen: Newton's method does the rest.
 constexpr double kSearchStep_rad = rad_from_deg(0.25);
+/// Throttle of the start, as a share of the largest. Chosen high, see search_start().
+constexpr double kSearchThrottle = 0.9;
+/// Alternations of elevator and throttle. Chosen: balancing one unbalances the other slightly.
 constexpr int kBalanceRounds = 3;
+/// Halvings of a range: 2^-30 of it is left.
+constexpr int kBisections = 30;
 
 Eigen::Vector3d velocity_at(double airspeed_mps, double alpha_rad) {
   return {airspeed_mps * std::cos(alpha_rad), 0.0, airspeed_mps * std::sin(alpha_rad)};
@@ -34,7 +57,7 @@ double lift_of(const AirLoad& load, double alpha_rad) {
 }
 
 /// Sets `value` between `low` and `high` so that the function of it is zero.
-/// @returns false where both ends have the same sign; then `value` is the end nearer to zero
+/// @returns false if both ends have the same sign; then `value` is the end nearer to zero
 template <class Function>
 bool bisect(double& value, double low, double high, Function&& function) {
   const auto at = [&](double x) {
@@ -46,7 +69,7 @@ bool bisect(double& value, double low, double high, Function&& function) {
     value = std::abs(at_low) < std::abs(at_high) ? low : high;
     return false;
   }
-  for (int i = 0; i < 30; ++i) {
+  for (int i = 0; i < kBisections; ++i) {
     const double middle = 0.5 * (low + high);
     (at(middle) * at_low > 0.0 ? low : high) = middle;
   }
@@ -98,22 +121,22 @@ TrimSolver::Vector7 TrimSolver::residual(const Problem& problem, const Vector7& 
 TrimSolver::Vector7 TrimSolver::search_start(const Problem& problem) {
   const TrimRequest& request = problem.request;
   Vector7 y = Vector7::Zero();
-  // From high throttle down: thrust grows faster than linearly, and below a windmilling propeller
-  // there may be no slope to follow.
-  const double throttle = problem.throttle.value_or(0.9 * aircraft_.throttle_max());
+  // From high throttle down: thrust grows faster than linearly with the throttle, and below a
+  // windmilling propeller there may be no slope to follow.
+  const double throttle = problem.throttle.value_or(kSearchThrottle * aircraft_.throttle_max());
   y(kFree) = problem.throttle ? request.climb_angle_rad : throttle;
   y(kRoll) = request.bank_rad;
-  // The first angle of attack that carries the weight, or the one that comes next to it.
+  // The first angle of attack whose lift carries the weight, or else that of the largest lift.
   const double wanted_N = aircraft_.flight_model->mass_kg() * aircraft_.gravity_mps2 *
                           std::cos(request.climb_angle_rad) / std::cos(request.bank_rad);
-  double most_N = -1.0;
+  double max_N = -1.0;
   for (double alpha = -0.25 * kSearchAlpha_rad; alpha < kSearchAlpha_rad;
        alpha += kSearchStep_rad) {
     const double lift_N = lift_of(equations_.load(velocity_at(request.airspeed_mps, alpha),
                                                   Eigen::Vector3d::Zero(), {throttle, 0.0, 0.0}),
                                   alpha);
-    if (lift_N <= most_N) continue;
-    most_N = lift_N;
+    if (lift_N <= max_N) continue;
+    max_N = lift_N;
     y(kAlpha) = alpha;
     if (lift_N >= wanted_N) break;
   }
@@ -121,6 +144,7 @@ TrimSolver::Vector7 TrimSolver::search_start(const Problem& problem) {
   return y;
 }
 
+/// Beyond the stall the lift falls with the angle of attack.
 bool TrimSolver::is_stalled(const Trim& trim) {
   const auto lift = [&](double alpha) {
     return lift_of(equations_.load(velocity_at(trim.request.airspeed_mps, alpha),
@@ -141,6 +165,7 @@ std::optional<Trim> TrimSolver::solve_problem(const Problem& problem, const Trim
   int iterations = 0;
   while (iterations < kMaxIterations && !(left.cwiseAbs().maxCoeff() < kExact)) {
     ++iterations;
+    // slope = d left / d y by central differences, then Newton's step.
     Eigen::Matrix<double, 7, 7> slope;
     for (int i = 0; i < 7; ++i) {
       const Vector7 step = kStep * Vector7::Unit(i);
@@ -150,10 +175,10 @@ std::optional<Trim> TrimSolver::solve_problem(const Problem& problem, const Trim
     if (!step.allFinite()) return std::nullopt;
     const double longest = step.cwiseAbs().maxCoeff();
     if (longest > kLongestStep) step *= kLongestStep / longest;
-    // Shorter steps until one helps. The last digits come when none does any more.
+    // Shorter steps until one reduces |left|. None does once only rounding is left.
     double share = 1.0;
     Vector7 next = y + step, next_left = residual(problem, next);
-    while (!(next_left.norm() < left.norm()) && share > 1e-3) {
+    while (!(next_left.norm() < left.norm()) && share > kShortestShare) {
       share *= 0.5;
       next = y + share * step;
       next_left = residual(problem, next);
@@ -198,7 +223,7 @@ TrimSolver::Lift TrimSolver::largest_lift(double airspeed_mps, double climb_angl
       const AirLoad at = load();
       return at.force_B.x() * std::cos(alpha) + at.force_B.z() * std::sin(alpha) - weight_N;
     };
-    // Elevator without pitching moment and throttle without acceleration, in turns.
+    // Alternately the elevator without pitching moment and the throttle without acceleration.
     bool is_balanced = true;
     for (int i = 0; i < kBalanceRounds && is_balanced; ++i) {
       is_balanced = bisect(controls.elevator_rad, aircraft_.elevon_min_rad(),

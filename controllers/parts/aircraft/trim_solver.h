@@ -1,5 +1,5 @@
 #pragma once
-/// Newton's method for steady flight, whatever the actuators can do; flight_trim.h asks that too.
+/// Newton's method for steady flight, without actuator limits (flight_trim.h checks those).
 ///
 /// Unknowns: angle of attack, side slip, roll, pitch, elevator, aileron, and either the throttle
 /// (climb angle given) or the climb angle (throttle given). Equations: no acceleration, no angular
@@ -13,23 +13,23 @@
 
 namespace vinerow::controllers {
 
-/// What the equations of flight begin with at a trim.
+/// State of the equations of flight at a trim.
 AirState air_state_of(const Trim& trim);
 
 class TrimSolver {
  public:
   explicit TrimSolver(const Aircraft& aircraft) : aircraft_(aircraft), equations_(aircraft) {}
 
-  /// @param near  a neighbour to start from; without one the start is searched
-  /// @returns nothing where Newton's method ends elsewhere than in steady flight, or beyond the
-  /// stall (where more angle of attack gives less lift)
+  /// @param near  a neighbouring trim to start from; null: the start is searched
+  /// @returns nullopt if Newton's method does not converge to steady flight, or converges beyond
+  /// the stall (where more angle of attack gives less lift)
   std::optional<Trim> solve(const TrimRequest& request, const Trim* near = nullptr);
-  /// The same with the throttle given; the request's climb angle is where the search starts.
+  /// The same with the throttle given; the search starts at the request's climb angle.
   std::optional<Trim> solve_at_throttle(const TrimRequest& request, double throttle,
                                         const Trim* near = nullptr);
 
   /// Largest lift (across the path, with the thrust's share) in straight flight at constant speed,
-  /// as far as elevons and throttle hold that; 0 where the elevons balance it nowhere.
+  /// as far as elevons and throttle maintain it; 0 if the elevons balance it nowhere.
   struct Lift {
     double lift_N = 0.0;
     double alpha_rad = 0.0;
@@ -38,7 +38,7 @@ class TrimSolver {
 
  private:
   using Vector7 = Eigen::Matrix<double, 7, 1>;
-  /// The seventh unknown where the climb angle is given; else the throttle that is.
+  /// `throttle` is empty if the climb angle is given and the throttle is the seventh unknown.
   struct Problem {
     TrimRequest request;
     std::optional<double> throttle;

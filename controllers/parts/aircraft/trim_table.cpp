@@ -13,11 +13,11 @@
 namespace vinerow::controllers {
 namespace {
 
-/// Spacing of the table, at most. Between its points the interpolated trim leaves less than
+/// Largest spacing of the table. Between its points the interpolated trim leaves less than
 /// 0.005 m/s2 or rad/s2 (trim_table_test.cpp).
 constexpr double kClimbStep_rad = rad_from_deg(2.0);
 constexpr double kBankStep_rad = rad_from_deg(2.5);
-constexpr double kLeastBankStep_rad = rad_from_deg(0.01);
+constexpr double kMinBankStep_rad = rad_from_deg(0.01);
 
 TrimPoint point_of(const Trim& trim) {
   return {trim.controls, trim.u_mps,   trim.v_mps,     trim.w_mps,   trim.p_radps,
@@ -40,7 +40,7 @@ TrimPoint trim_between(const TrimPoint& a, const TrimPoint& b, double s) {
           mix(a.roll_rad, b.roll_rad)};
 }
 
-/// The steepest and the flattest flight of one bank, by the ends of the throttle.
+/// The steepest and the flattest flight of one bank, at the ends of the throttle.
 struct ClimbRange {
   Trim least, most;
 };
@@ -60,7 +60,7 @@ class TableMaker {
     return ClimbRange{*least, *most};
   }
 
-  /// @param neighbour  the trim found last, for the start; set to the one found
+  /// @param neighbour  the last trim, as the start of the search; set to the result
   TrimPoint at(const ClimbRange& range, double climb_rad, double bank_rad,
                std::optional<Trim>& neighbour) {
     if (climb_rad <= range.least.request.climb_angle_rad) return point_of(range.least);
@@ -70,7 +70,7 @@ class TableMaker {
     if (neighbour) trim = in_range(solver_.solve(request, &*neighbour));
     if (!trim) trim = in_range(solver_.solve(request));
     neighbour = trim;
-    // A propeller that only windmills below some throttle leaves a last stretch to the glide.
+    // Below some throttle a propeller only windmills: the last interval is the glide.
     return point_of(trim ? *trim : range.least);
   }
 
@@ -106,13 +106,13 @@ TrimTable::TrimTable(const Aircraft& aircraft, double airspeed_mps, double max_b
   }
   climb_min_rad_ = wings_level->least.request.climb_angle_rad;
   climb_max_rad_ = wings_level->most.request.climb_angle_rad;
-  // Banks so steep that the wings do not carry are left out.
+  // Banks too steep for the lift of the wings are left out.
   const auto holds = [&](double bank_rad) {
     return maker.climbs_at(bank_rad) && maker.climbs_at(-bank_rad);
   };
   if (!holds(bank_max_rad_)) {
     double good = 0.0, bad = bank_max_rad_;
-    while (bad - good > kLeastBankStep_rad) {
+    while (bad - good > kMinBankStep_rad) {
       const double middle = 0.5 * (good + bad);
       (holds(middle) ? good : bad) = middle;
     }
@@ -153,7 +153,7 @@ TrimPoint TrimTable::at(double climb_angle_rad, double bank_rad) const {
   return trim_between(along_climb(j), along_climb(j + 1), t);
 }
 
-TrimTables::TrimTables(const Aircraft& aircraft, double least_mps, double most_mps,
+TrimTables::TrimTables(const Aircraft& aircraft, double min_mps, double max_mps,
                        double max_bank_rad, const std::string& who) {
   const double cruise_mps = aircraft.cruise_speed_mps;
   const auto add = [&](int step) {
@@ -161,7 +161,7 @@ TrimTables::TrimTables(const Aircraft& aircraft, double least_mps, double most_m
   };
   const auto flies = [&](int step) {
     const double speed_mps = cruise_mps + step * kSpeedStep_mps;
-    return speed_mps >= least_mps && speed_mps <= most_mps &&
+    return speed_mps >= min_mps && speed_mps <= max_mps &&
            TableMaker(aircraft, speed_mps).climbs_at(0.0).has_value() &&
            find_trim(aircraft, {speed_mps, 0.0, 0.0}).ok();
   };
@@ -174,11 +174,11 @@ TrimTables::TrimTables(const Aircraft& aircraft, double least_mps, double most_m
 
 double TrimTables::within(double airspeed_mps) const {
   if (!(airspeed_mps > 0.0)) return cruise().airspeed_mps();
-  return std::clamp(airspeed_mps, least_mps(), most_mps());
+  return std::clamp(airspeed_mps, min_mps(), max_mps());
 }
 
 TrimPoint TrimTables::at(double airspeed_mps, double climb_angle_rad, double bank_rad) const {
-  // Counted from the cruise speed, so that there it meets its table without rounding.
+  // Counted from the cruise speed, so that there it equals its table without rounding.
   const double x = (within(airspeed_mps) - cruise().airspeed_mps()) / kSpeedStep_mps;
   const double floor_x = std::floor(x);
   const auto last = static_cast<std::ptrdiff_t>(tables_.size()) - 1;

@@ -1,5 +1,5 @@
 #pragma once
-/// Trims over airspeed, climb angle and bank, worked out once and interpolated in a step.
+/// Table of trims over airspeed, climb angle and bank, computed once and interpolated in a step.
 
 #include <string>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace vinerow::controllers {
 
-/// A trim between the table's points.
+/// Trim between the points of the table.
 struct TrimPoint {
   AircraftControls controls;
   double u_mps = 0.0, v_mps = 0.0, w_mps = 0.0;
@@ -18,14 +18,14 @@ struct TrimPoint {
 
 class TrimTable {
  public:
-  /// Climb angles from what the least throttle gives to what full throttle climbs, banks up to
-  /// `max_bank_rad` either side, or as far as both hold. Where a bank leaves less room for climbing
-  /// than level wings do, the table holds the trim next to it, at the end of the throttle.
+  /// Climb angles range from that of the least throttle to that of full throttle, banks up to
+  /// `max_bank_rad` to either side, or as far as trims exist. If a bank allows a smaller range of
+  /// climb than level wings do, the table holds the nearest trim, at the end of the throttle.
   /// @throws ConfigError "<who>: <why there is no trim in level flight>"
   TrimTable(const Aircraft& aircraft, double airspeed_mps, double max_bank_rad,
             const std::string& who);
 
-  /// Bilinear; climb angle and bank are limited to the table's, and taken as 0 where not finite.
+  /// Bilinear. Climb angle and bank are clamped to the table, and taken as 0 if not finite.
   /// No heap.
   TrimPoint at(double climb_angle_rad, double bank_rad) const;
 
@@ -43,24 +43,24 @@ class TrimTable {
   Trim level_;
 };
 
-/// Tables at several airspeeds about the cruise speed, kSpeedStep_mps apart.
+/// Trim tables at several airspeeds about the cruise speed, kSpeedStep_mps apart.
 class TrimTables {
  public:
   static constexpr double kSpeedStep_mps = 1.0;
 
-  /// Airspeeds that level flight is possible at, from the cruise speed as far as the least and the
-  /// most. @throws ConfigError as TrimTable does at the cruise speed
-  TrimTables(const Aircraft& aircraft, double least_mps, double most_mps, double max_bank_rad,
+  /// Airspeeds at which level flight is possible, from the cruise speed down to `min_mps` and up to
+  /// `max_mps`. @throws ConfigError as TrimTable does at the cruise speed
+  TrimTables(const Aircraft& aircraft, double min_mps, double max_mps, double max_bank_rad,
              const std::string& who);
 
-  /// Linear in the airspeed, which is limited to that of the tables; exactly the table's trim at
-  /// the cruise speed. No heap.
+  /// Linear in the airspeed, which is clamped to the tables; exactly the table's trim at the cruise
+  /// speed. No heap.
   TrimPoint at(double airspeed_mps, double climb_angle_rad, double bank_rad) const;
-  /// The airspeed as far as there are trims; the cruise speed where it is not told (0, NaN).
+  /// The airspeed clamped to the tables; the cruise speed if it is not given (0, NaN).
   double within(double airspeed_mps) const;
 
-  double least_mps() const { return tables_.front().airspeed_mps(); }
-  double most_mps() const { return tables_.back().airspeed_mps(); }
+  double min_mps() const { return tables_.front().airspeed_mps(); }
+  double max_mps() const { return tables_.back().airspeed_mps(); }
   /// At the cruise speed.
   const TrimTable& cruise() const { return tables_[cruise_]; }
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Mean wind from what a vehicle on wings measures: its velocity over ground less its velocity
-/// through the air, low-passed. In the first seconds the mean of what was seen so far.
+/// Mean wind from the measurements of a fixed-wing vehicle: its velocity over ground minus its
+/// velocity through the air, low-passed. In the first seconds it is the mean of all measurements.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -17,7 +17,7 @@ class WindEstimate {
   /// @param time_s  time constant, > 0
   explicit WindEstimate(double time_s) : time_s_(time_s) {}
 
-  /// Takes a measurement in; one that is not finite is left out. No heap.
+  /// Adds a measurement; one that is not finite is ignored. No heap.
   void add(const Odometry& estimate, const AirData& air, double dt_s) {
     const Eigen::Vector3d wind_W = estimate.X_WB.q * (estimate.v_WB_B - air.v_air_B);
     if (!wind_W.allFinite() || dt_s <= 0.0) return;
@@ -26,7 +26,7 @@ class WindEstimate {
     wind_W_ += share * (wind_W.head<2>() - wind_W_);
   }
 
-  /// In plan view: a mean of the vertical wind would be that of the errors of its sensor.
+  /// In plan view: a mean of the vertical wind would be the mean error of its sensor.
   const Eigen::Vector2d& wind_W() const { return wind_W_; }
 
  private:

@@ -5,11 +5,11 @@
 
 namespace vinerow::controllers {
 
-/// What flying along a course takes.
+/// Heading and ground speed that follow a course.
 struct Crab {
-  double angle_rad = 0.0;         ///< heading less course, positive to the left, |.| <= pi/2
+  double angle_rad = 0.0;         ///< heading minus course, positive to the left, |.| <= pi/2
   double ground_speed_mps = 0.0;  ///< along the course; negative: blown back
-  /// False where the wind across the course is stronger than the airspeed, or blows back.
+  /// False if the wind across the course exceeds the airspeed, or if the vehicle is blown back.
   bool is_possible = true;
 };
 

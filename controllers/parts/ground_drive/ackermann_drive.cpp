@@ -17,9 +17,9 @@ AckermannDrive::AckermannDrive(const VehicleDescription& description, const std:
   wheel_base_m_ = description.need_positive(wheeled.wheel_base_m, "wheel_base_m", who);
   wheel_radius_m_ = description.need_positive(wheeled.wheel_radius_m, "wheel_radius_m", who);
   const double half_m = 0.5 * description.need_positive(wheeled.track_m, "track_m", who);
-  const double most_rad =
+  const double max_rad =
       description.need_positive(ackermann.max_axle_steer_rad, "max_axle_steer_rad", who);
-  most_curvature_per_m_ = std::tan(most_rad) / wheel_base_m_;
+  max_curvature_per_m_ = std::tan(max_rad) / wheel_base_m_;
 
   const std::map<std::string, Eigen::Vector2d> places = {
       {"wheel_fl_speed_radps", {wheel_base_m_, half_m}},
@@ -59,13 +59,13 @@ NamedValues AckermannDrive::make_actuators() const {
 double AckermannDrive::rim_per_speed(const Actuator& wheel, double curvature_per_m) {
   const double along = 1.0 - curvature_per_m * wheel.p_R.y();
   const double across = curvature_per_m * wheel.p_R.x();
-  // In a turn about a point between the rear wheels the inner one rolls backwards.
+  // In a turn about a point between the rear wheels the inner wheel rolls backwards.
   return across == 0.0 ? along : std::copysign(std::hypot(along, across), along);
 }
 
 double AckermannDrive::curvature_of(const VelocityCommand& command) const {
-  return std::clamp(command.yaw_rate_radps / command.v_mps, -most_curvature_per_m_,
-                    most_curvature_per_m_);
+  return std::clamp(command.yaw_rate_radps / command.v_mps, -max_curvature_per_m_,
+                    max_curvature_per_m_);
 }
 
 void AckermannDrive::mix(const VelocityCommand& command, NamedValues& actuators) const {
@@ -89,8 +89,8 @@ VelocityCommand AckermannDrive::limit(const VelocityCommand& command) const {
   for (const Actuator& actuator : actuators_) {
     if (!actuator.is_wheel) continue;
     const double per_speed = std::abs(rim_per_speed(actuator, curvature_per_m));
-    const double most_mps = actuator.max_radps * wheel_radius_m_;
-    if (std::abs(v_mps) * per_speed > most_mps) v_mps = std::copysign(most_mps / per_speed, v_mps);
+    const double max_mps = actuator.max_radps * wheel_radius_m_;
+    if (std::abs(v_mps) * per_speed > max_mps) v_mps = std::copysign(max_mps / per_speed, v_mps);
   }
   return {v_mps, v_mps * curvature_per_m};
 }

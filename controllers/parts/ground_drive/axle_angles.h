@@ -1,5 +1,5 @@
 #pragma once
-/// How a vehicle with two steered axles rolls, whatever its speed.
+/// Kinematics of a vehicle with two steered axles, independent of its speed.
 ///
 /// Paper A (Mammarella et al. 2022), section 4.1 as corrected: with axle ("bicycle") angles d_F,
 /// d_R, positive to the left, the front axle at x = +a and the rear axle at x = -b,
@@ -11,7 +11,7 @@
 
 namespace vinerow::controllers {
 
-/// Angles of the middles of both axles, rad, each within (-pi/2, pi/2).
+/// Angles in the middle of both axles, rad, each within (-pi/2, pi/2).
 struct AxleAngles {
   double front_rad = 0.0;
   double rear_rad = 0.0;

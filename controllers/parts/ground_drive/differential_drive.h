@@ -1,9 +1,9 @@
 #pragma once
 /// Wheel speeds of a vehicle steered by speed difference.
 ///
-/// Source: paper B, eq. 1-2. The paper prints l/r for the yaw term with l the track width; the
-/// usual model, in which a yaw rate given comes out as the yaw rate driven, has half the track
-/// width and is the one used: omega_r = (v + w l/2) / r, omega_l = (v - w l/2) / r.
+/// Source: paper B, eq. 1-2. The paper prints l/r for the yaw term with l the track width. The
+/// usual model, used here, has half the track width, and a commanded yaw rate equals the driven
+/// one: omega_r = (v + w l/2) / r, omega_l = (v - w l/2) / r.
 
 #include <vector>
 
@@ -14,11 +14,11 @@ namespace vinerow::controllers {
 class DifferentialDrive final : public TwistDrive {
  public:
   DifferentialDrive() = default;
-  /// Finds the wheels by their actuators' names, wheel_<place>_speed_radps, where the place is
-  /// left, right, l, r, or ends so (fl, rl, fr, rr, front_left, ...).
-  /// @throws ConfigError if an actuator is not such a wheel, if a side has none, or if the
+  /// Finds the wheels by their actuators' names, wheel_<place>_speed_radps. The place is left,
+  /// right, l, r, or ends so (fl, rl, fr, rr, front_left, ...).
+  /// @throws ConfigError if an actuator is not such a wheel, if a side lacks wheels, or if the
   ///         description lacks track_m or wheel_radius_m
-  /// @param who  part that asks, e.g. "rover.controller (pure_pursuit)"
+  /// @param who  part name in errors, e.g. "rover.controller (pure_pursuit)"
   DifferentialDrive(const VehicleDescription& description, const std::string& who);
 
   NamedValues make_actuators() const override;
@@ -40,7 +40,7 @@ class DifferentialDrive final : public TwistDrive {
   double wheel_radius_m_ = 0.2;
 };
 
-/// +1 for a right wheel's actuator name, -1 for a left one, 0 if the name is neither.
+/// +1 for a right wheel's actuator name, -1 for a left one, 0 otherwise.
 double side_of_wheel(const std::string& actuator);
 
 }  // namespace vinerow::controllers

@@ -1,5 +1,5 @@
 #pragma once
-/// What a path follower reads and writes that drives its vehicle by speed and yaw rate.
+/// Signals of a path follower that drives its vehicle by speed and yaw rate.
 
 #include <memory>
 
@@ -11,8 +11,8 @@
 
 namespace vinerow::controllers {
 
-/// The followers' common ports: reads "estimate", "plan" and, where somebody writes it,
-/// "authority"; writes "actuators", "command", "follower".
+/// The followers' common ports. Reads "estimate", "plan" and, if it is written, "authority"; writes
+/// "actuators", "command", "follower".
 class DrivePorts {
  public:
   /// @throws ConfigError as make_twist_drive()
@@ -20,7 +20,7 @@ class DrivePorts {
 
   void connect(Ports& ports);
 
-  /// For people. Allocates.
+  /// Reports an event. Allocates.
   void tell(Time now, Event::Level level, const std::string& text) {
     event_.write(now, {level, part_, text});
   }
@@ -28,20 +28,20 @@ class DrivePorts {
   /// True once per new plan.
   bool has_new_plan() { return plan_.is_newer_than(seen_plan_); }
   const PlannedPath& plan() const { return plan_.value(); }
-  /// Why the vehicle cannot drive the plan: a corner that it would have to turn on the spot. Empty
-  /// where it can.
+  /// Why the vehicle cannot drive the plan: a corner that requires a turn on the spot. Empty if it
+  /// can.
   std::string find_fault_in_plan() const;
   bool has_estimate() const { return estimate_.has_value(); }
   const Odometry& estimate() const { return estimate_.value(); }
   Pose2 pose() const;
-  /// Distance along the plan at which to stand still; +infinity: none.
+  /// Distance along the plan at which to stop; +infinity: none.
   double stop_at_m() const { return read_stop_at_m(authority_); }
 
   /// Writes wheel speeds, command and follower state. No heap.
   void write(Time now, const VelocityCommand& command, const FollowerState& state) {
     write(now, command, command, state);
   }
-  /// The same with other wheel speeds than the command's (slip made up for).
+  /// The same with wheel speeds that differ from the command's (compensated slip).
   void write(Time now, const VelocityCommand& command, const VelocityCommand& wheels,
              const FollowerState& state);
 

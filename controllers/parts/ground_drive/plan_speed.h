@@ -1,5 +1,5 @@
 #pragma once
-/// What a plan wants faster than its follower goes: told, because it is driven slower than asked.
+/// Message for a plan that wants a higher speed than its follower drives.
 
 #include <fmt/format.h>
 
@@ -10,14 +10,15 @@
 
 namespace vinerow::controllers {
 
-/// "the plan wants up to 5 m/s, goes 1.94 m/s at most (speed_mps)"; empty where it wants no more.
+/// "the plan wants up to 5 m/s, the limit is 1.94 m/s (speed_mps)"; empty if it does not.
 /// @param key  of the follower's own limit
-inline std::string tell_plan_too_fast(const PlannedPath& plan, double own_mps, const char* key) {
-  double most_mps = 0.0;
-  for (const PathPoint& point : plan.points) most_mps = std::max(most_mps, point.speed_mps);
+inline std::string describe_too_fast_plan(const PlannedPath& plan, double own_mps,
+                                          const char* key) {
+  double max_mps = 0.0;
+  for (const PathPoint& point : plan.points) max_mps = std::max(max_mps, point.speed_mps);
   constexpr double kRounding = 1e-9;
-  if (most_mps <= own_mps * (1.0 + kRounding)) return "";
-  return fmt::format("the plan wants up to {:.3g} m/s, goes {:.3g} m/s at most ({})", most_mps,
+  if (max_mps <= own_mps * (1.0 + kRounding)) return "";
+  return fmt::format("the plan wants up to {:.3g} m/s, the limit is {:.3g} m/s ({})", max_mps,
                      own_mps, key);
 }
 

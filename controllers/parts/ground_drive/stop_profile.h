@@ -1,12 +1,12 @@
 #pragma once
-/// Coming to stand at a place along a path, and standing there: what a movement authority asks of
-/// ground vehicles.
+/// Speed profile of a ground vehicle that stops at a place along its path and stays there, as a
+/// movement authority demands.
 ///
-/// The speed from which a vehicle stands after `left` metres if it begins to brake `reaction_s`
-/// late: v = sqrt((a t)^2 + 2 a left) - a t, an even braking that ends in an exponential approach
-/// with time constant t; so wheels and estimates that lag do not carry it beyond. It aims a little
-/// short of the place, and once it stands it stays until the place has moved on by more than what
-/// an estimate jumps: it does not creep after the noise.
+/// The speed from which a vehicle stops within `left` metres if it begins to brake `reaction_s`
+/// late is v = sqrt((a t)^2 + 2 a left) - a t: constant braking that ends in an exponential
+/// approach with time constant t. So lags of wheels and estimates do not carry the vehicle beyond.
+/// The profile aims slightly short of the place. A stopped vehicle stays until the place has moved
+/// on by more than the noise of an estimate, so that it does not creep.
 
 #include <algorithm>
 #include <cmath>
@@ -19,9 +19,9 @@ namespace vinerow::controllers {
 
 class StopProfile {
  public:
-  static constexpr double kShort_m = 0.1;    ///< aims so far before the place
-  static constexpr double kThere_m = 0.02;   ///< nearer to where it aims is there
-  static constexpr double kResume_m = 0.15;  ///< farther from it is on the way again
+  static constexpr double kShort_m = 0.1;    ///< distance of the aim before the place
+  static constexpr double kThere_m = 0.02;   ///< nearer to the aim than this: stop
+  static constexpr double kResume_m = 0.15;  ///< farther from the aim than this: drive again
   static constexpr double kReaction_s = 0.3;
 
   /// @param deceleration_mps2  > 0
@@ -29,10 +29,10 @@ class StopProfile {
 
   /// @param stop_at_m  along the path; +infinity: none
   void set_place(double stop_at_m) { stop_at_m_ = stop_at_m; }
-  /// Another path: it does not stand any more.
+  /// Another path: the vehicle is no longer held.
   void reset() { is_holding_ = false; }
 
-  /// Once per cycle. @returns the largest speed forwards, m/s; 0: stand; +infinity without a place
+  /// Once per cycle. @returns the largest forward speed, m/s; 0: stop; +infinity without a place
   double update(double distance_m) {
     left_m_ = stop_at_m_ - kShort_m - distance_m;
     is_holding_ = left_m_ <= (is_holding_ ? kResume_m : kThere_m);
@@ -43,7 +43,7 @@ class StopProfile {
 
   /// As of the last update().
   bool is_holding() const { return is_holding_; }
-  /// Way from there to where it is to stand, m; not negative.
+  /// Distance to the aim, m; not negative.
   double left_m() const { return std::max(left_m_, 0.0); }
 
  private:
@@ -53,7 +53,8 @@ class StopProfile {
   bool is_holding_ = false;
 };
 
-/// Where the optional signal "authority" lets a vehicle go to; +infinity where nobody writes it.
+/// End of a vehicle's movement authority from the optional signal "authority"; +infinity if the
+/// signal is not written.
 inline double read_stop_at_m(const SignalReader<MovementAuthority>& authority) {
   return authority.has_value() ? authority.value().stop_at_m
                                : std::numeric_limits<double>::infinity();

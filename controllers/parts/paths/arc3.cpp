@@ -15,10 +15,10 @@ Result<Arc3> make_arc3(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
   const double curvature = product > 0.0 ? 2.0 * cross(ab, ac) / product : 0.0;
   if (product <= 0.0) return Failure{"two of the three points of an arc coincide"};
   if (std::abs(curvature) * longest < 1e-6) {
-    return Failure{"the three points of an arc lie on a line"};
+    return Failure{"the three points of an arc are on a line"};
   }
-  // Inscribed angles: seen from a third point of the circle a chord fills half the angle that its
-  // arc turns. Each of the two arcs is below a full turn, so their sum is right beyond 180 deg too.
+  // Inscribed angles: a chord seen from a third point of the circle spans half the angle of its
+  // arc. Each of the two arcs is below a full turn, so their sum is right beyond 180 deg too.
   const auto sweep_seen_from = [](const Eigen::Vector2d& to_start, const Eigen::Vector2d& to_end) {
     return 2.0 * std::atan2(std::abs(cross(to_start, to_end)), to_start.dot(to_end));
   };

@@ -1,5 +1,5 @@
 #pragma once
-/// The arc through three points, as used for the paper's hairpins (paper B, section 2.3).
+/// Arc through three points, as in the paper's hairpins (paper B, section 2.3).
 
 #include "controllers/parts/paths/pose2.h"
 #include "engine/core/result.h"
@@ -14,8 +14,7 @@ struct Arc3 {
 };
 
 /// @returns the arc from `a` through `b` to `c`, or a failure if two points coincide or all three
-/// lie
-///          on a line (radius above a million times the chord)
+/// are on a line (radius above a million times the chord)
 Result<Arc3> make_arc3(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
                        const Eigen::Vector2d& c);
 

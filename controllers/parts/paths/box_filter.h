@@ -1,6 +1,5 @@
 #pragma once
-/// Smoothing of evenly spaced samples by moving averages. Symmetrical, so straight lines stay as
-/// they are.
+/// Smoothing of evenly spaced samples by moving averages. It is symmetric and keeps straight lines.
 
 #include <algorithm>
 #include <cmath>
@@ -8,18 +7,18 @@
 
 namespace vinerow::controllers {
 
-/// What lies before the first and after the last sample.
+/// Values assumed before the first and after the last sample.
 enum class Beyond {
-  kTurnedAbout,  ///< the samples turned by half a turn about the end: the end stays where it is
+  kTurnedAbout,  ///< the samples rotated by half a turn about the end, which keeps the end in place
   kConstant      ///< the end's value
 };
 
-/// Samples to either side of a moving average about `width_m` wide.
+/// Number of samples on either side of a moving average about `width_m` wide.
 inline int calc_half_window(double width_m, double step_m) {
   return std::max(0, static_cast<int>(std::lround(0.5 * width_m / step_m)));
 }
 
-/// Moving average over `half` steps to either side, the outermost samples by half.
+/// Moving average over `half` steps to either side; the outermost samples have half weight.
 /// @param half  >= 0; 0: the samples themselves
 template <class T>
 std::vector<T> smooth_box(const std::vector<T>& samples, int half, Beyond beyond) {
@@ -42,7 +41,7 @@ std::vector<T> smooth_box(const std::vector<T>& samples, int half, Beyond beyond
   return smooth;
 }
 
-/// Largest of the 2 half + 1 samples around each.
+/// Largest of the 2 half + 1 samples around each sample.
 inline std::vector<double> dilate(const std::vector<double>& samples, int half) {
   const int last = static_cast<int>(samples.size()) - 1;
   std::vector<double> largest;

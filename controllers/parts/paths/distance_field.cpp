@@ -45,8 +45,8 @@ class LowerEnvelope {
   }
 
  private:
-  std::vector<int> parabola_;  // place of each parabola of the envelope
-  std::vector<double> begin_;  // where it takes over from the one before
+  std::vector<int> parabola_;  // position of each parabola of the envelope
+  std::vector<double> begin_;  // start of its part of the envelope
 };
 
 }  // namespace

@@ -1,10 +1,10 @@
 #pragma once
-/// How far every point of an occupancy grid is from the nearest occupied cell.
+/// Distance of every point of an occupancy grid from the nearest occupied cell.
 ///
 /// Exact Euclidean distance transform in two passes of lower envelopes of parabolas (Felzenszwalb,
 /// Huttenlocher, "Distance Transforms of Sampled Functions", Theory of Computing 8, 2012): linear
-/// in the number of cells. Values are distances to the edge of what is taken: half a cell less than
-/// between cell centres.
+/// in the number of cells. Values are distances to the edge of occupied cells: half a cell less
+/// than between cell centres.
 
 #include <Eigen/Core>
 #include <vector>
@@ -15,7 +15,7 @@ namespace vinerow::controllers {
 
 class DistanceField {
  public:
-  /// An empty field: everything is infinitely far.
+  /// An empty field: infinite distance everywhere.
   DistanceField() = default;
   /// @param grid  copied from; an empty grid gives an empty field
   explicit DistanceField(const OccupancyGrid& grid);
@@ -24,12 +24,12 @@ class DistanceField {
   double cell_m() const { return cell_m_; }
   /// Lower left corner of the grid.
   const Eigen::Vector2d& corner_W() const { return corner_W_; }
-  /// Extents along x and y; zero where empty.
+  /// Extents along x and y; zero if empty.
   Eigen::Vector2d size_m() const { return cell_m_ * Eigen::Vector2d(columns_, rows_); }
-  /// Distance at a point, m, bilinear between cell centres, >= 0. Outside the grid 0: what nobody
-  /// mapped counts as taken. An empty field gives infinity. No heap; about 10 ns.
+  /// Distance at a point, m, bilinear between cell centres, >= 0. Outside the grid it is 0:
+  /// unmapped ground counts as occupied. An empty field returns infinity. No heap; about 10 ns.
   double at(const Eigen::Vector2d& p_W) const;
-  /// True where the point lies on the grid.
+  /// True if the point is on the grid.
   bool covers(const Eigen::Vector2d& p_W) const;
 
  private:

@@ -6,7 +6,7 @@
 #include "engine/math/angles.h"
 
 // Derivation. With u(phi) the direction of a heading and n(phi) its left normal, a vehicle at p
-// turns left about p + R n and right about p - R n; at heading phi it stands at c - R n(phi) on a
+// turns left about p + R n and right about p - R n. At heading phi it is at c - R n(phi) on a
 // left circle and at c + R n(phi) on a right one. D is the vector from the first to the last
 // circle's centre.
 //   LSL, RSR: the straight piece is D itself: length |D|, heading phi = angle(D).
@@ -70,7 +70,7 @@ DubinsPath calc_with_straight(const Pose2& start, const Pose2& goal, double radi
   DubinsPath none;
   none.word = word;
   double straight = distance;
-  // Equal circles leave the straight piece's heading free; the start's own needs no first turn.
+  // With equal circles the straight piece may have any heading; the start's needs no first turn.
   double heading =
       distance > 1e-12 * radius_m ? std::atan2(centres.y(), centres.x()) : start.yaw_rad;
   if (shape.first != shape.last) {
@@ -99,7 +99,7 @@ DubinsPath calc_three_turns(const Pose2& start, const Pose2& goal, double radius
   for (const double half : {1.0, -1.0}) {
     const Eigen::Vector2d middle_centre =
         first_centre + 0.5 * centres + half * std::sqrt(square) * left_of(along);
-    // Where two circles touch, the heading is square to the line between their centres.
+    // Where two circles touch, the heading is perpendicular to the line between their centres.
     const Eigen::Vector2d out = middle_centre - first_centre, back = middle_centre - last_centre;
     const double heading_1 = std::atan2(out.y(), out.x()) + side * 0.5 * kPi;
     const double heading_2 = std::atan2(back.y(), back.x()) + side * 0.5 * kPi;

@@ -1,10 +1,10 @@
 #pragma once
-/// Shortest paths of a vehicle that drives forward with a least turning radius.
+/// Shortest paths of a vehicle that drives forward with a minimum turning radius.
 ///
 /// Source: Dubins, "On curves of minimal length with a constraint on average curvature...", Am. J.
 /// Math. 79, 1957: the shortest path is one of six words of three pieces, LSL RSR LSR RSL RLR LRL.
-/// Closed form here from the centres of the turning circles (derivation in the source file), valid
-/// for every pair of poses, equal poses and opposite headings included. No heap, cannot fail.
+/// Closed form from the centres of the turning circles (derivation in the source file), valid for
+/// every pair of poses, equal poses and opposite headings included. No heap, cannot fail.
 
 #include <array>
 #include <limits>
@@ -34,12 +34,13 @@ struct DubinsPath {
   }
 };
 
-/// The shortest path of one word; `exists` is false where the word cannot join the poses.
+/// The shortest path of one word; `exists` is false if the word cannot join the poses.
 /// @param radius_m  > 0
 DubinsPath calc_dubins_word(const Pose2& start, const Pose2& goal, double radius_m,
                             DubinsWord word);
 
-/// The shortest of all six; of equals (within 1e-9 of the radius) the first in kDubinsWords.
+/// The shortest of all six; if several are equal (within 1e-9 of the radius), the first in
+/// kDubinsWords.
 DubinsPath calc_dubins(const Pose2& start, const Pose2& goal, double radius_m);
 
 /// Pose after `length_m` of the path, from its start.

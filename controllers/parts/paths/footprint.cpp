@@ -18,28 +18,6 @@ constexpr double kEdgeSpacing_m = 0.25;  // without a grid
 
 }  // namespace
 
-std::vector<Eigen::Vector2d> inset_polygon(const std::vector<Eigen::Vector2d>& outline,
-                                           double inset_m) {
-  // Clip the polygon by each of its own edges, moved inwards (Sutherland and Hodgman).
-  std::vector<Eigen::Vector2d> rest = outline;
-  for (std::size_t i = 0; i < outline.size() && !rest.empty(); ++i) {
-    const Eigen::Vector2d along = outline[(i + 1) % outline.size()] - outline[i];
-    const Eigen::Vector2d inwards = left_of(along).normalized();
-    const Eigen::Vector2d on_line = outline[i] + inset_m * inwards;
-    std::vector<Eigen::Vector2d> clipped;
-    for (std::size_t k = 0; k < rest.size(); ++k) {
-      const Eigen::Vector2d &a = rest[k], &b = rest[(k + 1) % rest.size()];
-      const double da = inwards.dot(a - on_line), db = inwards.dot(b - on_line);
-      if (da >= 0.0) clipped.push_back(a);
-      if ((da > 0.0 && db < 0.0) || (da < 0.0 && db > 0.0)) {
-        clipped.push_back(a + da / (da - db) * (b - a));
-      }
-    }
-    rest = std::move(clipped);
-  }
-  return rest.size() >= 3 ? rest : std::vector<Eigen::Vector2d>{};
-}
-
 Footprint::Footprint(const DistanceField& field, std::vector<Eigen::Vector2d> outline_B,
                      double margin_m)
     : field_(&field), outline_B_(std::move(outline_B)), margin_m_(margin_m) {
@@ -59,13 +37,13 @@ Footprint::Footprint(const DistanceField& field, std::vector<Eigen::Vector2d> ou
   }
   edge_reach_m_ = 0.5 * spacing_m;
   for (const Eigen::Vector2d& p : outline_B_) farthest_m_ = std::max(farthest_m_, p.norm());
-  // What lies wholly inside the outline touches none of its edges. Points inside see it: discs
-  // around them, as large as the outline has room for, cover the inside but for a thin rim. Rings
-  // of discs that touch the edges, each ring's three times as large as those of the one before, and
-  // one more along the middle.
+  // An object wholly inside the outline touches none of its edges, so the inside needs samples of
+  // its own: discs inside the outline that cover all but a thin rim. They form rings that touch the
+  // edges, the discs of each ring three times as large as those of the ring before, and one more
+  // ring along the middle.
   double deepest_m = 0.0;
   for (double step_m = box.sizes().norm(); step_m > 1e-6; step_m *= 0.5) {
-    if (!inset_polygon(outline_B_, deepest_m + step_m).empty()) deepest_m += step_m;
+    if (!inset(outline_B_, deepest_m + step_m).empty()) deepest_m += step_m;
   }
   constexpr double kSmallestDisc_m = 0.1, kGrowth = 3.0, kMiddle = 0.98;
   for (double depth_m = kSmallestDisc_m; depth_m < kMiddle * deepest_m; depth_m *= kGrowth) {
@@ -75,7 +53,7 @@ Footprint::Footprint(const DistanceField& field, std::vector<Eigen::Vector2d> ou
 }
 
 void Footprint::add_ring(double depth_m) {
-  const std::vector<Eigen::Vector2d> ring = inset_polygon(outline_B_, depth_m);
+  const std::vector<Eigen::Vector2d> ring = inset(outline_B_, depth_m);
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Eigen::Vector2d &a = ring[i], &b = ring[(i + 1) % ring.size()];
     const int parts = std::max(1, static_cast<int>(std::ceil((b - a).norm() / depth_m)));
@@ -88,45 +66,45 @@ double Footprint::clearance_m(const Pose2& pose) const {
   const auto at = [&](const Eigen::Vector2d& p_B) {
     return field_->at(pose.p + p_B.x() * ahead + p_B.y() * left);
   };
-  double least_m = std::numeric_limits<double>::infinity();
-  for (const Eigen::Vector2d& p_B : edge_B_) least_m = std::min(least_m, at(p_B));
-  if (least_m < edge_reach_m_) return 0.0;
+  double min_m = std::numeric_limits<double>::infinity();
+  for (const Eigen::Vector2d& p_B : edge_B_) min_m = std::min(min_m, at(p_B));
+  if (min_m < edge_reach_m_) return 0.0;
   for (const Circle& disc : inside_B_) {
     if (at(disc.centre_B) < disc.radius_m) return 0.0;
   }
-  return least_m;
+  return min_m;
 }
 
 bool Footprint::is_free(const Pose2& pose) const {
   return is_clear(pose, std::max(margin_m_, edge_reach_m_), margin_m_);
 }
 
-bool Footprint::is_clear(const Pose2& pose, double room_m, double far_room_m) const {
+bool Footprint::is_clear(const Pose2& pose, double room_m, double far_clearance_m) const {
   const Eigen::Vector2d ahead = direction(pose.yaw_rad), left = left_of(ahead);
   bool is_far = true;
   for (const Circle& circle : cover_) {
     const double distance_m =
         field_->at(pose.p + circle.centre_B.x() * ahead + circle.centre_B.y() * left);
     if (distance_m <= 0.0) return false;
-    is_far = is_far && distance_m >= circle.radius_m + far_room_m;
+    is_far = is_far && distance_m >= circle.radius_m + far_clearance_m;
   }
   if (is_far) return true;
   return clearance_m(pose) >= room_m;
 }
 
-/// A point of the outline moves by at most (1 + |curvature| r) per metre driven, so what is clear
-/// in the middle by that times half the way is clear all along it.
+/// A point of the outline moves by at most (1 + |curvature| r) per metre driven. So if the
+/// clearance in the middle exceeds that factor times half the length, the whole arc is clear.
 bool Footprint::is_swept_clear(const Pose2& start, double from_m, double to_m,
-                               double curvature_per_m, double least_m) const {
+                               double curvature_per_m, double min_m) const {
   constexpr double kShortest_m = 1e-3;
   const double middle_m = 0.5 * (from_m + to_m), half_m = 0.5 * std::abs(to_m - from_m);
   const Pose2 pose = advance(start, middle_m, middle_m * curvature_per_m);
   const double reach_m = half_m * (1.0 + std::abs(curvature_per_m) * farthest_m_);
-  if (is_clear(pose, least_m + reach_m, least_m + reach_m)) return true;
-  if (!is_clear(pose, least_m, least_m)) return false;
+  if (is_clear(pose, min_m + reach_m, min_m + reach_m)) return true;
+  if (!is_clear(pose, min_m, min_m)) return false;
   if (half_m < kShortest_m) return true;
-  return is_swept_clear(start, from_m, middle_m, curvature_per_m, least_m) &&
-         is_swept_clear(start, middle_m, to_m, curvature_per_m, least_m);
+  return is_swept_clear(start, from_m, middle_m, curvature_per_m, min_m) &&
+         is_swept_clear(start, middle_m, to_m, curvature_per_m, min_m);
 }
 
 bool Footprint::is_free_along(const Pose2& start, double length_m, double curvature_per_m,
@@ -137,10 +115,10 @@ bool Footprint::is_free_along(const Pose2& start, double length_m, double curvat
     if (!is_free(advance(start, s, s * curvature_per_m))) return false;
   }
   constexpr double kNick_m = 0.01;
-  const double least_m = std::max(margin_m_ - kNick_m, edge_reach_m_);
+  const double min_m = std::max(margin_m_ - kNick_m, edge_reach_m_);
   for (int i = 0; i < parts; ++i) {
     if (!is_swept_clear(start, length_m * i / parts, length_m * (i + 1) / parts, curvature_per_m,
-                        least_m)) {
+                        min_m)) {
       return false;
     }
   }
@@ -150,12 +128,12 @@ bool Footprint::is_free_along(const Pose2& start, double length_m, double curvat
 double Footprint::clearance_along_m(const Pose2& start, double length_m, double curvature_per_m,
                                     double step_m) const {
   const int parts = std::max(1, static_cast<int>(std::ceil(std::abs(length_m) / step_m)));
-  double least_m = std::numeric_limits<double>::infinity();
+  double min_m = std::numeric_limits<double>::infinity();
   for (int i = 0; i <= parts; ++i) {
     const double s = length_m * i / parts;
-    least_m = std::min(least_m, clearance_m(advance(start, s, s * curvature_per_m)));
+    min_m = std::min(min_m, clearance_m(advance(start, s, s * curvature_per_m)));
   }
-  return least_m;
+  return min_m;
 }
 
 std::string to_string(const Pose2& pose) {
@@ -163,11 +141,11 @@ std::string to_string(const Pose2& pose) {
                      deg_from_rad(wrap_angle(pose.yaw_rad)));
 }
 
-std::string describe_room(const Pose2& pose, const Footprint& footprint) {
+std::string describe_clearance(const Pose2& pose, const Footprint& footprint) {
   if (!footprint.field().covers(pose.p)) {
-    return to_string(pose) + " lies outside the map's occupancy grid";
+    return to_string(pose) + " is outside the map's occupancy grid";
   }
-  return fmt::format("at {} the footprint has {:.3f} m of room, the margin is {:.3f} m",
+  return fmt::format("at {} the footprint has {:.3f} m of clearance, the margin is {:.3f} m",
                      to_string(pose), footprint.clearance_m(pose), footprint.margin_m());
 }
 

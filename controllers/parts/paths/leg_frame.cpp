@@ -37,8 +37,8 @@ double LegFrame::climb_rad(double along_m) const {
   return along_m < 0.0 || along_m > length_m_ ? 0.0 : std::atan(slope());
 }
 
-double calc_cross_track_tolerance_m(double share_of_leg, double most_m, double least_m) {
-  return std::max(least_m, most_m * (1.0 - share_of_leg));
+double calc_cross_track_tolerance_m(double share_of_leg, double max_m, double min_m) {
+  return std::max(min_m, max_m * (1.0 - share_of_leg));
 }
 
 }  // namespace vinerow::controllers

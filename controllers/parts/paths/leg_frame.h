@@ -1,11 +1,11 @@
 #pragma once
-/// A straight leg between two waypoints, and a vehicle beside it: along track, cross track, ramp.
+/// Straight leg between two waypoints with along-track distance, cross-track error and height ramp.
 ///
 /// Source: paper A, eq. 1-7, in the form of the reference of paper A, section 2: the distance of
 /// eq. 1 with a sign, also on East-West legs, where eq. 2 has no slope; the tolerance of eq. 3 in
 /// metres; the foot point of eq. 4-5 with its cosine and sine; the ramp of eq. 6 over the distance
-/// along the leg, only inside it. Signs are this project's: left of the track is positive (the
-/// paper's aviation signs have right positive).
+/// along the leg, only inside it. Left of the track is positive (right in the paper, which uses
+/// aviation signs).
 
 #include <Eigen/Core>
 
@@ -47,6 +47,6 @@ class LegFrame {
 };
 
 /// Cross-track tolerance of eq. 3 in metres: max(least, most (1 - s/L)).
-double calc_cross_track_tolerance_m(double share_of_leg, double most_m, double least_m);
+double calc_cross_track_tolerance_m(double share_of_leg, double max_m, double min_m);
 
 }  // namespace vinerow::controllers

@@ -22,7 +22,7 @@ std::optional<std::string> lift_to_ground(const SceneQuery* scene, double height
     }
   }
   if (!has_ground || bare == nullptr) return std::nullopt;
-  return fmt::format("path leaves the ground: there is none at ({:.2f}, {:.2f})", bare->p_W.x(),
+  return fmt::format("path leaves the ground: no ground at ({:.2f}, {:.2f})", bare->p_W.x(),
                      bare->p_W.y());
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Puts planned points onto the ground.
+/// Projection of planned points onto the ground.
 
 #include <optional>
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace vinerow::controllers {
 
-/// Higher than any ground within a scenario.
+/// Height above any ground within a scenario.
 inline constexpr double kAboveEverything_m = 1e4;
 
-/// Sets each point's height to the ground below it. Without a scene, or where the scene has no
-/// ground under any point, all points get `height_m`.
-/// @returns nothing, or "path leaves the ground: ..." if only part of the path has ground below
+/// Sets each point's height to the ground below it. Without a scene, or if the scene has no ground
+/// under any point, all points get `height_m`.
+/// @returns nullopt, or "path leaves the ground: ..." if only part of the path has ground below
 std::optional<std::string> lift_to_ground(const SceneQuery* scene, double height_m,
                                           PlannedPath& path);
 

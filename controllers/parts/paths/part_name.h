@@ -1,5 +1,5 @@
 #pragma once
-/// How errors name a controller.
+/// Name of a controller in errors.
 
 #include <string>
 

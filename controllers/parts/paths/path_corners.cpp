@@ -7,7 +7,7 @@
 
 namespace vinerow::controllers {
 
-std::vector<PathCorner> find_corners(const PlannedPath& plan, double least_rad) {
+std::vector<PathCorner> find_corners(const PlannedPath& plan, double min_rad) {
   constexpr double kSamePlace_m = 1e-6;
   std::vector<PathCorner> corners;
   double arrival_rad = 0.0;
@@ -20,7 +20,7 @@ std::vector<PathCorner> find_corners(const PlannedPath& plan, double least_rad) 
     const bool is_bent = from.curvature_per_m != 0.0;
     const double turn_rad =
         has_arrival ? wrap_angle((is_bent ? from.yaw_rad : chord_rad) - arrival_rad) : 0.0;
-    if (std::abs(turn_rad) > least_rad) corners.push_back({static_cast<int>(i), turn_rad});
+    if (std::abs(turn_rad) > min_rad) corners.push_back({static_cast<int>(i), turn_rad});
     arrival_rad = is_bent ? 2.0 * chord_rad - from.yaw_rad : chord_rad;
     has_arrival = true;
   }

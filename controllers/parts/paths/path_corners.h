@@ -7,8 +7,8 @@
 
 namespace vinerow::controllers {
 
-/// Jumps by more than that are turned on the spot by vehicles that can: 35 deg. What is less a
-/// follower drives round by itself, within its lookahead distance.
+/// Vehicles that can turn on the spot do so at larger jumps: 35 deg. A follower drives round
+/// smaller ones within its lookahead distance.
 inline constexpr double kSharpCorner_rad = 0.610865238198015;
 
 struct PathCorner {
@@ -16,9 +16,9 @@ struct PathCorner {
   double turn_rad = 0.0;  ///< of the direction, positive to the left, in (-pi, pi]
 };
 
-/// Corners sharper than `least_rad`, in the path's order. A bent stretch is taken for the arc that
-/// its point tells, however coarse the waypoints: an arc's chord halves its turn, so it leaves with
-/// 2 * (direction of the chord) - (direction at its start).
-std::vector<PathCorner> find_corners(const PlannedPath& plan, double least_rad);
+/// Corners sharper than `min_rad`, in the path's order. A curved stretch counts as the arc of its
+/// point's curvature, however coarse the waypoints: the chord of an arc has half its turn, so it
+/// leaves with 2 * (direction of the chord) - (direction at its start).
+std::vector<PathCorner> find_corners(const PlannedPath& plan, double min_rad);
 
 }  // namespace vinerow::controllers

@@ -10,7 +10,7 @@
 namespace vinerow::controllers {
 namespace {
 constexpr double kShortestChord_m = 1e-6;
-// A chord of more than this share of the diameter does not fit the arc its point claims.
+// A longer chord, as a share of the diameter, does not fit the stated arc.
 constexpr double kLargestChordShare = 0.999;
 }  // namespace
 
@@ -84,7 +84,7 @@ Path::Nearest Path::nearest(const Eigen::Vector2d& p, double from_m, double to_m
   for (int i = segment_at(from_m, hint); i < segment_count(); ++i) {
     const Segment& segment = segments_[i];
     if (segment.start_m > to_m) break;
-    // Where on the segment (straight: projection; arc: angle about the centre)?
+    // Distance along the segment (straight: projection; arc: angle about the centre).
     const Eigen::Vector2d tangent = direction(segment.start.yaw_rad);
     const Eigen::Vector2d offset = p - segment.start.p;
     const double k = segment.curvature_per_m;

@@ -1,9 +1,9 @@
 #pragma once
-/// A planned path as a curve: between two points runs the arc that their curvature tells.
+/// Planned path as a curve: an arc of the stated curvature between each two points.
 ///
 /// The planner's points carry the exact curvature of each stretch, so distance, heading and
 /// lateral error are those of the planned straights and arcs, not of the chords between waypoints.
-/// Built when a plan arrives (allocates); every question after that is without heap.
+/// Built when a plan arrives (allocates); queries use no heap.
 
 #include <vector>
 
@@ -16,7 +16,7 @@ class Path {
  public:
   struct Nearest {
     double distance_m = 0.0;       ///< along the path
-    double lateral_error_m = 0.0;  ///< of the asked point, positive: left of the path
+    double lateral_error_m = 0.0;  ///< of the query point, positive: left of the path
     double yaw_rad = 0.0;          ///< direction of travel at the nearest point
     double curvature_per_m = 0.0;
     int segment = 0;
@@ -31,12 +31,12 @@ class Path {
   int segment_count() const { return static_cast<int>(segments_.size()); }
   const Pose2& goal() const { return goal_; }
 
-  /// Segment that holds a distance, clamped to the path. @param hint  a segment nearby
+  /// Segment that contains a distance, clamped to the path. @param hint  a segment nearby
   int segment_at(double distance_m, int hint = 0) const;
   Pose2 pose_at(double distance_m, int hint = 0) const;
   double curvature_at(double distance_m, int hint = 0) const;
-  /// Heading change from distance a to b (a <= b), the integral of curvature, with the jumps at
-  /// corners left out. Beyond the end the path goes straight on.
+  /// Heading change from distance a to b (a <= b), the integral of curvature without the jumps at
+  /// corners. Beyond the end the path goes straight on.
   double turn_between_rad(double a_m, double b_m, int hint = 0) const;
   /// Wanted speed of the stretch, 0 = the follower's own.
   double speed_at(int segment) const { return segments_[segment].speed_mps; }
@@ -45,7 +45,7 @@ class Path {
     return segments_[segment].start_m + segments_[segment].length_m;
   }
   double curvature_of(int segment) const { return segments_[segment].curvature_per_m; }
-  /// By how much the direction jumps where a segment begins, positive to the left, in (-pi, pi].
+  /// Jump of the direction at the start of a segment, positive to the left, in (-pi, pi].
   double jump_at(int segment) const;
 
   /// Nearest point between two distances along the path. The window keeps a follower from jumping

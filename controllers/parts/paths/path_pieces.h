@@ -1,5 +1,5 @@
 #pragma once
-/// A path as straights and arcs, and its waypoints at a given pitch.
+/// Path of straights and arcs, and its waypoints at a given pitch.
 
 #include <vector>
 
@@ -9,7 +9,7 @@
 namespace vinerow::controllers {
 
 /// A straight or an arc.
-struct PathPiece {
+struct PathSegment {
   Pose2 start;
   double length_m = 0.0;
   double curvature_per_m = 0.0;  ///< positive to the left, 0 = straight
@@ -22,21 +22,21 @@ struct PathPiece {
   }
   Pose2 end() const { return at(length_m); }
 };
-using PathPieces = std::vector<PathPiece>;
+using PathSegments = std::vector<PathSegment>;
 
 /// The straight from `a` to `b`. @pre a != b
-PathPiece make_straight(const Eigen::Vector2d& a, const Eigen::Vector2d& b, PathKind kind,
-                        int alley, double speed_mps);
+PathSegment make_straight(const Eigen::Vector2d& a, const Eigen::Vector2d& b, PathKind kind,
+                          int alley, double speed_mps);
 
-/// Appends the pieces of a Dubins path that have a length.
+/// Appends the segments of a Dubins path that have a length.
 void append_dubins(const Pose2& start, const DubinsPath& dubins, PathKind kind, double speed_mps,
-                   std::vector<PathPiece>& pieces);
+                   std::vector<PathSegment>& pieces);
 
-/// Waypoints: each piece is split into round(length / pitch) equal parts, at least one, so that its
-/// ends are waypoints (paper B: waypoint pitch WPP). Heights are zero. Pieces shorter than a
+/// Waypoints: each segment is split into round(length / pitch) equal parts, at least one, so that
+/// its ends are waypoints (paper B: waypoint pitch WPP). Heights are zero. Segments shorter than a
 /// micrometre are left out.
 /// @param pitch_m  > 0
-/// @throws ConfigError where they are more than 2 million
-PlannedPath make_planned_path(const std::vector<PathPiece>& pieces, double pitch_m);
+/// @throws ConfigError if there are more than 2 million waypoints
+PlannedPath make_planned_path(const std::vector<PathSegment>& pieces, double pitch_m);
 
 }  // namespace vinerow::controllers

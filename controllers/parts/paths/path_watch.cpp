@@ -9,7 +9,7 @@
 namespace vinerow::controllers {
 namespace {
 
-/// A vehicle that begins beside its path drives there first, in a bow.
+/// Distance allowed for the curve from a start beside the path to the path, per distance from it.
 constexpr double kBow = 3.0;
 
 }  // namespace
@@ -18,8 +18,8 @@ const ParameterTable<PathWatchParams>& path_watch_table() {
   using P = PathWatchParams;
   static const ParameterTable<P> table = ParameterTable<P>().number(
       "lost_m", "m", &P::lost_m, between(0.1, 1e4),
-      "so far from its path, beyond the nearest it has been, the vehicle has lost it and fails; "
-      "likewise after ten times that way without getting on along it");
+      "a vehicle has lost its path and fails if its distance from it exceeds the smallest so far "
+      "by this, or if it drives ten times this far without progress along the path");
   return table;
 }
 
@@ -29,19 +29,19 @@ void PathWatch::update(const Cycle& cycle) {
   nearest_m_ = std::min(nearest_m_, gap_m);
   if (cycle.distance_m > farthest_m_) {
     farthest_m_ = cycle.distance_m;
-    way_m_ = 0.0;
-    allowed_m_ = kWayShare * params_.lost_m + kBow * gap_m;
+    distance_m_ = 0.0;
+    allowed_m_ = kDistanceShare * params_.lost_m + kBow * gap_m;
   }
-  way_m_ += cycle.way_m;
+  distance_m_ += cycle.way_m;
   const auto where = [&] {
     return fmt::format("at ({:.2f}, {:.2f}), {:.1f} m along its path of {:.1f} m", cycle.p_W.x(),
                        cycle.p_W.y(), cycle.distance_m, cycle.length_m);
   };
   if (gap_m > nearest_m_ + params_.lost_m) {
     failure_ = fmt::format("lost its path: {:.1f} m away from it {}", gap_m, where());
-  } else if (way_m_ > allowed_m_) {
-    failure_ =
-        fmt::format("lost its path: it has driven {:.0f} m without getting on {}", way_m_, where());
+  } else if (distance_m_ > allowed_m_) {
+    failure_ = fmt::format("lost its path: it has driven {:.0f} m without progress {}", distance_m_,
+                           where());
   }
 }
 

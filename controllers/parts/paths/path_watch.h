@@ -1,10 +1,11 @@
 #pragma once
-/// Notices that a ground vehicle has lost its path: it is too far from it, or drives on and on
-/// without getting along it (a circle around a waypoint, wheels that spin at a trunk).
+/// Detector for a ground vehicle that has lost its path: it is too far from it, or drives on
+/// without progress along it (a circle around a waypoint, wheels that spin at a trunk).
 ///
-/// A vehicle may begin far from its path. What it may be away is therefore counted from the nearest
-/// that it has been so far: it may come back from anywhere, and not go away again. Way is counted
-/// as commanded, because a position that a noisy estimate jumps about adds up while it stands.
+/// A vehicle may start far from its path. The allowed distance is therefore counted from the
+/// smallest distance so far: it may return from anywhere, but not depart again. Distance driven is
+/// counted as commanded, because the jumps of a noisy estimate add up while a vehicle is
+/// stationary.
 
 #include <Eigen/Core>
 #include <limits>
@@ -15,7 +16,7 @@
 namespace vinerow::controllers {
 
 struct PathWatchParams {
-  double lost_m = 5.0;  ///< farther from the path than that is lost
+  double lost_m = 5.0;  ///< farther from the path than this counts as lost
 };
 
 /// Parameter `lost_m` of every follower of ground vehicles.
@@ -23,8 +24,8 @@ const ParameterTable<PathWatchParams>& path_watch_table();
 
 class PathWatch {
  public:
-  /// So many times `lost_m` a vehicle may drive without getting on along its path.
-  static constexpr double kWayShare = 10.0;
+  /// Distance that a vehicle may drive without progress along its path, in units of `lost_m`.
+  static constexpr double kDistanceShare = 10.0;
 
   explicit PathWatch(const PathWatchParams& params) : params_(params) {}
 
@@ -32,13 +33,13 @@ class PathWatch {
   void reset() { *this = PathWatch(params_); }
 
   struct Cycle {
-    Eigen::Vector2d p_W;      ///< where the vehicle is, by its estimate
-    Eigen::Vector2d on_path;  ///< the place of its path that it is at
+    Eigen::Vector2d p_W;      ///< estimated position
+    Eigen::Vector2d on_path;  ///< the corresponding point of the path
     double distance_m = 0.0;  ///< along the path
     double length_m = 0.0;    ///< of the path
     double way_m = 0.0;       ///< commanded in this cycle, >= 0
   };
-  /// Once per cycle while it follows. No heap but for the sentence.
+  /// Once per cycle while following. No heap except for the sentence.
   void update(const Cycle& cycle);
 
   bool is_lost() const { return !failure_.empty(); }
@@ -46,10 +47,10 @@ class PathWatch {
 
  private:
   PathWatchParams params_;
-  double nearest_m_ = std::numeric_limits<double>::infinity();    ///< that it has been
+  double nearest_m_ = std::numeric_limits<double>::infinity();    ///< smallest distance so far
   double farthest_m_ = -std::numeric_limits<double>::infinity();  ///< along the path
-  double way_m_ = 0.0;                                            ///< driven since it was there
-  double allowed_m_ = 0.0;  ///< to be driven without getting on
+  double distance_m_ = 0.0;                                       ///< driven since farthest_m_
+  double allowed_m_ = 0.0;  ///< distance that may be driven without progress
   std::string failure_;
 };
 

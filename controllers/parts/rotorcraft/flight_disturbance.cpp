@@ -6,8 +6,8 @@
 namespace vinerow::controllers {
 namespace {
 
-// Half of gravity: far above any wind, far below what would turn the vehicle over. The same for
-// rates, where the rotors have some 60 rad/s2.
+// Largest estimate, half of gravity: far above any wind, and not enough to turn the vehicle over.
+// The same number limits angular accelerations, of which the rotors have some 60 rad/s2.
 constexpr double kMaxShareOfGravity = 0.5;
 constexpr double kMaxAngular_radps2 = 20.0;
 

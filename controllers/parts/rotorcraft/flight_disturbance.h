@@ -1,12 +1,11 @@
 #pragma once
-/// Learns what the model does not know: wind, a wrong mass, a load beside the centre. The force is
-/// kept in W, so it survives turns, the torque in B, with which a load moves.
+/// Observer of the forces and torques that the model lacks: wind, a wrong mass, an off-centre load.
+/// The force is kept in W, so it survives turns, the torque in B, with which a load moves.
 ///
-/// Each tick the acceleration seen between two estimates is compared with the one that the rotors,
-/// weight and still air explain; what is left is taken over as 1 - exp(-T / time_s) of the
-/// difference (a first-order disturbance observer). Fed into prediction and targets, it removes the
-/// offset: Pannocchia, Rawlings, "Disturbance models for offset-free model-predictive control",
-/// AIChE J. 49(2), 2003.
+/// Each tick compares the acceleration between two estimates with that of rotors, weight and still
+/// air, and takes over 1 - exp(-T / time_s) of the difference (a first-order disturbance observer).
+/// Used in prediction and targets, it removes the offset: Pannocchia, Rawlings, "Disturbance models
+/// for offset-free model-predictive control", AIChE J. 49(2), 2003.
 
 #include <Eigen/Core>
 
@@ -16,11 +15,11 @@ namespace vinerow::controllers {
 
 class FlightDisturbance {
  public:
-  /// @param time_s  0: learns nothing
+  /// @param time_s  time constant; 0: estimates nothing
   FlightDisturbance(const RotorcraftModel& craft, double time_s, bool learns_torque,
                     double period_s);
 
-  /// Forgets everything.
+  /// Sets all estimates to zero.
   void reset();
   /// One tick. @param mean  the rotors' mean wrench since the last one
   /// @param learn  false: only remembers the state, e.g. while the ground carries the vehicle

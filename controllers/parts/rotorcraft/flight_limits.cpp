@@ -13,17 +13,17 @@ const ParameterTable<FlightLimitParams>& flight_limit_table() {
           .degrees("tilt_limit_deg", &P::tilt_rad, between(1.0, 60.0),
                    "largest wanted tilt (paper A, section 4.2: 25)")
           .number("min_thrust", "weights", &P::min_thrust, between(0.0, 0.95),
-                  "least wanted thrust; rotors at rest cannot right the vehicle")
+                  "smallest wanted thrust; stopped rotors cannot right the vehicle")
           .number("max_thrust", "weights", &P::max_thrust, between(1.05, 20.0),
-                  "largest wanted thrust, cut to what the rotors have")
+                  "largest wanted thrust, clamped to that of the rotors")
           .number("torque_share", "", &P::torque_share, between(0.01, 1.0),
-                  "largest wanted torques, of those that hover leaves room for")
+                  "largest wanted torques, as a share of the torque limits at hover")
           .number("correction_speed_mps", "m/s", &P::correction_mps, kPositive,
-                  "largest speed towards the reference, beside its own")
+                  "largest speed towards the reference, in addition to the reference's own")
           .number("climb_correction_mps", "m/s", &P::climb_correction_mps, kPositive,
                   "the same upwards and downwards")
           .number("yaw_rate_limit_degps", "deg/s", &P::yaw_rate_radps, kPositive,
-                  "largest yaw rate towards the wanted heading, beside the reference's own",
+                  "largest yaw rate towards the wanted heading, in addition to the reference's own",
                   kDegrees);
   return table;
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// The limits that every hand-tuned flight controller keeps, as parameters: tilt, thrust, torques,
-/// speeds at which errors are won back.
+/// Limits common to all hand-tuned flight controllers, as parameters: tilt, thrust, torques and
+/// speeds of correction.
 
 #include <Eigen/Core>
 
@@ -19,11 +19,11 @@ struct FlightLimits {
   double yaw_rate_radps = 0.0;        ///< towards the wanted heading
 };
 
-/// The same for a vehicle of any size.
+/// The same limits, independent of the vehicle's size.
 struct FlightLimitParams {
   double tilt_rad = rad_from_deg(25.0);
   double min_thrust = 0.3, max_thrust = 2.0;  ///< in weights
-  double torque_share = 0.7;                  ///< of what hover leaves room for
+  double torque_share = 0.7;                  ///< of the torque limits at hover thrust
   double correction_mps = 2.0;
   double climb_correction_mps = 1.0;
   double yaw_rate_radps = rad_from_deg(60.0);
@@ -33,7 +33,7 @@ struct FlightLimitParams {
 /// `climb_correction_mps`, `yaw_rate_limit_degps`.
 const ParameterTable<FlightLimitParams>& flight_limit_table();
 
-/// max_thrust is cut to what the rotors have. The parameters' ranges leave room about the weight.
+/// max_thrust is clamped to that of the rotors. The parameters' ranges enclose the weight.
 FlightLimits make_flight_limits(const FlightLimitParams& params, const RotorcraftModel& craft,
                                 const RotorMixer& mixer);
 

@@ -18,7 +18,7 @@ RotorcraftModel read_craft(const ControllerContext& context, const std::string& 
   return read_rotorcraft(*context.vehicle_description, context.gravity_mps2, who);
 }
 
-/// Feet are about as far beside the centre of mass as below it.
+/// The feet are about as far from the centre of mass horizontally as vertically.
 double inertia_about_a_foot(const RotorcraftModel& craft, const VehicleDescription& vehicle) {
   const double height_m = vehicle.height_above_ground_m;
   return craft.inertia_kgm2.head<2>().mean() + 2.0 * craft.mass_kg * height_m * height_m;
@@ -64,7 +64,7 @@ TrajectoryPoint FlightPorts::reference_at(Time now) const {
   const double dt = trajectory.dt_s;
   const double last = static_cast<double>(trajectory.points.size() - 1);
   const double place = dt > 0.0 ? std::max((now - reference_.stamp()).s() / dt, 0.0) : 0.0;
-  // A stamp may be a rounding past the last point.
+  // A time stamp may exceed the last point by rounding.
   constexpr double kRounding = 1e-6;
   if (place >= last) {
     TrajectoryPoint end = trajectory.points.back();
@@ -89,7 +89,7 @@ TrajectoryPoint FlightPorts::reference_at(Time now) const {
 }
 
 Wrench FlightPorts::write(Time now, const Wrench& wanted) {
-  // Climbing this fast it has left the ground; other phases begin in the air.
+  // At this climb rate it has left the ground; other phases start in the air.
   constexpr double kClimb_mps = 0.1;
   const Odometry& odometry = estimate();
   if (reference().phase != ReferenceTrajectory::Phase::kTakeOff ||
@@ -117,10 +117,11 @@ Wrench FlightPorts::lay_down(Time now) {
   Wrench wanted = lay_down_.advance(estimate().w_WB_B, (now - laid_).s());
   laid_ = now;
   Wrench reached = mixer_.mix(wanted, actuator_values_.values);
-  const double most_N = lay_down_.most_thrust_N();
-  if (reached.thrust_N > most_N) {
-    // In the air torques come first and may lift; on the ground that would take the feet's grip.
-    const double share = most_N / reached.thrust_N;
+  const double max_N = lay_down_.max_thrust_N();
+  if (reached.thrust_N > max_N) {
+    // In the air torques have priority and may cause lift; on the ground that would cost the feet
+    // their grip.
+    const double share = max_N / reached.thrust_N;
     lay_down_.limit(share);
     wanted.torque_B *= share;
     reached = mixer_.mix(wanted, actuator_values_.values);
@@ -160,7 +161,7 @@ void FlightPorts::write_follower(Time now) {
   if (has_reference() && has_estimate()) {
     const TrajectoryPoint at = reference_at(now);
     const Pose& X_WB = estimate().X_WB;
-    // Left of the direction of travel; of the wanted heading where the reference stands.
+    // Left of the direction of travel, or of the wanted heading if the reference is at rest.
     constexpr double kSlow_mps = 0.05;
     Eigen::Vector2d along(std::cos(at.yaw_rad), std::sin(at.yaw_rad));
     const Eigen::Vector2d v = at.v_W.head<2>();

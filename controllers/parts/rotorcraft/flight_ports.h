@@ -1,7 +1,6 @@
 #pragma once
-/// What every controller of a flying vehicle reads and writes: "estimate" and "reference" in,
-/// "actuators" (rotor speeds), "wrench" (NamedValues: wanted and reachable thrust and torques) and
-/// "follower" out.
+/// Signals of every rotorcraft controller: reads "estimate" and "reference", writes "actuators"
+/// (rotor speeds), "wrench" (NamedValues: wanted and reachable thrust and torques) and "follower".
 
 #include <optional>
 #include <vector>
@@ -29,27 +28,27 @@ class FlightPorts {
     return reference_.has_value() && !reference_.value().points.empty();
   }
   const ReferenceTrajectory& reference() const { return reference_.value(); }
-  /// The reference asks for turning rotors (neither waiting nor done), or they wind down after a
+  /// The reference wants turning rotors (neither waiting nor done), or they wind down after a
   /// flight: see write().
   bool is_flying() const;
   bool is_done() const {
     return has_reference() && reference().phase == ReferenceTrajectory::Phase::kDone;
   }
-  /// Rotors off have been written since the reference is done: what a controller's finished() says.
+  /// Rotors off have been written since the reference ended: the controller has finished.
   bool has_ended() const { return has_ended_; }
 
-  /// The reference at a moment between its points: position by cubic Hermite pieces, the rest
+  /// The reference at a time between its points: position by cubic Hermite interpolation, the rest
   /// linear. After the last point it stays there, at rest. @pre has_reference()
   TrajectoryPoint reference_at(Time now) const;
-  /// False while a take-off has not left the ground, where integrators and observers would learn
-  /// what the ground carries. As of the last write().
+  /// False until a take-off leaves the ground: before that, integrators and observers would learn
+  /// the force of the ground. As of the last write().
   bool has_lifted_off() const { return has_lifted_off_; }
 
-  /// Mixes and writes. Once the reference is done the vehicle is laid down (lay_down.h) whatever is
-  /// wanted, and kWindDown_s later the rotors are off. No heap.
-  /// @returns what the rotors can make of it
+  /// Mixes and writes. Once the reference is done, the vehicle is laid down (lay_down.h) whatever
+  /// the wanted wrench, and kWindDown_s later the rotors are off. No heap.
+  /// @returns the wrench that the rotors reach
   Wrench write(Time now, const Wrench& wanted);
-  /// What was written last, rad/s.
+  /// The rotor speeds written last, rad/s.
   const std::vector<double>& speeds_radps() const { return actuator_values_.values; }
   /// Rotors off.
   void write_off(Time now);

@@ -27,10 +27,10 @@ HoverState calc_hover_state(const Odometry& odometry, const HoverFrame& frame) {
   const Eigen::Vector3d z_B = frame.from_W(q * Eigen::Vector3d::UnitZ());
   const Eigen::Vector3d w = frame.from_W(q * odometry.w_WB_B);
   const Eigen::Vector3d z_rate = w.cross(z_B);
-  // Rates of the two arc tangents; they have none only where thrust points along an axis of H.
-  constexpr double kLeast = 1e-6;
-  const double pitch2 = std::max(z_B.x() * z_B.x() + z_B.z() * z_B.z(), kLeast);
-  const double roll2 = std::max(z_B.y() * z_B.y() + z_B.z() * z_B.z(), kLeast);
+  // Rates of the two arc tangents; undefined only if thrust points along an axis of H.
+  constexpr double kMin = 1e-6;
+  const double pitch2 = std::max(z_B.x() * z_B.x() + z_B.z() * z_B.z(), kMin);
+  const double roll2 = std::max(z_B.y() * z_B.y() + z_B.z() * z_B.z(), kMin);
   HoverState state;
   state.upright = z_B.z();
   state.x << frame.from_W(odometry.X_WB.p - frame.p_WH()), frame.from_W(q * odometry.v_WB_B),
@@ -41,11 +41,11 @@ HoverState calc_hover_state(const Odometry& odometry, const HoverFrame& frame) {
 }
 
 Wrench calc_body_wrench(const Eigen::Vector4d& u, const HoverState& state, double weight_N) {
-  constexpr double kLeastUpright = 0.5;
+  constexpr double kMinUpright = 0.5;
   const double yaw = state.x[kHoverAngle + 2], c = std::cos(yaw), s = std::sin(yaw);
   Wrench wrench;
   if (state.upright > 0.0) {
-    wrench.thrust_N = std::max(weight_N + u[0], 0.0) / std::max(state.upright, kLeastUpright);
+    wrench.thrust_N = std::max(weight_N + u[0], 0.0) / std::max(state.upright, kMinUpright);
   }
   wrench.torque_B = {c * u[1] + s * u[2], -s * u[1] + c * u[2], u[3]};
   return wrench;

@@ -1,11 +1,11 @@
 #pragma once
-/// The frame H in which the quadrotor's model is linear: its origin is where the vehicle should be
-/// now, z is up, x is the wanted heading now. It does not turn during the prediction.
+/// Frame H in which the quadrotor's model is linear: the origin is the wanted position now, z is
+/// up, x is the wanted heading now. It does not turn during the prediction.
 ///
 /// Roll, pitch, their rates and the torques are about the axes of H, not of the body. So the model
-/// holds through a turn, where the heading moves by a radian within the horizon: the tilt that
-/// pushes to the centre of the turn stays what it is while the body turns below it. Taking the
-/// tilts from the direction of thrust makes this exact in the attitude:
+/// holds through a turn, in which the heading changes by a radian within the horizon: the tilt that
+/// pushes to the centre of the turn stays constant while the body turns below it. Tilts computed
+/// from the direction of thrust make this exact in the attitude:
 ///   z_B = (z_x, z_y, z_z) in H,  pitch = atan2(z_x, z_z),  roll = -atan2(z_y, z_z),
 /// the horizontal acceleration is then thrust z_z / m times (tan pitch, -tan roll).
 
@@ -42,7 +42,7 @@ class HoverFrame {
   double cos_, sin_;
 };
 
-/// A vehicle seen from H.
+/// State of a vehicle in H.
 struct HoverState {
   /// Position, velocity, roll, pitch, yaw error and their rates: the first 12 states of HoverModel.
   Eigen::Matrix<double, 12, 1> x;
@@ -53,8 +53,8 @@ struct HoverState {
 
 HoverState calc_hover_state(const Odometry& odometry, const HoverFrame& frame);
 
-/// The wrench in B that acts in H like u = (thrust less weight, torques), and back. Thrust is
-/// raised by what tilt takes from its vertical part, at most twofold; hanging head down: no thrust.
+/// The wrench in B that acts in H like u = (thrust minus weight, torques), and the inverse. Thrust
+/// is raised to compensate for the tilt, at most twofold; upside down the thrust is zero.
 Wrench calc_body_wrench(const Eigen::Vector4d& u, const HoverState& state, double weight_N);
 Eigen::Vector4d calc_hover_wrench(const Wrench& wrench, const HoverState& state, double weight_N);
 

@@ -1,6 +1,6 @@
 #pragma once
-/// What the rotors do after a command: w' = (wanted - w) / lag. Nothing measures their speeds, and
-/// an error of this model dies out with the lag.
+/// Predicted rotor speeds after a command: w' = (wanted - w) / lag. Rotor speeds are not measured;
+/// an error of the prediction decays with the lag.
 
 #include <vector>
 
@@ -21,7 +21,7 @@ class RotorPrediction {
 
   /// At the end of the last command.
   Wrench now() const { return mixer_.wrench_of(speeds_radps_); }
-  /// Mean over the last command; what spinning the rotors up gives the body is in it.
+  /// Mean over the last command, with the reaction torque of the rotors' spin-up.
   Wrench mean() const {
     Wrench wrench = mixer_.wrench_of(mean_radps_);
     wrench.torque_B.z() += spin_up_Nm_;

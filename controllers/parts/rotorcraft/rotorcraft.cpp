@@ -38,8 +38,8 @@ RotorcraftModel read_rotorcraft(const VehicleDescription& description, double gr
   }
   if (craft.min_rotor_radps < 0.0 || craft.min_rotor_radps >= craft.hover_rotor_radps()) {
     throw ConfigError(
-        fmt::format("{} cannot hover: the rotors of vehicle type '{}' turn at {:.4g} rad/s at "
-                    "least, hovering asks for {:.4g} rad/s",
+        fmt::format("{} cannot hover: the rotors of vehicle type '{}' turn at {:.4g} rad/s or "
+                    "more, hovering needs {:.4g} rad/s",
                     who, description.type, craft.min_rotor_radps, craft.hover_rotor_radps()));
   }
   return craft;
@@ -56,7 +56,7 @@ HoverModel make_hover_model(const RotorcraftModel& craft, bool with_lag) {
   model.A = Eigen::MatrixXd::Zero(n, n);
   model.B = Eigen::MatrixXd::Zero(n, HoverModel::kInputs);
   model.A.block<3, 3>(kPosition, kVelocity).setIdentity();
-  // The air brakes; leaning forwards (pitch) pushes forwards, leaning right (roll) to the right.
+  // Air drag; forward pitch accelerates forwards, roll to the right accelerates to the right.
   model.A.block<3, 3>(kVelocity, kVelocity)
       .diagonal()
       .setConstant(-craft.rotor_drag_Ns_per_m / craft.mass_kg);

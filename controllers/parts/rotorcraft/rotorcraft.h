@@ -1,6 +1,6 @@
 #pragma once
-/// What a controller knows of a vehicle that flies on rotors, all told by its VehicleDescription,
-/// and the linear model about hover that comes of it.
+/// Model of a rotorcraft for controllers, from its VehicleDescription, and the linear model about
+/// hover derived from it.
 
 #include <Eigen/Core>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace vinerow::controllers {
 
-/// The vehicle's record with what hovering takes besides.
+/// The vehicle's record, extended by the data that hovering needs.
 struct RotorcraftModel : Rotorcraft {
   double mass_kg = 1.0;
   double gravity_mps2 = 9.80665;
@@ -28,11 +28,11 @@ RotorcraftModel read_rotorcraft(const VehicleDescription& description, double gr
 
 /// x' = A x + B u about hover, in the frame that is turned about z with the wanted yaw.
 /// State: position (3, m), velocity (3, m/s), roll, pitch, yaw error (rad), body rates p, q, r
-/// (rad/s); with lag four more, the wrench that acts: thrust less weight (N), torques (N m).
-/// Input: the wanted wrench, thrust less weight (N) and torques about x, y, z (N m).
-/// With lag the yaw torque has a lead: spinning rotors up by dw turns the body at once, J_r dw / dt,
-/// which in the first lag is several times the drag torque k_M w^2 that it leads to (about hover
-/// tau = tau_drag + J_r / (2 w k_M) dtau_drag / dt).
+/// (rad/s); with lag four more, the wrench that acts: thrust minus weight (N), torques (N m).
+/// Input: the wanted wrench, thrust minus weight (N) and torques about x, y, z (N m).
+/// With lag the yaw torque has a lead: a change dw of the rotor speeds turns the body at once by
+/// J_r dw / dt, which during the first lag is several times the resulting drag torque k_M w^2
+/// (about hover tau = tau_drag + J_r / (2 w k_M) dtau_drag / dt).
 /// No wind, no rotor inertia: x' = v, v' = g (pitch, -roll, 0) + (0, 0, thrust) / m - drag / m v,
 /// angles' = rates, rates' = torques / J, wrench' = (wanted - wrench) / lag.
 /// Source: paper A, section 4.2, with z up and the rotors' lag and drag added.
@@ -43,7 +43,7 @@ struct HoverModel {
   Eigen::MatrixXd A;
   Eigen::MatrixXd B;
 };
-/// @throws ConfigError if with_lag and the craft's rotors have none
+/// @throws ConfigError if with_lag is set and the craft's rotors lack a lag
 HoverModel make_hover_model(const RotorcraftModel& craft, bool with_lag);
 
 }  // namespace vinerow::controllers

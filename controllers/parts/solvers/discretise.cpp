@@ -13,8 +13,8 @@ SampledModel discretise(const Eigen::MatrixXd& A_c, const Eigen::MatrixXd& B_c, 
   VINEROW_DEMAND(n >= 1 && A_c.cols() == n && B_c.rows() == n);
   VINEROW_DEMAND(A_c.allFinite() && B_c.allFinite() && period_s > 0.0);
   // The exponential is halved and squared until the largest entry is small. Large entries of B,
-  // which are but a matter of units, would have A squared more often than it needs and lose its
-  // digits, so B goes in divided by a power of two.
+  // which depend on units only, would cause A to be squared more often than necessary and lose
+  // digits. So B is divided by a power of two first.
   const double size_A = std::max(1.0, period_s * A_c.lpNorm<Eigen::Infinity>());
   const double size_B = m == 0 ? 0.0 : period_s * B_c.lpNorm<Eigen::Infinity>();
   const int exponent = size_B > size_A ? std::ilogb(size_B / size_A) + 1 : 0;

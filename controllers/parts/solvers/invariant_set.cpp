@@ -16,7 +16,7 @@
 namespace vinerow::controllers {
 namespace {
 
-/// Rows gathered so far: those of step t tell which of step t + 1 still cut something off.
+/// Intersection of the rows so far; rows that do not cut it are not added.
 class Gathered {
  public:
   explicit Gathered(const Polytope& X) : set_(X) {}
@@ -26,7 +26,7 @@ class Gathered {
     double depth = 0.0;
   };
 
-  /// Adds those of F x <= g that take away more than the tolerance. @returns the deepest cut
+  /// Adds the rows of F x <= g that cut by more than the tolerance. @returns the deepest cut
   std::optional<Cut> add(const Eigen::MatrixXd& F, const Eigen::VectorXd& g, double tolerance) {
     LinearProgramme programme(set_.dimension(), set_.rows());
     programme.set_rows(set_.F(), set_.g());
@@ -36,7 +36,7 @@ class Gathered {
       const Eigen::VectorXd row = F.row(i);
       const LpStatus status = programme.maximise(row);
       if (status != LpStatus::kSolved && status != LpStatus::kUnbounded) {
-        throw ConfigError(fmt::format("a linear programme of {} rows in {} variables gave up: {}",
+        throw ConfigError(fmt::format("a linear programme of {} rows in {} variables failed: {}",
                                       programme.rows(), programme.variables(), to_string(status)));
       }
       const double depth = programme.value() - g[i];
@@ -46,7 +46,7 @@ class Gathered {
     }
     if (deepest) {
       set_ = set_.intersection(Polytope(F(cutting, Eigen::all), g(cutting)));
-      // Later rows make earlier ones redundant: kept, they would only slow the programmes down.
+      // Later rows make earlier ones redundant, and these would slow the programmes down.
       if (set_.rows() > 2 * clean_rows_ + 64) {
         set_ = set_.without_redundant_rows();
         clean_rows_ = set_.rows();
@@ -79,10 +79,10 @@ Result<InvariantSet> gather(const Eigen::MatrixXd& A, const Polytope& X, const S
     cut = gathered.add(F, g, settings.tolerance);
     if (!cut) return InvariantSet{gathered.set().without_redundant_rows(), step};
   }
-  return Failure{
-      fmt::format("the invariant set is not finished in {} steps: row {} still cuts off {:.3g} of "
-                  "its limit {:.3g}",
-                  settings.max_steps, cut->row, cut->depth, g[cut->row])};
+  return Failure{fmt::format(
+      "the invariant set does not converge in {} steps: row {} still cuts off {:.3g} of "
+      "its limit {:.3g}",
+      settings.max_steps, cut->row, cut->depth, g[cut->row])};
 }
 
 }  // namespace
@@ -108,7 +108,7 @@ Result<InvariantSet> maximal_robust_invariant_set(const Eigen::MatrixXd& A, cons
   for (int i = 0; i < X.rows(); ++i) {
     const Eigen::VectorXd row = X.F().row(i);
     if (row.isZero(0.0) && X.g()[i] >= 0.0) continue;
-    // Rows that the disturbance just fills would take endless steps.
+    // For a row that the disturbance exactly fills the steps would not end.
     const double moved = (*alone)(row), limit = X.g()[i];
     if (moved < limit - settings.tolerance * std::abs(limit)) continue;
     return Failure{fmt::format(

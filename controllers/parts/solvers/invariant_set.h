@@ -1,9 +1,10 @@
 #pragma once
-/// Sets that x+ = A x + w, w in W, does not leave.
+/// Maximal sets that x+ = A x + w, w in W, does not leave.
 ///
-/// Here the maximal one: all states whose whole future keeps the constraints, for MPC's last state.
-/// The minimal one, what the disturbance alone can do, is in series_support.h (its support). For
-/// setting up controllers, not for their steps. ConfigError where sizes do not fit.
+/// The maximal set holds all states whose whole future satisfies the constraints, for MPC's
+/// terminal state. The minimal set, which the disturbance alone can reach, is in series_support.h
+/// (its support). For the set-up of controllers, not for their steps. ConfigError if sizes do not
+/// fit.
 
 #include <Eigen/Core>
 
@@ -15,13 +16,14 @@ namespace vinerow::controllers {
 
 struct InvariantSettings {
   int max_steps = 500;
-  /// Of a row's size: a cut that takes away less is none, so the set is invariant to within this.
+  /// Relative to a row's size: a cut that removes less is ignored, so the set is invariant to
+  /// within this.
   double tolerance = 1e-9;
 };
 
 struct InvariantSet {
   Polytope set;   ///< without redundant rows
-  int steps = 0;  ///< t*: constraints at steps 0..t* imply those at all later ones
+  int steps = 0;  ///< t*: constraints at steps 0..t* imply those at all later steps
 };
 
 /// All x with A^k x in X for every k >= 0 (maximal positively invariant subset of X, also "maximal
@@ -39,7 +41,7 @@ Result<InvariantSet> maximal_invariant_set(const Eigen::MatrixXd& A, const Polyt
 /// Source: Kolmanovsky, Gilbert, "Theory and computation of disturbance invariant sets for
 /// discrete-time linear systems", Math. Probl. Eng. 4, 1998, section 6.
 /// @param W  support of the disturbance, bounded
-/// @returns further a failure if the disturbance alone leads out of X: the set is empty
+/// @returns also a failure if the disturbance alone leads out of X: the set is empty
 Result<InvariantSet> maximal_robust_invariant_set(const Eigen::MatrixXd& A, const Polytope& X,
                                                   const Support& W,
                                                   const InvariantSettings& settings = {});

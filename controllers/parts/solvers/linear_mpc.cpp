@@ -18,7 +18,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// QpSolver takes a soft row for one of this weight, times 1 / (a' H^-1 a), if its own is larger.
+// QpSolver caps the weight of a soft row at this, times 1 / (a' H^-1 a).
 constexpr double kHeaviest = 1e12;
 
 LinearMpcProblem checked(const LinearMpcProblem& problem, const std::string& who) {
@@ -32,12 +32,12 @@ LinearMpcProblem checked(const LinearMpcProblem& problem, const std::string& who
   return result;
 }
 
-/// Each column takes the place of the one before it; the last one stays.
+/// Shifts all columns by one to the left; the last one is repeated.
 void move_up(MatrixXd& sequence) {
   for (Index k = 0; k + 1 < sequence.cols(); ++k) sequence.col(k) = sequence.col(k + 1);
 }
 
-/// A number that is not finite leaves a NaN in the sum, at a fraction of the cost of allFinite().
+/// The sum is NaN if a number is not finite, at a fraction of the cost of allFinite().
 template <typename Matrix>
 bool finite(const Matrix& matrix) {
   return (0.0 * matrix).sum() == 0.0;
@@ -71,17 +71,17 @@ struct LinearMpc::Impl {
   Index n, m, N;
   QpSolver qp;
   double tolerance;
-  std::vector<int> value_of_row;      // where the prediction has the value of a QP row
+  std::vector<int> value_of_row;      // index of the prediction's value of a QP row
   VectorXd limit_lower, limit_upper;  // of the QP rows' values
-  VectorXd softness;                  // 1 / weight of QP rows, as the QP takes it
+  VectorXd softness;                  // 1 / weight of QP rows, as used by the QP
 
-  MatrixXd f;             // m x N: gradient of the cost by the inputs, at zero
+  MatrixXd f;             // m x N: gradient of the cost with respect to the inputs, at zero
   VectorXd lower, upper;  // Nm
   VectorXd row_lower, row_upper;
   MatrixXd inputs;
 
   double soft_violation = 0.0;
-  // The prediction is made when it is asked for.
+  // Data of the prediction, which is computed on the first call.
   VectorXd x, disturbance;
   MatrixXd states;
   bool predicted = true;
@@ -179,9 +179,9 @@ bool LinearMpc::Impl::unreached_limits_hold() const {
 }
 
 void LinearMpc::Impl::keep_solution() {
-  // An input may be over a limit by the tolerance of the QP, the input that is given out not.
+  // The QP may violate an input limit by its tolerance; the returned input must not.
   Eigen::Map<VectorXd>(inputs.data(), inputs.size()) = qp.x().cwiseMax(lower).cwiseMin(upper);
-  // A limit that is violated is active, and its multiplier is the weight times the violation.
+  // A violated limit is active, and its multiplier is the weight times the violation.
   soft_violation = 0.0;
   for (const int constraint : qp.active_set()) {
     if (constraint < N * m) continue;
@@ -194,7 +194,7 @@ void LinearMpc::Impl::keep_solution() {
   }
 }
 
-/// The inputs have been clamped when they were found, and the bounds are the same.
+/// The inputs were clamped when they were computed, and the bounds are the same.
 void LinearMpc::Impl::fall_back(QpStatus status, const Matrix& reference) {
   move_up(inputs);
   soft_violation = 0.0;
@@ -247,7 +247,7 @@ QpStatus LinearMpc::solve(const Eigen::Ref<const VectorXd>& x,
   VINEROW_DEMAND(input_before.size() == impl.m);
   const bool start_known = finite(x) && finite(disturbance);
   if (!start_known) {
-    // The last prediction is all there is: it is made now, before its inputs go.
+    // The last prediction is needed below; it is computed now, before its inputs are lost.
     impl.predict_states();
     move_up(impl.states);
   }

@@ -8,13 +8,13 @@
 ///              lower <= F x_k (- F r_k if relative) <= upper          k = 1..N
 ///              lower <= F_N x_N (- F_N r_N if relative) <= upper      (terminal)
 ///
-/// where |x|_Q^2 = x'Qx. Rows of states can be soft with a quadratic cost. The states are
-/// eliminated once, in the constructor; a solve() then costs a prediction without inputs, its
-/// adjoint for the gradient, and the QP. No heap after construction. Same sequence of calls, same
-/// bits. The rates of u_0 join its bounds; so an input_before from which no rate leads into the
-/// bounds makes the problem infeasible, as a hard row does that x_0 has left for good. Source:
-/// Borrelli, Bemporad, Morari, "Predictive Control for Linear and Hybrid Systems", 2017,
-/// section 8.2 (batch approach).
+/// where |x|_Q^2 = x'Qx. Rows of states can be soft with a quadratic cost. The constructor
+/// eliminates the states once; a solve() then costs a prediction without inputs, its adjoint for
+/// the gradient, and the QP. No heap after construction. The same sequence of calls gives the same
+/// bits. The rate limits of u_0 are merged into its bounds. So an input_before from which no rate
+/// leads into the bounds makes the problem infeasible, as does a hard row that x_0 violates
+/// irrecoverably. Source: Borrelli, Bemporad, Morari, "Predictive Control for Linear and Hybrid
+/// Systems", 2017, section 8.2 (batch approach).
 
 #include <Eigen/Core>
 #include <memory>
@@ -32,7 +32,7 @@ struct MpcStateRows {
   Eigen::VectorXd upper;
   /// 1/2 weight s^2 for a violation s; infinity: hard. One per row, or empty: all hard.
   Eigen::VectorXd soft_weight;
-  bool relative = false;  ///< limits are for F (x - reference)
+  bool relative = false;  ///< limits apply to F (x - reference)
 };
 
 struct LinearMpcProblem {
@@ -42,15 +42,15 @@ struct LinearMpcProblem {
   Eigen::MatrixXd R;                         ///< m x m, > 0
   Eigen::MatrixXd P;                         ///< n x n, >= 0, weight of the last state
   int horizon = 20;                          ///< N >= 1
-  Eigen::VectorXd input_lower, input_upper;  ///< m, or empty: none
-  Eigen::VectorXd rate_lower, rate_upper;    ///< m, per step, or empty: none
+  Eigen::VectorXd input_lower, input_upper;  ///< m, or empty: no bounds
+  Eigen::VectorXd rate_lower, rate_upper;    ///< m, per step, or empty: no limits
   std::vector<MpcStateRows> state_rows;      ///< several blocks, e.g. absolute and relative
   std::vector<MpcStateRows> terminal_rows;
 };
 
 class LinearMpc {
  public:
-  /// @throws ConfigError naming the matrix and its shape, if sizes do not fit or the condensed
+  /// @throws ConfigError with the matrix and its shape, if sizes do not fit or the condensed
   /// Hessian is not positive definite
   /// @param who  for errors, "drone.controller"
   LinearMpc(const LinearMpcProblem& problem, const std::string& who,
@@ -63,11 +63,12 @@ class LinearMpc {
   int inputs() const;
   int horizon() const;
 
-  /// @param x  n, the state now  @param reference  n x (N + 1), r_0 is not used but must be finite
+  /// @param x  n, the current state  @param reference  n x (N + 1), r_0 is not used but must be
+  /// finite
   /// @param input_reference  m x N  @param disturbance  n, d_k for all k
-  /// @param input_before  m, used where there are rate limits
-  /// @returns kInvalidInput where any of these holds a number that is not finite.
-  /// After any status but kSolved the inputs are those of the call before, moved up by one step and
+  /// @param input_before  m, used if there are rate limits
+  /// @returns kInvalidInput if any of these contains a number that is not finite.
+  /// After any status but kSolved the inputs are those of the call before, shifted by one step and
   /// clamped to the input bounds, never NaN; before the first kSolved they are zero, clamped. The
   /// next solve() then starts cold.
   QpStatus solve(const Eigen::Ref<const Eigen::VectorXd>& x,
@@ -80,14 +81,14 @@ class LinearMpc {
 
   Eigen::Ref<const Eigen::VectorXd> u() const;  ///< the first input, m
   const Eigen::MatrixXd& inputs_ahead() const;  ///< m x N
-  /// n x (N + 1), x_0 first: what inputs_ahead() leads to, worked out when it is first asked for.
-  /// Where x or the disturbance is not finite these are the states of the call before, moved up.
+  /// n x (N + 1), x_0 first: the states under inputs_ahead(), computed on the first call.
+  /// If x or the disturbance is not finite, these are the states of the call before, shifted.
   const Eigen::MatrixXd& states_ahead() const;
-  /// Largest violation of a soft row in the prediction, in the row's unit; 0: all are kept, or the
-  /// input is invalid.
+  /// Largest violation of a soft row in the prediction, in the row's unit; 0 if all are satisfied
+  /// or the input is invalid.
   double soft_violation() const;
   int iterations() const;  ///< of the QP
-  double cost() const;     ///< of the QP, constants left out
+  double cost() const;     ///< of the QP, without constants
 
  private:
   struct Impl;

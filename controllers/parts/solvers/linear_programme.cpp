@@ -10,10 +10,10 @@ namespace vinerow::controllers {
 namespace {
 
 // Cost vectors and rows have length one here, so these numbers are relative.
-constexpr double kPricing = 0.01;     // of the tolerance: what a row may be violated by
-constexpr double kZero = 1e-13;       // multipliers below it are rounding
+constexpr double kPricing = 0.01;     // of the tolerance: allowed violation of a row
+constexpr double kZero = 1e-13;       // smaller multipliers are rounding
 constexpr double kSmallPivot = 1e-9;  // of the largest entry of the direction
-constexpr double kProgress = 1e-12;   // a shorter dual step counts as none
+constexpr double kProgress = 1e-12;   // a shorter dual step is no progress
 constexpr double kGoldenPart = 0.6180339887498949;
 
 }  // namespace
@@ -34,24 +34,24 @@ const char* to_string(LpStatus status) {
   return "unknown";
 }
 
-LinearProgramme::LinearProgramme(int variables, int most_rows, const LpSettings& settings)
+LinearProgramme::LinearProgramme(int variables, int max_rows, const LpSettings& settings)
     : n_(variables),
       settings_(settings),
-      rows_(variables, most_rows),
+      rows_(variables, max_rows),
       factors_(variables),
       basis_(static_cast<std::size_t>(variables)),
-      taken_(static_cast<std::size_t>(most_rows)),
+      taken_(static_cast<std::size_t>(max_rows)),
       cost_(Eigen::VectorXd::Zero(variables)),
       limits_(Eigen::VectorXd::Zero(variables)),
       y_(Eigen::VectorXd::Zero(variables)),
       z_(Eigen::VectorXd::Zero(variables)),
       direction_(Eigen::VectorXd::Zero(variables)),
-      slack_(Eigen::VectorXd::Zero(most_rows)),
+      slack_(Eigen::VectorXd::Zero(max_rows)),
       entering_(Eigen::VectorXd::Zero(variables)),
       ray_(Eigen::VectorXd::Zero(variables)),
       x_(Eigen::VectorXd::Zero(variables)),
-      multipliers_(Eigen::VectorXd::Zero(most_rows)) {
-  VINEROW_DEMAND(variables >= 1 && most_rows >= 0);
+      multipliers_(Eigen::VectorXd::Zero(max_rows)) {
+  VINEROW_DEMAND(variables >= 1 && max_rows >= 0);
 }
 
 void LinearProgramme::set_rows(const Eigen::Ref<const Eigen::MatrixXd>& F,
@@ -94,7 +94,7 @@ LpStatus LinearProgramme::maximise(const Eigen::Ref<const Eigen::VectorXd>& c) {
     case Outcome::kNoDual:
       break;
   }
-  // Nothing holds c'x back; whether there is any x at all is another question.
+  // c'x is unbounded on the rows; whether any x satisfies them is checked separately.
   ray_ = z_.cwiseProduct(rows_.scale());
   const LpStatus feasible = maximise_nothing();
   if (feasible != LpStatus::kSolved) return feasible;
@@ -105,7 +105,7 @@ LpStatus LinearProgramme::maximise(const Eigen::Ref<const Eigen::VectorXd>& c) {
 LpStatus LinearProgramme::maximise_nothing() {
   // A cost that is a positive combination of the rows has a dual solution, so the set is empty or
   // the optimum is one of its points. One row outweighs all others together, so that they cannot
-  // cancel it; these share uneven weights against ties.
+  // cancel it; the others share uneven weights to avoid ties.
   cost_.setZero();
   bool first = true;
   for (int i = 0; i < rows_.count(); ++i) {
@@ -155,7 +155,7 @@ LinearProgramme::Outcome LinearProgramme::run() {
 LinearProgramme::Outcome LinearProgramme::phase_one() {
   for (; iterations_ < settings_.max_iterations; ++iterations_) {
     if (!refactor()) return Outcome::kStopped;
-    double missing = 0.0;  // of the cost, made up by artificial columns
+    double missing = 0.0;  // part of the cost in artificial columns
     for (int k = 0; k < n_; ++k) {
       limits_[k] = artificial(k) ? 1.0 : 0.0;
       missing += limits_[k] * y_[k];
@@ -166,7 +166,7 @@ LinearProgramme::Outcome LinearProgramme::phase_one() {
     const double size = z_.norm();
     const int row = entering_row(kPricing * settings_.tolerance * size, 0.0);
     if (row == kNone) {
-      // z is the direction in which the cost grows and no row ends it, if it does so at an angle.
+      // No row limits the direction z, along which the cost grows if artificial columns remain.
       return missing > settings_.tolerance * size ? Outcome::kNoDual : Outcome::kOptimum;
     }
     if (!enter(row, true)) return Outcome::kStopped;
@@ -188,8 +188,8 @@ bool LinearProgramme::drive_out_artificials() {
       most = std::abs(slack_[i]);
       row = i;
     }
-    // Without such a row all rows are blind to this direction and the artificial one stays, at
-    // zero.
+    // Without such a row all rows are orthogonal to this direction, and the artificial column
+    // stays, at zero.
     if (row == kNone) continue;
     replace(k, row);
     if (!refactor()) return false;
@@ -213,8 +213,8 @@ LinearProgramme::Outcome LinearProgramme::phase_two() {
     const double violation = slack_[row];
     if (enter(row, false)) continue;
     // No multiplier falls: the row is minus a positive combination of rows of the basis, and these
-    // leave it no room. By less than the tolerance it is a repeated equality, met as well as it
-    // can.
+    // contradict it. By less than the tolerance it is a repeated equality, satisfied as well as
+    // possible.
     const double tolerance = settings_.tolerance * (size + std::abs(rows_.g()[row]));
     if (violation > tolerance * (1.0 + direction_.cwiseAbs().sum())) {
       multipliers_[row] = 1.0 / rows_.length(row);
@@ -264,13 +264,13 @@ bool LinearProgramme::enter(int row, bool artificials_may_leave) {
 }
 
 int LinearProgramme::leaving_place(bool artificials_may_leave) const {
-  const double least_pivot = kSmallPivot * direction_.cwiseAbs().maxCoeff();
+  const double min_pivot = kSmallPivot * direction_.cwiseAbs().maxCoeff();
   const auto candidate = [&](int k) {
-    return direction_[k] > least_pivot && (artificials_may_leave || !artificial(k));
+    return direction_[k] > min_pivot && (artificials_may_leave || !artificial(k));
   };
-  // Two passes (Harris, "Pivot selection methods of the Devex LP code", Math. Prog. 5, 1973): how
-  // far the step may go if multipliers may fall below zero by rounding, then the largest pivot of
-  // those that end it.
+  // Two passes (Harris, "Pivot selection methods of the Devex LP code", Math. Prog. 5, 1973): the
+  // longest step if multipliers may fall below zero by rounding, then the largest pivot of those
+  // that limit it.
   double step = std::numeric_limits<double>::infinity();
   const double room = bland() ? 0.0 : kZero;
   for (int k = 0; k < n_; ++k) {

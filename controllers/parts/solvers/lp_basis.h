@@ -12,7 +12,7 @@ class Basis {
 
   /// Column k, to be filled before factor().
   Eigen::Ref<Eigen::VectorXd> column(int k) { return columns_.col(k); }
-  /// Gaussian elimination with partial pivoting. @returns false where a pivot is zero or no number
+  /// Gaussian elimination with partial pivoting. @returns false if a pivot is zero or NaN
   bool factor();
   /// y of B y = c, refined once. @param c  n @param y  n, not c itself
   void solve(const Eigen::VectorXd& c, Eigen::VectorXd& y);

@@ -8,12 +8,12 @@
 
 namespace vinerow::controllers::lp {
 
-Rows::Rows(int variables, int most_rows)
-    : F_(Eigen::MatrixXd::Zero(most_rows, variables)),
-      g_(Eigen::VectorXd::Zero(most_rows)),
-      length_(Eigen::VectorXd::Zero(most_rows)),
+Rows::Rows(int variables, int max_rows)
+    : F_(Eigen::MatrixXd::Zero(max_rows, variables)),
+      g_(Eigen::VectorXd::Zero(max_rows)),
+      length_(Eigen::VectorXd::Zero(max_rows)),
       scale_(Eigen::VectorXd::Ones(variables)),
-      largest_(Eigen::VectorXd::Zero(most_rows)) {}
+      largest_(Eigen::VectorXd::Zero(max_rows)) {}
 
 void Rows::set(const Eigen::Ref<const Eigen::MatrixXd>& F,
                const Eigen::Ref<const Eigen::VectorXd>& g) {
@@ -52,7 +52,7 @@ void Rows::choose_scale() {
       double most = 0.0, least = std::numeric_limits<double>::infinity();
       for (int i = 0; i < count_; ++i) {
         const double entry = std::abs(F_(i, j)) / largest_[i];
-        // Entries a millionth of their row's largest are taken for rounding and left out.
+        // Entries below a millionth of their row's largest count as rounding and are ignored.
         if (!(entry * scale_[j] > 1e-6)) continue;
         most = std::max(most, entry);
         least = std::min(least, entry);

@@ -1,5 +1,5 @@
 #pragma once
-/// Rows F x <= g of a linear programme, scaled so that pivots and tolerances compare alike: the
+/// Rows F x <= g of a linear programme, scaled so that pivots and tolerances are comparable: the
 /// variables by powers of two (geometric means of the columns), then each row to length one.
 
 #include <Eigen/Core>
@@ -8,7 +8,7 @@ namespace vinerow::controllers::lp {
 
 class Rows {
  public:
-  Rows(int variables, int most_rows);
+  Rows(int variables, int max_rows);
 
   /// @param F  rows x n @param g  rows
   void set(const Eigen::Ref<const Eigen::MatrixXd>& F, const Eigen::Ref<const Eigen::VectorXd>& g);
@@ -24,10 +24,10 @@ class Rows {
   void multiply(const Eigen::VectorXd& z, Eigen::VectorXd& product) const;
   auto row(int i) const { return F_.row(i).transpose(); }
   const Eigen::VectorXd& g() const { return g_; }
-  /// False for rows of zeros and infinite limits, which limit nothing.
+  /// False for rows of zeros and infinite limits, which constrain nothing.
   bool in_force(int i) const { return length_[i] > 0.0 && g_[i] < kNoLimit; }
   const Eigen::VectorXd& scale() const { return scale_; }
-  /// Length of row i before it was made one.
+  /// Length of row i before scaling to one.
   double length(int i) const { return length_[i]; }
 
  private:
@@ -36,11 +36,11 @@ class Rows {
 
   int count_ = 0;
   bool matrix_finite_ = true;
-  Eigen::MatrixXd F_;        // most_rows x n
-  Eigen::VectorXd g_;        // most_rows
-  Eigen::VectorXd length_;   // most_rows
+  Eigen::MatrixXd F_;        // max_rows x n
+  Eigen::VectorXd g_;        // max_rows
+  Eigen::VectorXd length_;   // max_rows
   Eigen::VectorXd scale_;    // n
-  Eigen::VectorXd largest_;  // most_rows, largest entry of a row while scaling
+  Eigen::VectorXd largest_;  // max_rows, largest entry of a row while scaling
 };
 
 }  // namespace vinerow::controllers::lp

@@ -14,7 +14,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// A row of the condensed problem shorter than this share of what it is made of is rounding.
+// A row of the condensed problem shorter than this share of its terms is rounding.
 constexpr double kRoundingRow = 1e-13;
 
 class Checker {
@@ -25,7 +25,7 @@ class Checker {
     if (M.rows() != rows || M.cols() != columns) {
       fail(fmt::format("{} is {} x {}, must be {} x {}", name, M.rows(), M.cols(), rows, columns));
     }
-    if (!M.allFinite()) fail(name + " holds a number that is not finite");
+    if (!M.allFinite()) fail(name + " contains a number that is not finite");
   }
 
   void weight(const std::string& name, const MatrixXd& M, Index size) const {
@@ -33,7 +33,7 @@ class Checker {
     if (!M.isApprox(M.transpose(), 1e-9)) fail(name + " is not symmetric");
   }
 
-  /// Limits may be infinite. @param optional  both empty: none
+  /// Limits may be infinite. @param optional  both may be empty: no limits
   void limits(const std::string& name, const VectorXd& lower, const VectorXd& upper, Index size,
               bool optional) const {
     if (optional && lower.size() == 0 && upper.size() == 0) return;
@@ -107,7 +107,7 @@ class RowBuilder {
     out_.F_relative.resize(0, problem.A.cols());
   }
 
-  /// @returns the place of the block's first row in F or F_relative
+  /// @returns the index of the block's first row in F or F_relative
   int add_matrix(const MpcStateRows& block) {
     MatrixXd& F = block.relative ? out_.F_relative : out_.F;
     const Index first = F.rows();
@@ -140,7 +140,7 @@ class RowBuilder {
     }
   }
 
-  /// of u_step - u_{step-1}
+  /// Limits of u_step - u_{step-1}.
   void add_rates(int step) {
     const Index m = problem_.B.cols();
     for (Index i = 0; i < problem_.rate_lower.size(); ++i) {

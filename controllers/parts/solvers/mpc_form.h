@@ -1,5 +1,5 @@
 #pragma once
-/// A linear MPC problem checked, and its states eliminated:
+/// Check of a linear MPC problem and elimination of its states:
 ///   x_k = A^k x_0 + sum_{j<k} A^(k-1-j) (B u_j + d),
 /// so that the inputs of the horizon, one after the other, are the variables of the QP.
 
@@ -14,7 +14,7 @@ namespace vinerow::controllers::mpc {
 /// A limit on a predicted state: lower <= F x_step (- F r_step) <= upper.
 struct StateLimit {
   int step = 0;   ///< 1..N
-  int F_row = 0;  ///< of Condensed::F, or of F_relative where the reference is taken off
+  int F_row = 0;  ///< of Condensed::F, or of F_relative if the reference is subtracted
   bool relative = false;
   double lower = 0.0, upper = 0.0;
   double weight = 0.0;  ///< infinite: hard
@@ -22,11 +22,11 @@ struct StateLimit {
 
 struct Condensed {
   Eigen::MatrixXd H;  ///< Nm x Nm, for the cost 1/2 u'Hu: twice the sum of weights
-  /// In the order of steps, so that rows of early steps end in zeros.
+  /// Sorted by steps, so that rows of early steps end in zeros.
   Eigen::MatrixXd rows;
-  /// One for each row; those of input rates, at step 0, have a limit only.
+  /// One per row; those of input rates, at step 0, have a limit only.
   std::vector<StateLimit> limits;
-  /// Those that no input of the horizon reaches: the state now and d decide on them.
+  /// Limits that no input of the horizon affects: they depend on the current state and d only.
   std::vector<StateLimit> unreached;
   Eigen::MatrixXd F, F_relative;  ///< rows of all blocks
 };
@@ -34,7 +34,7 @@ struct Condensed {
 /// @throws ConfigError "<who>: Q is 11 x 12, must be 12 x 12"
 void check(const LinearMpcProblem& problem, const std::string& who);
 
-/// @pre checked
+/// @pre check() has passed
 Condensed condense(const LinearMpcProblem& problem);
 
 }  // namespace vinerow::controllers::mpc

@@ -40,8 +40,8 @@ void Prediction::predict_without_inputs(const Vector& x, const Vector& disturban
   }
 }
 
-/// The adjoint of the prediction: costate_k = 2 Q (x_k - r_k) + A' costate_{k+1}, and the gradient
-/// by u_k is B' costate_{k+1} - 2 R v_k.
+/// Adjoint of the prediction: costate_k = 2 Q (x_k - r_k) + A' costate_{k+1}. The gradient with
+/// respect to u_k is B' costate_{k+1} - 2 R v_k.
 void Prediction::find_gradient(const Matrix& input_reference, MatrixXd& f) {
   double *costate = costate_.data(), *before = costate_before_.data();
   two_P_.product(error_.col(N_).data(), costate);

@@ -1,5 +1,5 @@
 #pragma once
-/// What a linear model does over the horizon, and its adjoint: the part of a condensed MPC that
+/// Prediction of a linear model over the horizon, and its adjoint: the part of a condensed MPC that
 /// depends on state, reference and disturbance. No heap after construction.
 
 #include <Eigen/Core>
@@ -16,18 +16,19 @@ class Prediction {
 
   Prediction(const LinearMpcProblem& problem, const Condensed& form);
 
-  /// The states if all inputs were zero, and how far they are from the reference.
+  /// The states for zero inputs, and their deviation from the reference.
   void predict_without_inputs(const Vector& x, const Vector& disturbance, const Matrix& reference);
-  /// After that: f, m x N, the gradient of the cost by the inputs at zero inputs.
+  /// f, m x N: gradient of the cost with respect to the inputs, at zero inputs.
+  /// @pre predict_without_inputs()
   void find_gradient(const Matrix& input_reference, Eigen::MatrixXd& f);
   /// states: n x (N + 1)
   void predict(const Vector& x, const Vector& disturbance, const Eigen::MatrixXd& inputs,
                Eigen::MatrixXd& states) const;
 
-  /// F x_k (- F r_k) of all limits: at zero inputs, or for the states given.
+  /// F x_k (- F r_k) of all limits: at zero inputs, or for given states.
   void evaluate_limits() { evaluate_limits(free_); }
   void evaluate_limits(const Eigen::MatrixXd& states, const Matrix& reference);
-  /// Where values() has the one of a limit; that of a rate is zero.
+  /// Index of a limit's value in values(); the value of a rate is zero.
   int index_of(const StateLimit& limit) const;
   const double* values() const { return values_.data(); }
 

@@ -14,15 +14,15 @@
 namespace vinerow::controllers {
 namespace {
 
-constexpr double kRedundant = 1e-9;  // of a row's size: a smaller cut is none
+constexpr double kRedundant = 1e-9;  // of a row's size: smaller cuts are ignored
 
 void demand_dimension(const char* what, Eigen::Index got, int dimension) {
   if (got == dimension) return;
   throw ConfigError(
-      fmt::format("a polytope in {} dimensions meets {} in {}", dimension, what, got));
+      fmt::format("a polytope in {} dimensions does not match {} in {}", dimension, what, got));
 }
 
-/// A programme over the rows of a polytope whose trouble is an exception.
+/// Linear programme over the rows of a polytope that throws on failure.
 class Programme {
  public:
   Programme(const Eigen::MatrixXd& F, const Eigen::VectorXd& g)
@@ -34,7 +34,7 @@ class Programme {
   LpStatus maximise(const Eigen::VectorXd& c) {
     const LpStatus status = lp_.maximise(c);
     if (status == LpStatus::kIterationLimit || status == LpStatus::kInvalidInput) {
-      throw ConfigError(fmt::format("a linear programme of {} rows in {} variables gave up: {}",
+      throw ConfigError(fmt::format("a linear programme of {} rows in {} variables failed: {}",
                                     lp_.rows(), lp_.variables(), to_string(status)));
     }
     return status;
@@ -59,7 +59,8 @@ Polytope::Polytope(Eigen::MatrixXd F, Eigen::VectorXd g) : F_(std::move(F)), g_(
   }
   for (Eigen::Index i = 0; i < F_.rows(); ++i) {
     if (!F_.row(i).allFinite() || !std::isfinite(g_[i])) {
-      throw ConfigError(fmt::format("row {} of a polytope holds a number that is not finite", i));
+      throw ConfigError(
+          fmt::format("row {} of a polytope contains a number that is not finite", i));
     }
   }
 }
@@ -152,7 +153,7 @@ Polytope Polytope::without_redundant_rows() const {
     const double length = row.norm();
     bool redundant = length == 0.0;
     if (!redundant) {
-      // Moved outwards, not taken away: the programme stays bounded along this row.
+      // Moved outwards, not removed, so that the programme stays bounded along this row.
       programme.set_limit(i, g_[i] + std::max(std::abs(g_[i]), length));
       const double reached = programme.support(row);
       const double size = std::abs(g_[i]) + length * programme.x().norm();

@@ -95,7 +95,7 @@ void QpSolver::Impl::publish() {
     multipliers[held.constraint] = held.multiplier;
     cost += 0.5 * held.softness * held.multiplier * held.multiplier;
     active.push_back(held.constraint);
-    // Rounding does not carry an input over its limit.
+    // Rounding must not move an input beyond its limit.
     if (held.constraint < n()) x[held.constraint] = held.limit;
   }
 }

@@ -8,15 +8,38 @@
 namespace vinerow::controllers::qp {
 namespace {
 
-// Smallest share of a dependent row that a member must carry to be exchanged for it.
+// The problem in the variables of qp_form.h: minimise 1/2 |y + v|^2 subject to
+// lower_i <= g_i y <= upper_i. The working set W (set_) holds its rows G_W at their limits b. With
+// multipliers lambda and softnesses S = diag(1 / weight), stationarity and the soft limits are
+//   y = -(v + G_W' lambda),   G_W y = b + S lambda,
+// so the multipliers for which all members hold with equality solve
+//   C lambda = -(b + G_W v),  C = G_W G_W' + S:  goal = C^-1 (-shifted_limit).
+//
+// run() repeats, with multipliers that always have the right sign:
+//   1. aim() computes goal. On the way from the multipliers to goal the first member whose sign
+//      would become wrong leaves W there (first_wrong_sign(), leave()).
+//   2. If none leaves, the multipliers are goal and y is the minimum over W (find_point()).
+//   3. The constraint with the largest violation enters W (enter()). If its row depends on the
+//      members, g = sum_i combination_i g_i, it replaces the one whose multiplier reaches zero
+//      first (exchange()). If there is no such member, no x satisfies all constraints.
+//   4. If no constraint is violated, y is the optimum.
+// Entering constraints raise the dual function, and no change of W lowers it.
+
+// Smallest share of a dependent row that a member must have to be exchanged for it; smaller shares
+// are rounding. Chosen.
 constexpr double kSmallestShare = 1e-10;
 // Softness below this share of the row's square would be lost in its pivot.
 constexpr double kSmallestSoftness = 1e-12;
-// Each removal leaves its rounding in the factors; after so many they are made anew.
-constexpr int kMostRemovals = 200;
-constexpr int kMostCorrections = 3;
+// Each removal adds its rounding to the factors; they are recomputed after this number. Chosen.
+constexpr int kMaxRemovals = 200;
+// Corrections of y with one working set. Chosen: each reduces the error by the relative accuracy of
+// the factors.
+constexpr int kMaxCorrections = 3;
+// Share of the tolerance by which a member may miss its limit. Chosen: a corrected member is
+// then well within the tolerance.
+constexpr double kMemberTolerance = 0.1;
 
-/// A multiplier of a member after a step: rounding does not carry it over zero.
+/// A multiplier of a member after a step; rounding must not change its sign.
 double kept_sign(int side, double multiplier) {
   return side * multiplier < 0.0 ? 0.0 : multiplier;
 }
@@ -44,7 +67,7 @@ Member Ascent::member(int constraint, int side) const {
   return result;
 }
 
-/// Brings a member of the last run to the new limits. @returns false if it has none there
+/// Moves a member of the last run to the new limits. @returns false if it has no finite limit there
 bool Ascent::keep(Member& old) const {
   const int side = old.side != 0 ? old.side : old.multiplier < 0.0 ? -1 : 1;
   const double multiplier = old.multiplier;
@@ -55,7 +78,7 @@ bool Ascent::keep(Member& old) const {
 
 void Ascent::prepare(const Eigen::VectorXd& v, bool form_changed) {
   v_ = &v;
-  // Multipliers of the right sign are a valid start whatever else has changed.
+  // Multipliers of the right sign are a valid start, whatever else has changed.
   int equalities = 0;
   for (int i = set_.size() - 1; i >= 0; --i) {
     if (keep(set_[i])) {
@@ -64,23 +87,23 @@ void Ascent::prepare(const Eigen::VectorXd& v, bool form_changed) {
       set_.remove(i);
     }
   }
-  if (form_changed || softness_changed_ || set_.removals() > kMostRemovals) set_.rebuild();
+  if (form_changed || softness_changed_ || set_.removals() > kMaxRemovals) set_.rebuild();
   softness_changed_ = false;
   if (equalities < limits_->equalities()) {
     for (int i = 0; i < form_->constraints(); ++i) {
-      // A dependent one is left out: either it holds as well, or it shows up as violated.
+      // A dependent equality is left out: either it holds as well, or it is found as violated.
       if (limits_->is_equality(i) && !set_.contains(i)) set_.append(member(i, 0));
     }
   }
   for (int i = 0; i < set_.size(); ++i) set_[i].shifted_limit = set_[i].limit + set_.value(i, v);
 }
 
-Ascent::Outcome Ascent::run(int most_changes) {
+Ascent::Outcome Ascent::run(int max_changes) {
   changes_ = 0;
   ill_conditioned_ = false;
   limits_->clear_shortlist();
   aim();
-  while (changes_ < most_changes) {
+  while (changes_ < max_changes) {
     double step = 0.0;
     const int leaving = first_wrong_sign(step);
     if (leaving >= 0) {
@@ -92,17 +115,17 @@ Ascent::Outcome Ascent::run(int most_changes) {
     if (!ill_conditioned_) find_point();
     y_length_ = y_.norm();
     if (!std::isfinite(y_length_)) return Outcome::kNotANumber;
-    // Only a full evaluation may say that the point is the optimum, or that there is none.
+    // Only a full evaluation can prove that the point is the optimum, or that no solution exists.
     const bool full = !limits_->evaluate_shortlist(y_, set_);
     if (full) limits_->evaluate(y_);
-    if (corrections_ < kMostCorrections && misses()) {
+    if (corrections_ < kMaxCorrections && misses()) {
       ill_conditioned_ = true;
       ++corrections_;
       correct();
       continue;
     }
-    const int violated = full ? limits_->most_violated(y_length_, set_)
-                              : limits_->most_violated_of_shortlist(y_length_, set_);
+    const int violated = full ? limits_->max_violated(y_length_, set_)
+                              : limits_->max_violated_of_shortlist(y_length_, set_);
     if (violated >= 0 && enter(violated)) {
       aim();
     } else if (full) {
@@ -116,7 +139,7 @@ Ascent::Outcome Ascent::run(int most_changes) {
   return Outcome::kLimit;
 }
 
-/// goal = the multipliers with which all members hold with equality
+/// goal = the multipliers for which all members hold with equality.
 void Ascent::aim() {
   corrections_ = 0;
   for (int i = 0; i < set_.size(); ++i) rhs_[i] = -set_[i].shifted_limit;
@@ -126,7 +149,7 @@ void Ascent::aim() {
   correct();
 }
 
-/// y = -(v + G_W' goal)
+/// y = -(v + G_W' goal).
 void Ascent::find_point() {
   y_ = -*v_;
   for (int i = 0; i < set_.size(); ++i) {
@@ -134,8 +157,9 @@ void Ascent::find_point() {
   }
 }
 
-/// Moves y onto the limits of the members. Where large multipliers cancel in y, their rounding
-/// keeps it off, however good they are: so y takes the step as well as the multipliers.
+/// Moves y onto the limits of the members: C delta = G_W y - b - S goal, goal += delta,
+/// y -= G_W' delta. If large multipliers cancel in y, their rounding displaces y even if they are
+/// accurate; so the step is applied to y as well as to the multipliers.
 void Ascent::correct() {
   for (int i = 0; i < set_.size(); ++i) {
     rhs_[i] = set_.value(i, y_) - set_[i].limit - set_[i].softness * goal_[i];
@@ -147,20 +171,20 @@ void Ascent::correct() {
   }
 }
 
-/// @returns true if a member misses its limit by more than a good part of the tolerance
+/// @returns true if a member misses its limit by more than kMemberTolerance of the tolerance
 bool Ascent::misses() const {
   for (int i = 0; i < set_.size(); ++i) {
     const int c = set_[i].constraint;
     const double miss =
         limits_->values()[c] - set_[i].limit - set_[i].softness * set_[i].multiplier;
-    const double allowed = 0.1 * form_->scaled_tolerance()[c] + kRounding * y_length_;
+    const double allowed = kMemberTolerance * form_->scaled_tolerance()[c] + kRounding * y_length_;
     if (std::abs(miss) * form_->inverse_length()[c] > allowed) return true;
   }
   return false;
 }
 
 /// @returns the member whose multiplier is the first to change its sign on the way to the goal,
-/// after the share `step` of the way; -1 if none does
+/// after the share `step` of it; -1 if none does
 int Ascent::first_wrong_sign(double& step) const {
   int first = -1;
   step = kInfinity;
@@ -176,6 +200,7 @@ int Ascent::first_wrong_sign(double& step) const {
   return first;
 }
 
+/// Moves all multipliers by the share `step` towards the goal and removes member `leaving`.
 void Ascent::leave(int leaving, double step) {
   for (int i = 0; i < set_.size(); ++i) {
     const double now = set_[i].multiplier;
@@ -185,11 +210,12 @@ void Ascent::leave(int leaving, double step) {
   ++changes_;
 }
 
-/// Takes a violated constraint into the set. @returns false if that shows that no x satisfies all
+/// Adds a violated constraint to the set. @returns false if no x satisfies all constraints
 bool Ascent::enter(int constraint) {
   const double direction = limits_->over(constraint) > limits_->under(constraint) ? 1.0 : -1.0;
   const double length = 1.0 / form_->inverse_length()[constraint];
   Member added = member(constraint, static_cast<int>(direction));
+  // A dependent row: exchange members until it is independent.
   while (!set_.append(added)) {
     double step = 0.0;
     const int leaving = exchange(direction, length, step);
@@ -209,9 +235,9 @@ bool Ascent::enter(int constraint) {
   return true;
 }
 
-/// The member to give up for a dependent row: all multipliers move by -step * direction *
-/// combination until the first of them is zero. @returns -1 if none ever is: then the combination
-/// proves that the limits contradict each other (Farkas)
+/// The member that a dependent row replaces: all multipliers move by -step * direction *
+/// combination until the first of them is zero. @returns -1 if none reaches zero: then the
+/// combination proves that the limits contradict each other (Farkas' lemma)
 int Ascent::exchange(double direction, double row_length, double& step) const {
   int first = -1;
   double largest_share = 0.0;

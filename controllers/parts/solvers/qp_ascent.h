@@ -1,6 +1,6 @@
 #pragma once
-/// The dual active-set iteration. The multipliers keep the right sign all the time; with each
-/// violated constraint taken in, the dual function grows, until none is violated.
+/// Dual active-set iteration. The multipliers always have the right sign; with each violated
+/// constraint that is added the dual function grows, until no constraint is violated.
 ///
 /// Source: Arnstrom, Bemporad, Axehill, IEEE TAC 67(8), 2022, with the exchange step
 /// of Goldfarb, Idnani, "A numerically stable dual method for solving strictly convex quadratic
@@ -18,17 +18,17 @@ class Ascent {
  public:
   enum class Outcome { kOptimal, kInfeasible, kLimit, kNotANumber };
 
-  /// @param form, limits  outlive this
+  /// @param form, limits  must outlive this
   Ascent(const Form& form, Limits& limits);
 
   /// 1 / weight of constraint i, 0 if hard; takes effect with the next prepare().
   void set_softness(int i, double softness);
 
   /// Makes the active set of the last run the start of the next one.
-  /// @param v  K' f; outlives run()  @param form_changed  G is another one
+  /// @param v  K' f; must outlive run()  @param form_changed  G has changed
   void prepare(const Eigen::VectorXd& v, bool form_changed);
-  /// @param most_changes  of the active set
-  Outcome run(int most_changes);
+  /// @param max_changes  of the active set
+  Outcome run(int max_changes);
   void forget() { set_.clear(); }
 
   const WorkingSet& set() const { return set_; }
@@ -57,7 +57,7 @@ class Ascent {
   double y_length_ = 0.0;
   int changes_ = 0;
   int corrections_ = 0;           // of y with the present members
-  bool ill_conditioned_ = false;  // this run has needed one
+  bool ill_conditioned_ = false;  // this run has needed a correction
 };
 
 }  // namespace vinerow::controllers::qp

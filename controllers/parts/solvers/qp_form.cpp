@@ -15,12 +15,13 @@ using ConstRows = Eigen::Map<const RowMajor, 0, Eigen::OuterStride<>>;
 
 // Rows of one matrix-vector product: enough to fill Eigen's kernel (8 rows at once).
 constexpr int kBlockRows = 8;
-// A block takes in a row that is longer by so much: the zeros cost less than another product.
+// Largest difference in length between rows of a block: the added zeros cost less than another
+// product.
 constexpr int kPaddedColumns = 4;
-// Shorter rows are no rows: their inverse length would overflow.
+// Shorter rows count as zero: their inverse length would overflow.
 constexpr double kShortestRow = 1e-100;
 
-/// Even, so that every row starts on 16 bytes, and no multiple of 512 bytes, which would send all
+/// Even, so that every row starts on 16 bytes, and no multiple of 512 bytes, which would map all
 /// rows of a block to the same few cache lines.
 Index padded(int n) {
   const Index even = (n + 1) / 2 * 2;

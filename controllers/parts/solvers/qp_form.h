@@ -1,11 +1,11 @@
 #pragma once
-/// A quadratic programme rewritten as the search for the point nearest to -v.
+/// Quadratic programme rewritten as the search for the point nearest to -v.
 ///
 /// With H^-1 = K K' (K lower triangular), x = K y and v = K' f,
 ///   1/2 x'Hx + f'x = 1/2 |y + v|^2 - 1/2 |v|^2,
 /// and every bound and row becomes lower_i <= g_i y <= upper_i with G = [K; A K]. Bounds cost no
 /// more than x = K y itself, and a row of A that ends in zeros (a state constraint of a condensed
-/// MPC) leaves a row of G that ends in the same zeros, which no product visits.
+/// MPC) gives a row of G that ends in the same zeros, which no product visits.
 ///
 /// Source of the transformation: Arnstrom, Bemporad, Axehill, "A dual active-set solver for
 /// embedded quadratic programming using recursive LDL' updates", IEEE TAC 67(8), 2022;
@@ -31,10 +31,10 @@ class Form {
   bool set_hessian(const Eigen::Ref<const Eigen::MatrixXd>& H);
   /// @returns false if a number is not finite
   bool set_rows(const Eigen::Ref<const Eigen::MatrixXd>& A);
-  /// Brings A K up to date. @returns true if G is not what it was at the last call
+  /// Updates A K. @returns true if G has changed since the last call
   bool refresh();
 
-  /// Row i of G, of which the first end(i) numbers can differ from zero.
+  /// Row i of G; only its first end(i) numbers can be nonzero.
   const double* row(int i) const { return G_.data() + static_cast<Eigen::Index>(i) * stride_; }
   int end(int i) const { return end_[static_cast<std::size_t>(i)]; }
   double row_squared(int i) const { return squared_[i]; }

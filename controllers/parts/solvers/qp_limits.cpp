@@ -7,12 +7,12 @@
 namespace vinerow::controllers::qp {
 namespace {
 
-// Share of the worst violation with which a constraint enters the shortlist, and its length.
+// Share of the worst violation above which a constraint enters the shortlist, and its length.
 // Measured on condensed MPC problems of 45 and 80 variables, where it halves the time of a cold
-// start; shares from 0.05 to 0.8 and lengths from 4 to 16 do about as well.
+// start; shares from 0.05 to 0.8 and lengths from 4 to 16 perform about equally.
 constexpr double kShortlistShare = 0.5;
 constexpr std::size_t kShortlist = 8;
-// Below so many constraints evaluating all of them is as cheap.
+// With fewer constraints an evaluation of all of them costs no more.
 constexpr int kFewConstraints = 48;
 
 }  // namespace
@@ -39,7 +39,7 @@ Limits::Verdict Limits::take(const Input& lower, const Input& upper, const Input
   return lower_.hasNaN() || upper_.hasNaN() ? Verdict::kNotANumber : Verdict::kCrossed;
 }
 
-int Limits::most_violated(double y_length, const WorkingSet& set) {
+int Limits::max_violated(double y_length, const WorkingSet& set) {
   score_ = (values_.array() - upper_.array()).max(lower_.array() - values_.array()) *
                form_->inverse_length() -
            form_->scaled_tolerance();
@@ -67,7 +67,7 @@ bool Limits::evaluate_shortlist(const Eigen::VectorXd& y, const WorkingSet& set)
   return true;
 }
 
-int Limits::most_violated_of_shortlist(double y_length, const WorkingSet& set) const {
+int Limits::max_violated_of_shortlist(double y_length, const WorkingSet& set) const {
   int found = -1;
   double worst = kRounding * y_length;
   for (const int i : shortlist_) {

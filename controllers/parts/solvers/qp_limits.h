@@ -1,5 +1,5 @@
 #pragma once
-/// The limits of all constraints of a programme, and which of them a point violates.
+/// Limits of all constraints of a programme, and search for those that a point violates.
 
 #include <Eigen/Core>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace vinerow::controllers::qp {
 
-/// A value g y is known to so many times |g| |y|.
+/// Rounding error of a value g y, relative to |g| |y|.
 inline constexpr double kRounding = 64.0 * 2.220446049250313e-16;
 
 class Limits {
@@ -17,10 +17,10 @@ class Limits {
   enum class Verdict { kFine, kCrossed, kNotANumber };
   using Input = Eigen::Ref<const Eigen::VectorXd>;
 
-  /// @param form  outlives this
+  /// @param form  must outlive this
   explicit Limits(const Form& form);
 
-  /// Limits of the n bounds and the m rows. Crossed are also +infinity below and -infinity above.
+  /// Limits of the n bounds and the m rows. +infinity below and -infinity above count as crossed.
   Verdict take(const Input& lower, const Input& upper, const Input& row_lower,
                const Input& row_upper);
   int equalities() const { return equalities_; }
@@ -31,19 +31,19 @@ class Limits {
   /// Values of all constraints at y.
   void evaluate(const Eigen::VectorXd& y) { form_->values_at(y, values_); }
   const Eigen::VectorXd& values() const { return values_; }
-  /// How far value i lies above its upper limit, and below its lower one.
+  /// Distance of value i above its upper limit, and below its lower limit.
   double over(int i) const { return values_[i] - upper_[i]; }
   double under(int i) const { return lower_[i] - values_[i]; }
 
-  /// After evaluate(y): the constraint outside `set` that is farthest away in the metric of H; -1
-  /// if all hold. Others that are violated nearly as much are kept as the shortlist.
-  int most_violated(double y_length, const WorkingSet& set);
+  /// After evaluate(y): the constraint outside `set` with the largest violation in the metric of H;
+  /// -1 if all hold. Others with nearly the same violation are kept as the shortlist.
+  int max_violated(double y_length, const WorkingSet& set);
   /// Values of the shortlist and of the set at y: few products where evaluate() takes n + m.
   /// @returns false if the shortlist is empty
   bool evaluate_shortlist(const Eigen::VectorXd& y, const WorkingSet& set);
-  /// After evaluate_shortlist(y): as most_violated(), among the shortlist. -1 says nothing about
-  /// the others.
-  int most_violated_of_shortlist(double y_length, const WorkingSet& set) const;
+  /// After evaluate_shortlist(y): as max_violated(), among the shortlist. -1 does not imply that
+  /// the others hold.
+  int max_violated_of_shortlist(double y_length, const WorkingSet& set) const;
   void clear_shortlist() { shortlist_.clear(); }
 
  private:

@@ -7,7 +7,7 @@
 namespace vinerow::controllers::qp {
 namespace {
 
-// A pivot above this share of its row's square lost no more than four digits to cancellation.
+// A pivot above this share of its row's square has lost at most four digits to cancellation.
 constexpr double kPlainPivot = 1e-4;
 // Squared sine of the angle below which a row counts as dependent on the others.
 constexpr double kDependent = 1e-16;
@@ -85,7 +85,7 @@ double WorkingSet::corrected_pivot(int constraint, double softness) {
   residual_.setZero();
   residual_.head(end) = ConstVector(form_->row(constraint), end);
   for (int i = 0; i < k; ++i) add_row(i, -combination_[i], residual_);
-  // One step of refinement. A soft member carries a coordinate sqrt(softness) of its own.
+  // One step of refinement. A soft member has a coordinate sqrt(softness) of its own.
   for (int i = 0; i < k; ++i) {
     correction_[i] = value(i, residual_) - (*this)[i].softness * combination_[i];
   }
@@ -109,7 +109,7 @@ void WorkingSet::remove(int position) {
   ++removals_;
   for (int i = 0; i < rest; ++i) rank_one_[i] = factor_row(position + 1 + i)[position];
   double gain = pivots_[position];
-  // What the removed row gave to the rows after it, `gain` w w', goes back into their factors:
+  // The removed row's contribution to the rows after it, `gain` w w', is added to their factors:
   // Gill, Golub, Murray, Saunders, "Methods for modifying matrix factorizations", 1974, method C1.
   // It only adds, so no digits are lost.
   for (int i = 0; i < rest; ++i) {

@@ -1,14 +1,14 @@
 #pragma once
-/// The constraints that hold with equality, and the factors L D L' of their Gram matrix
+/// Constraints that hold with equality, and the factors L D L' of their Gram matrix
 ///   C = G_W G_W' + diag(softness),
-/// changed by one row at a time. A constraint that depends on the others is not taken in; the
-/// combination it is of them tells which one it can take the place of.
+/// updated by one row at a time. A constraint that depends linearly on the others is not added; its
+/// combination of them determines which one it can replace.
 ///
 /// Recursive L D L' of a dual active-set method: Arnstrom, Bemporad, Axehill, IEEE TAC 67(8), 2022.
 /// The pivot of a nearly dependent row is measured on the row itself (corrected
 /// semi-normal equations: Bjorck, "Stability analysis of the method of semi-normal equations",
-/// Linear Algebra Appl. 88, 1987), so that angles down to 1e-8 rad are told from zero, which the
-/// Gram matrix alone would lose.
+/// Linear Algebra Appl. 88, 1987). So angles down to 1e-8 rad are distinguished from zero, which
+/// the Gram matrix alone would lose. Gram matrix alone would lose.
 
 #include <Eigen/Core>
 #include <vector>
@@ -20,15 +20,15 @@ namespace vinerow::controllers::qp {
 struct Member {
   int constraint = 0;
   int side = 0;           ///< +1 at the upper limit, -1 at the lower one, 0 for an equality
-  double limit = 0.0;     ///< the value it is held at
+  double limit = 0.0;     ///< the value at which it is held
   double softness = 0.0;  ///< 1 / weight, 0 if hard
   double multiplier = 0.0;
-  double shifted_limit = 0.0;  ///< limit + g v: what C and the multipliers have to meet
+  double shifted_limit = 0.0;  ///< limit + g v: the right-hand side for C and the multipliers
 };
 
 class WorkingSet {
  public:
-  /// @param form  outlives this
+  /// @param form  must outlive this
   explicit WorkingSet(const Form& form);
 
   int size() const { return static_cast<int>(members_.size()); }
@@ -42,9 +42,9 @@ class WorkingSet {
   const Eigen::VectorXd& combination() const { return combination_; }
   void remove(int position);
   void clear();
-  /// Factors anew; members that depend on earlier ones are dropped.
+  /// Recomputes the factors; members that depend on earlier ones are dropped.
   void rebuild();
-  /// Rows removed since the last rebuild(): each leaves its rounding in the factors.
+  /// Rows removed since the last rebuild(): each adds its rounding to the factors.
   int removals() const { return removals_; }
 
   /// result[0, size) = C^-1 rhs; both have room for size() numbers and may be the same.

@@ -19,17 +19,17 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-// Doubling squares the closed loop each time: 2^60 steps are reached long before that, or never.
-constexpr int kMostDoublings = 60;
-// Distance to a lower rank, as a share of the matrices' size, that counts as none.
+// Doubling squares the closed loop: a solution converges long before 2^60 steps, or never.
+constexpr int kMaxDoublings = 60;
+// Distance to a lower rank, as a share of the matrices' size, that counts as zero.
 constexpr double kRankTolerance = 1e-12;
 
 MatrixXd symmetric(const MatrixXd& M) {
   return 0.5 * (M + M.transpose());
 }
 
-/// The eigenvalue on or outside the unit circle with the least effect of B on its mode, if that is
-/// none (test of Popov, Belevitch and Hautus).
+/// The eigenvalue on or outside the unit circle with the least effect of B on its mode, if that
+/// effect is zero (test of Popov, Belevitch and Hautus).
 std::optional<std::complex<double>> mode_out_of_reach(const MatrixXd& A, const MatrixXd& B) {
   const Index n = A.rows(), m = B.cols();
   const Eigen::VectorXcd eigenvalues = calc_eigenvalues(A);
@@ -37,7 +37,7 @@ std::optional<std::complex<double>> mode_out_of_reach(const MatrixXd& A, const M
   double smallest = kRankTolerance * (A.norm() + B.norm());
   for (const std::complex<double>& eigenvalue : eigenvalues) {
     if (std::abs(eigenvalue) < 1.0 - 1e-9) continue;
-    // [A - eigenvalue I, B]' of complex numbers written as twice as many real ones
+    // [A - eigenvalue I, B]' of complex numbers as a real matrix of twice the size
     MatrixXd pencil = MatrixXd::Zero(2 * (n + m), 2 * n);
     for (const Index part : {Index{0}, Index{1}}) {
       pencil.block(part * (n + m), part * n, n, n) = A.transpose();
@@ -68,21 +68,21 @@ Failure why_no_solution(const MatrixXd& A, const MatrixXd& B, const MatrixXd& Q)
   }
   if (const auto mode = mode_out_of_reach(A.transpose(), Q)) {
     return {
-        fmt::format("(A, Q) leaves an unstable mode unseen: Q gives no weight to the one with {}",
+        fmt::format("(A, Q) leaves an unstable mode unseen: Q gives no weight to the mode with {}",
                     describe(*mode))};
   }
   return {"the Riccati equation of (A, B, Q, R) has no stabilising solution"};
 }
 
-/// The doubling iteration: H tends to P. @returns nothing where it does not converge
+/// The doubling iteration: H converges to P. @returns nullopt if it does not converge
 std::optional<MatrixXd> double_structure(MatrixXd A, MatrixXd G, MatrixXd H) {
   const Index n = A.rows();
-  // In units of the cost in which G and H are of one size, I + G H is at its best.
+  // I + G H has the best condition in units of the cost in which G and H have the same norm.
   const double size_G = G.norm(), size_H = H.norm();
   const double unit = size_G > 0.0 && size_H > 0.0 ? std::sqrt(size_H / size_G) : 1.0;
   G *= unit;
   H /= unit;
-  for (int i = 0; i < kMostDoublings; ++i) {
+  for (int i = 0; i < kMaxDoublings; ++i) {
     const Eigen::PartialPivLU<MatrixXd> W(MatrixXd::Identity(n, n) + G * H);
     const MatrixXd W_A = W.solve(A), W_G = W.solve(G);
     const MatrixXd growth = symmetric(A.transpose() * H * W_A);
@@ -108,7 +108,7 @@ Result<MatrixXd> solve_dare(const MatrixXd& A, const MatrixXd& B, const MatrixXd
   VINEROW_DEMAND(n >= 1 && A.cols() == n && B.rows() == n && m >= 1);
   VINEROW_DEMAND(Q.rows() == n && Q.cols() == n && R.rows() == m && R.cols() == m);
   if (!A.allFinite() || !B.allFinite() || !Q.allFinite() || !R.allFinite()) {
-    return Failure{"A, B, Q or R holds a number that is not finite"};
+    return Failure{"A, B, Q or R contains a number that is not finite"};
   }
   const Eigen::LLT<MatrixXd> factor_R(R);
   if (factor_R.info() != Eigen::Success) return Failure{"R is not positive definite"};
@@ -136,7 +136,7 @@ Result<MatrixXd> solve_discrete_lyapunov(const MatrixXd& A, const MatrixXd& Q) {
     return Failure{fmt::format("A is not Schur stable: its spectral radius is {:.6g}", radius)};
   }
   MatrixXd P = Q, power = A;
-  for (int i = 0; i < kMostDoublings; ++i) {
+  for (int i = 0; i < kMaxDoublings; ++i) {
     const MatrixXd growth = symmetric(power.transpose() * P * power);
     P += growth;
     power = power * power;

@@ -12,11 +12,11 @@ namespace vinerow::controllers {
 namespace {
 
 constexpr double kContraction = 0.5;
-constexpr int kMostBlock = 1'000'000;
+constexpr int kMaxBlock = 1'000'000;
 constexpr double kTail = 1e-12;  // of the support: small against the 1e-9 of the programmes
 
-/// r_j: how far W and its first n - 1 images reach along axis j together. More than W alone, but
-/// above zero wherever the disturbance comes at all, and in the units of the states.
+/// r_j: joint reach of W and its first n - 1 images along axis j. It is more than that of W alone,
+/// above zero for all states that the disturbance reaches, and in the units of the states.
 Result<Eigen::VectorXd> calc_reach(const Eigen::MatrixXd& A, const Support& W) {
   const Eigen::Index n = A.rows();
   Eigen::VectorXd reach = Eigen::VectorXd::Zero(n);
@@ -26,7 +26,7 @@ Result<Eigen::VectorXd> calc_reach(const Eigen::MatrixXd& A, const Support& W) {
       const double above = W(c), below = W(-c);
       if (!(above >= -below)) return Failure{"the disturbance set is empty"};
       if (std::isinf(above) || std::isinf(below)) {
-        return Failure{fmt::format("the disturbance set has no end along state {}", j)};
+        return Failure{fmt::format("the disturbance set is unbounded along state {}", j)};
       }
       reach[j] += std::max(std::abs(above), std::abs(below));
       c = A.transpose() * c;
@@ -42,7 +42,7 @@ Result<SeriesSupport> SeriesSupport::make(const Eigen::MatrixXd& A, const Suppor
   if (A.rows() < 1 || A.rows() != A.cols()) {
     throw ConfigError(fmt::format("A is {} x {}, must be square", A.rows(), A.cols()));
   }
-  if (!A.allFinite()) throw ConfigError("A holds a number that is not finite");
+  if (!A.allFinite()) throw ConfigError("A contains a number that is not finite");
   const double radius = spectral_radius(A);
   if (!(radius < 1.0)) {
     return Failure{
@@ -55,20 +55,20 @@ Result<SeriesSupport> SeriesSupport::make(const Eigen::MatrixXd& A, const Suppor
   series.W_ = W;
   series.reach_ = *reach;
   Eigen::MatrixXd power = A;
-  for (series.block_ = 1; series.block_ <= kMostBlock; ++series.block_) {
+  for (series.block_ = 1; series.block_ <= kMaxBlock; ++series.block_) {
     const Eigen::VectorXd image = power.cwiseAbs() * series.reach_;
     series.contraction_ = image.cwiseQuotient(series.reach_).maxCoeff();
     if (series.contraction_ <= kContraction) return series;
     power = power * A;
   }
   return Failure{fmt::format(
-      "{} steps of A do not halve every state: its spectral radius is {:.9g}", kMostBlock, radius)};
+      "{} steps of A do not halve every state: its spectral radius is {:.9g}", kMaxBlock, radius)};
 }
 
 SeriesSupport::Bound SeriesSupport::bound(const Eigen::VectorXd& c) const {
   if (c.size() != A_.rows()) {
-    throw ConfigError(
-        fmt::format("a set in {} dimensions meets a direction in {}", A_.rows(), c.size()));
+    throw ConfigError(fmt::format("a set in {} dimensions does not match a direction in {}",
+                                  A_.rows(), c.size()));
   }
   const double first = c.cwiseAbs().dot(reach_);
   Eigen::VectorXd moved = c, next(c.size());
@@ -84,7 +84,7 @@ SeriesSupport::Bound SeriesSupport::bound(const Eigen::VectorXd& c) const {
     }
     tail = block * contraction_ / (1.0 - contraction_);
   }
-  // Terms may be negative where W does not hold the origin, so the tail counts both ways.
+  // Terms may be negative if W does not contain the origin, so the tail counts both ways.
   bound.value = sum + tail;
   bound.excess = 2.0 * tail;
   return bound;

@@ -1,7 +1,7 @@
 #pragma once
-/// A small matrix kept by its entries that are not zero. The matrices of sampled mechanical systems
-/// and of their limits are mostly zeros, and at these sizes a product with them costs less than the
-/// call of a dense one.
+/// Small matrix stored by its nonzero entries. The matrices of sampled mechanical systems and of
+/// their limits are mostly zeros, and at these sizes a product with them costs less than the call
+/// of a dense one.
 
 #include <Eigen/Core>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
-/// The support function of a closed convex set S: h(c) = max c's over s in S. +infinity where S has
-/// no end along c. Polytope, Zonotope, SeriesSupport and OuterMinimalSet are callable like this and
+/// Support function of a closed convex set S: h(c) = max c's over s in S; +infinity if S is
+/// unbounded along c. Polytope, Zonotope and SeriesSupport are callable like this and
 /// convert to it, as copies.
 
 #include <Eigen/Core>

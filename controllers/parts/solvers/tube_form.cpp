@@ -8,14 +8,14 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// Rows gathered one after the other.
+/// List of rows and their meanings.
 class RowList {
  public:
   RowList(TubeForm& form, Index most) : form_(&form) {
     form.rows.setZero(most, form.H.cols());
     form.about.reserve(static_cast<std::size_t>(most));
   }
-  /// @param map  y to what the row is about
+  /// @param map  from y to the quantity of the row
   void add(const MatrixXd& map, const TubeRow& about) {
     form_->rows.row(static_cast<Index>(form_->about.size())) = map.row(0);
     form_->about.push_back(about);

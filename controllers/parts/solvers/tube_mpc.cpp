@@ -68,7 +68,7 @@ TubeMpc::TubeMpc(const TubeModel& model, const TubeSets& sets, const TubeCost& c
   for (VectorXd* vector : {&u_, &v0_}) vector->setZero(inputs());
   tube_values_.setZero(sets.tube_rows.rows());
   terminal_values_.setZero(sets.terminal_rows.rows());
-  // What the QP works out once for its rows is not left to the first step.
+  // The QP computes the products of its rows now, not in the first step.
   qp_.solve(f_, lower_, upper_, row_lower_, row_upper_);
   qp_.cold_start();
 }
@@ -76,7 +76,7 @@ TubeMpc::TubeMpc(const TubeModel& model, const TubeSets& sets, const TubeCost& c
 QpStatus TubeMpc::solve(const Eigen::Ref<const VectorXd>& x) {
   iterations_ = active_rows_ = 0;
   soft_violation_ = cost_ = tube_share_ = 0.0;
-  // One number of the sum is not finite where one of x is not.
+  // The sum is not finite if a number of x is not.
   if (!((0.0 * x).sum() == 0.0)) {
     fall_back(VectorXd::Zero(0));
     return QpStatus::kInvalidInput;
@@ -99,7 +99,7 @@ QpStatus TubeMpc::solve(const Eigen::Ref<const VectorXd>& x) {
   return status;
 }
 
-/// Sets start_ to z_0, or where z_0 is free to the best one. @returns whether z_0 is given
+/// Sets start_ to z_0, or if z_0 is free to the best one. @returns whether z_0 is given
 bool TubeMpc::choose_start(const Eigen::Ref<const VectorXd>& x) {
   tube_values_.noalias() = sets_.tube_rows * x;
   start_ = x;
@@ -117,7 +117,7 @@ bool TubeMpc::choose_start(const Eigen::Ref<const VectorXd>& x) {
   return false;
 }
 
-/// Whether v_i = K z_i from start_ is known to be the optimum.
+/// True if v_i = K z_i from start_ is known to be the optimum.
 bool TubeMpc::unconstrained_is_optimal(bool is_fixed) {
   if (!is_fixed) return largest(tube_values_) <= 1.0;  // start_ = 0 costs nothing
   if (!form_.is_decoupled) return false;
@@ -150,7 +150,7 @@ QpStatus TubeMpc::optimise(bool is_fixed) {
   return status;
 }
 
-/// Only rows that are active can be violated.
+/// Only active rows can be violated.
 void TubeMpc::look_for_violation(int row) {
   if (row < 0 || !is_soft(form_.about[static_cast<std::size_t>(row)])) return;
   const double over = std::abs(form_.rows.row(row).dot(y_)) - 1.0;
@@ -175,7 +175,7 @@ void TubeMpc::finish(const Eigen::Ref<const VectorXd>& x) {
   u_.noalias() += model_.K * error_;
 }
 
-/// @param x  of length zero: not known
+/// @param x  length zero: unknown
 void TubeMpc::fall_back(const Eigen::Ref<const VectorXd>& x) {
   cold_start();
   y_.setZero();

@@ -17,8 +17,25 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// Plan, with the symbols of tube_sets.h:
+//   1. Half widths of S along each state and each row of K: reach_i = h_S(e_i), h_S(K_j).
+//   2. S scales with the gusts, so these may grow by factor = min(limit / reach). If factor <= 1,
+//      no nominal state keeps the limits: the tube is empty.
+//   3. R: the box |e_i| <= reach_i, |K_j e| <= reach_j (kBox), or the largest robust invariant set
+//      inside that box widened by 1 + margin, margin = min(kMargin, (factor - 1) / 2), which keeps
+//      the tightened limits > 0 (kInvariant).
+//   4. Tightened limits: limit - (1 + margin) reach.
+//   5. Terminal set: the largest invariant set of z+ = A_K z within the tightened limits.
+
+// Margin of kInvariant. Chosen: without a margin the gusts fill the box exactly, and the iteration
+// for the invariant set does not end (invariant_set.cpp).
 constexpr double kMargin = 0.01;
-constexpr double kThinnest = 1e-6;  // of the limit: reach of gusts that do not come at a state
+// Smallest half width of R, as a share of the limit, for states that gusts do not reach. Chosen: R
+// needs an interior, and the limits shrink by this share only.
+constexpr double kThinnest = 1e-6;
+// Distance of two rows, as a share of their length, below which they are equal: above the rounding
+// of the linear programmes.
+constexpr double kSameRow = 1e-9;
 
 void check_shape(const char* name, const MatrixXd& matrix, Index rows, Index columns) {
   if (matrix.rows() != rows || matrix.cols() != columns) {
@@ -26,7 +43,7 @@ void check_shape(const char* name, const MatrixXd& matrix, Index rows, Index col
                                   matrix.cols(), rows, columns));
   }
   if (!matrix.allFinite()) {
-    throw ConfigError(fmt::format("{} of a tube holds a number that is not finite", name));
+    throw ConfigError(fmt::format("{} of a tube contains a number that is not finite", name));
   }
 }
 
@@ -58,8 +75,9 @@ Result<SeriesSupport> make_tube(const TubeModel& model) {
   return SeriesSupport::make(model.A + model.B * model.K, gust_set(model));
 }
 
-TubeRoom room_of(const TubeModel& model, const SeriesSupport& S) {
-  TubeRoom room;
+/// The smallest ratio of limit and reach, and the limit that it belongs to.
+GustMargin free_space_of(const TubeModel& model, const SeriesSupport& S) {
+  GustMargin room;
   room.factor = std::numeric_limits<double>::infinity();
   const auto look = [&room](double limit, double reach, const std::string& name) {
     if (reach > 0.0 && limit / reach < room.factor) {
@@ -70,7 +88,7 @@ TubeRoom room_of(const TubeModel& model, const SeriesSupport& S) {
   const Index n = model.A.rows(), m = model.B.cols();
   room.reach.state.resize(n);
   room.reach.input.resize(m);
-  // S of no gusts is the origin; the series' bound of the rest of nothing is not quite zero.
+  // Without gusts S is the origin, but the bound of the series' remainder is not exactly zero.
   const bool calm = (model.E * model.gust.asDiagonal()).isZero(0.0);
   for (Index i = 0; i < n; ++i) {
     room.reach.state[i] = calm ? 0.0 : S(VectorXd::Unit(n, i));
@@ -83,14 +101,14 @@ TubeRoom room_of(const TubeModel& model, const SeriesSupport& S) {
   return room;
 }
 
-/// What stays within limits of x and K x for ever, under x+ = A_K x (+ w, w in W).
+/// Largest set that stays within limits of x and K x forever under x+ = A_K x (+ w, w in W).
 struct StayingSet {
   MatrixXd rows;  // of x: |row x| <= 1
   int steps = 0;
 };
 
-/// Rows of a set that is its own mirror image, one of each pair, divided by their limits. Where
-/// rounding has left one of a pair out as redundant, its mirror image stands for both.
+/// Rows of a set that is symmetric about the origin, one of each pair, divided by their limits. If
+/// rounding has dropped one of a pair as redundant, its mirror image represents both.
 MatrixXd paired_rows(const Polytope& set) {
   MatrixXd rows(set.rows(), set.dimension());
   Index kept = 0;
@@ -98,7 +116,7 @@ MatrixXd paired_rows(const Polytope& set) {
     const Eigen::RowVectorXd row = set.F().row(i) / set.g()[i];
     bool is_new = true;
     for (Index k = 0; k < kept && is_new; ++k) {
-      const double near = 1e-9 * row.norm();
+      const double near = kSameRow * row.norm();
       is_new = (rows.row(k) + row).norm() > near && (rows.row(k) - row).norm() > near;
     }
     if (is_new) rows.row(kept++) = row;
@@ -107,7 +125,7 @@ MatrixXd paired_rows(const Polytope& set) {
   return rows;
 }
 
-/// Worked out for x / limits, so that rows of all units weigh the same.
+/// Computed for x / limits, so that rows of all units have the same weight.
 Result<StayingSet> make_staying_set(const TubeModel& model, const MatrixXd& A_K,
                                     const TubeReach& limits, const Zonotope* W) {
   const MatrixXd scale = limits.state.asDiagonal();
@@ -124,6 +142,7 @@ Result<StayingSet> make_staying_set(const TubeModel& model, const MatrixXd& A_K,
   return StayingSet{paired_rows(set->set) * unscale, set->steps};
 }
 
+/// Rows |e_i| <= reach_i and |K_j e| <= reach_j, divided by their limits.
 MatrixXd box_rows(const TubeModel& model, const TubeReach& reach) {
   const Index n = model.A.rows(), m = model.B.cols();
   MatrixXd rows(n + m, n);
@@ -134,11 +153,11 @@ MatrixXd box_rows(const TubeModel& model, const TubeReach& reach) {
 
 }  // namespace
 
-Result<TubeRoom> calc_tube_room(const TubeModel& model) {
+Result<GustMargin> calc_gust_margin(const TubeModel& model) {
   check(model);
   const Result<SeriesSupport> S = make_tube(model);
   if (!S) return Failure{S.reason()};
-  return room_of(model, *S);
+  return free_space_of(model, *S);
 }
 
 Result<TubeSets> make_tube_sets(const TubeModel& model, TubeShape shape) {
@@ -147,7 +166,7 @@ Result<TubeSets> make_tube_sets(const TubeModel& model, TubeShape shape) {
   if (!S) return Failure{S.reason()};
   TubeSets sets;
   sets.A_K = model.A + model.B * model.K;
-  sets.room = room_of(model, *S);
+  sets.room = free_space_of(model, *S);
   const double factor = sets.room.factor;
   if (!(factor > 1.0)) {
     return Failure{fmt::format(
@@ -157,7 +176,7 @@ Result<TubeSets> make_tube_sets(const TubeModel& model, TubeShape shape) {
   }
   const bool calm = std::isinf(factor);
   TubeReach reach = sets.room.reach;
-  if (!calm) {  // A set has an inside, so that rows have limits to be divided by.
+  if (!calm) {  // R needs an interior, because its rows are divided by their limits.
     reach.state = reach.state.cwiseMax(kThinnest * model.state_limit);
     reach.input = reach.input.cwiseMax(kThinnest * model.input_limit);
   }

@@ -16,7 +16,7 @@ Zonotope::Zonotope(Eigen::VectorXd centre, Eigen::MatrixXd generators)
                                   centre_.size(), generators_.rows()));
   }
   if (!centre_.allFinite() || !generators_.allFinite()) {
-    throw ConfigError("a zonotope holds a number that is not finite");
+    throw ConfigError("a zonotope contains a number that is not finite");
   }
 }
 
@@ -34,8 +34,8 @@ Zonotope Zonotope::box(const Eigen::VectorXd& half) {
 
 double Zonotope::support(const Eigen::VectorXd& c) const {
   if (c.size() != centre_.size()) {
-    throw ConfigError(
-        fmt::format("a zonotope in {} dimensions meets a direction in {}", dimension(), c.size()));
+    throw ConfigError(fmt::format("a zonotope in {} dimensions does not match a direction in {}",
+                                  dimension(), c.size()));
   }
   double sum = c.dot(centre_);
   for (Eigen::Index k = 0; k < generators_.cols(); ++k) sum += std::abs(generators_.col(k).dot(c));
@@ -44,8 +44,9 @@ double Zonotope::support(const Eigen::VectorXd& c) const {
 
 Zonotope Zonotope::linear_image(const Eigen::MatrixXd& M) const {
   if (M.cols() != centre_.size()) {
-    throw ConfigError(fmt::format("a zonotope in {} dimensions meets a matrix of {} columns",
-                                  dimension(), M.cols()));
+    throw ConfigError(
+        fmt::format("a zonotope in {} dimensions does not match a matrix of {} columns",
+                    dimension(), M.cols()));
   }
   return {M * centre_, M * generators_};
 }

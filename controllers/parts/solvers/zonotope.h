@@ -1,7 +1,7 @@
 #pragma once
 /// Zonotopes: {centre + G a : |a_i| <= 1}, closed under linear images. A gust
 /// that acts through a matrix E, |d_i| <= 1, is the zonotope of generators E: a box around it would
-/// lose how its components go together.
+/// lose the correlation of its components.
 
 #include <Eigen/Core>
 
@@ -24,7 +24,7 @@ class Zonotope {
   /// max c'x = c'centre + sum |c'g_i|; exact. No heap.
   double support(const Eigen::VectorXd& c) const;
   double operator()(const Eigen::VectorXd& c) const { return support(c); }
-  /// Half the extents along the axes: the smallest box is centre +- these.
+  /// Half the extents along the axes: the smallest enclosing box is centre +- these.
   Eigen::VectorXd half_widths() const { return generators_.cwiseAbs().rowwise().sum(); }
 
   /// {M x : x in this}. @param M  any rows x dimension()

@@ -18,7 +18,7 @@ constexpr double kFlightStep_m = 0.05;
 /// Nearest point of a row's centre line, with its distance in the plane.
 std::pair<Eigen::Vector3d, double> find_nearest(const PlantRow& row, const Eigen::Vector2d& p) {
   Eigen::Vector3d best = row.line_W.front();
-  double least_m = std::numeric_limits<double>::infinity();
+  double min_m = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i + 1 < row.line_W.size(); ++i) {
     const Eigen::Vector3d &a = row.line_W[i], &b = row.line_W[i + 1];
     const Eigen::Vector2d ab = (b - a).head<2>();
@@ -27,12 +27,12 @@ std::pair<Eigen::Vector3d, double> find_nearest(const PlantRow& row, const Eigen
         length2 > 0.0 ? std::clamp((p - a.head<2>()).dot(ab) / length2, 0.0, 1.0) : 0.0;
     const Eigen::Vector3d q = a + share * (b - a);
     const double distance_m = (p - q.head<2>()).norm();
-    if (distance_m < least_m) {
-      least_m = distance_m;
+    if (distance_m < min_m) {
+      min_m = distance_m;
       best = q;
     }
   }
-  return {best, least_m};
+  return {best, min_m};
 }
 
 int last_of(const HeightProfile& profile) {
@@ -54,7 +54,7 @@ std::optional<double> FlightGround::canopy_top_m(const Eigen::Vector2d& p, doubl
   for (const PlantRow& row : map_.rows) {
     const auto [q, distance_m] = find_nearest(row, p);
     if (distance_m > 0.5 * row.canopy_width_m + reach_m) continue;
-    // The row's line and the ground may tell different heights: the higher counts.
+    // The row's line and the ground may differ in height: the higher one counts.
     const double foot_m =
         scene_ == nullptr ? q.z() : std::max(q.z(), ground_m(q.head<2>()).value_or(q.z()));
     top_m = std::max(top_m.value_or(-kAboveEverything_m), foot_m + row.canopy_top_m);
@@ -93,7 +93,7 @@ Result<HeightProfile> make_ground_profile(const Path& way, const FlightGround& g
     const auto height_m = ground.ground_m(p);
     if (!height_m) {
       return Failure{
-          fmt::format("path leaves the ground: there is none at ({:.2f}, {:.2f})", p.x(), p.y())};
+          fmt::format("path leaves the ground: no ground at ({:.2f}, {:.2f})", p.x(), p.y())};
     }
     heights_m.push_back(*height_m);
   }
@@ -119,14 +119,14 @@ HeightProfile make_return_profile(const Path& way, const HeightProfile& ground_m
     segment = way.segment_at(i * step_m, segment);
     const Eigen::Vector2d p = way.pose_at(i * step_m, segment).p;
     double needed_m = ground_m.samples_m()[i];
-    // A step more, for what lies between the samples.
+    // One step more, for canopies between the samples.
     if (const auto top_m = ground.canopy_top_m(p, reach_m + step_m)) {
       needed_m = std::max(needed_m, *top_m);
     }
     excess_m.push_back(std::max(0.0, needed_m + above_m - base.samples_m()[i]));
   }
-  // Every sample that the averages see has been widened over the place they are taken at, so their
-  // mean is not below it: two averages reach as far as the widening does.
+  // The two averages together reach 2 half steps and the dilation one more. So all samples of an
+  // average are at least the original one, and its result is not below it.
   const int half = calc_half_window(smooth_m, step_m);
   excess_m = dilate(excess_m, 2 * half + 1);
   excess_m = smooth_box(excess_m, half, Beyond::kConstant);

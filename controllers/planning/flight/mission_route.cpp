@@ -6,7 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "controllers/planning/routes/fence_ways.h"
+#include "controllers/planning/routes/fence_paths.h"
 #include "controllers/planning/routes/ground_mission.h"
 #include "controllers/planning/routes/mission_items.h"
 #include "controllers/planning/routes/mission_kinds.h"
@@ -28,7 +28,7 @@ constexpr double kSamePlace_m = 1e-3;
 
 struct MissionRouteParams {
   std::filesystem::path file;
-  double climb_slope = 0.12;  ///< of wings to the first waypoint, rise over run
+  double climb_slope = 0.12;  ///< of a fixed wing to the first waypoint, rise over run
   double ramp_error_m = 2.0;
   bool keeps_fences = true;
   double pitch_m = 0.33;
@@ -40,22 +40,22 @@ const ParameterTable<MissionRouteParams>& mission_route_table() {
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .path("file", &P::file,
-                "the mission: a .plan, a QGC WPL 110 text, or lines and points of a map (.gpkg, "
-                ".kml, .kmz, .shp, .geojson)")
+                "file of the mission: a .plan, a QGC WPL 110 text, or lines and points of a map "
+                "(.gpkg, .kml, .kmz, .shp, .geojson)")
           .required()
           .number("climb_slope", "", &P::climb_slope, between(0.001, 10.0),
-                  "at which wings climb to the first waypoint, rise over run; laps are added "
-                  "where the way there is too short")
+                  "slope at which fixed-wing vehicles climb to the first waypoint, rise over run; "
+                  "laps are added if the path there is too short")
           .number("ramp_error_m", "m", &P::ramp_error_m, kPositive,
-                  "by which ramps between places above the terrain may miss it")
+                  "largest deviation of ramps between places above the terrain")
           .choice("fences", &P::keeps_fences, {{"keep", true}, {"ignore", false}},
-                  "keep: wings refuse a way that breaks one of the mission's fences, others go "
-                  "around it")
+                  "keep: a fixed-wing vehicle rejects a mission whose path violates one of its "
+                  "fences, others go around the fence")
           .number("waypoint_pitch_m", "m", &P::pitch_m, kPositive,
                   "on the ground straights and arcs are split into round(length / pitch) parts")
           .number("turning_radius_m", "m", &P::turning_radius_m, between(0.0, 1e3),
-                  "with which corners on the ground are rounded; 0 = not at all; default: 1.1 "
-                  "times the least of a vehicle that steers by its axles, else 0");
+                  "radius of rounded corners on the ground; 0 = not rounded; default: 1.1 times "
+                  "the minimum of a vehicle with axle steering, else 0");
   return table;
 }
 
@@ -86,7 +86,7 @@ class MissionRoute final : public Planner {
     start_ = start;
     ground_ = make_ground(scene_, start.p.z() - vehicle_.height_above_ground_m);
     find_home();
-    if (const auto fault = lay_way()) return Failure{*fault};
+    if (const auto fault = lay_path()) return Failure{*fault};
     set_mission_kinds(camera_, mission_places_.uses_camera, path_);
     if (const auto fault = check()) return Failure{*fault};
     measure();
@@ -94,7 +94,7 @@ class MissionRoute final : public Planner {
   }
 
  private:
-  /// Home is where the vehicle starts: an autopilot takes it from there, not from the file.
+  /// Home is the vehicle's start: an autopilot uses that, not the position in the file.
   void find_home() {
     home_m_ = ground_(start_.p.head<2>()).value_or(start_.p.z() - vehicle_.height_above_ground_m);
   }
@@ -113,10 +113,9 @@ class MissionRoute final : public Planner {
     }
     const auto ground_m = ground_(place.p_W);
     if (!ground_m) {
-      return Failure{
-          fmt::format("item {} is {:g} m above the terrain at ({:.1f}, {:.1f}), where there "
-                      "is none",
-                      place.item, place.altitude_m, place.p_W.x(), place.p_W.y())};
+      return Failure{fmt::format(
+          "item {} is {:g} m above the terrain at ({:.1f}, {:.1f}), where the world has no terrain",
+          place.item, place.altitude_m, place.p_W.x(), place.p_W.y())};
     }
     return *ground_m + place.altitude_m;
   }
@@ -136,7 +135,7 @@ class MissionRoute final : public Planner {
     items_.push_back(place.item);
   }
 
-  std::optional<std::string> lay_way() {
+  std::optional<std::string> lay_path() {
     camera_.clear();
     items_.clear();
     MissionPlace begin;
@@ -147,7 +146,7 @@ class MissionRoute final : public Planner {
     for (const MissionPlace& place : mission_places_.places) {
       using Task = MissionPlace::Task;
       if (place.task == Task::kReturn || (place.task == Task::kLand && !place.has_place)) {
-        // Home, or down where it is, at the height it has.
+        // Return home, or land at the current position, at the current height.
         const double height_m = path_.points.back().p_W.z();
         Vector3d p = path_.points.back().p_W;
         if (place.task == Task::kReturn) p << start_.p.head<2>(), height_m;
@@ -160,12 +159,13 @@ class MissionRoute final : public Planner {
       const auto height_m = height_of(place);
       if (!height_m) return height_m.reason();
       Vector3d p(place.p_W.x(), place.p_W.y(), *height_m);
-      if (!place.has_place) p.head<2>() = path_.points.back().p_W.head<2>();  // a bare take-off
+      if (!place.has_place)
+        p.head<2>() = path_.points.back().p_W.head<2>();  // a take-off without a position
       if (place.task == Task::kLand) p.z() = path_.points.back().p_W.z();
       if (is_first && !winged_) {
         add({start_.p.x(), start_.p.y(), p.z()}, PathKind::kTransit, place);
       } else if (is_first && !place.has_place) {
-        continue;  // wings climb on the way to the first waypoint
+        continue;  // a fixed wing climbs on the path to the first waypoint
       } else if (is_first) {
         climb_to(p, place);
       }
@@ -183,12 +183,12 @@ class MissionRoute final : public Planner {
                                    : std::nullopt;
   }
 
-  /// Rotorcraft bend where a fence is in the way; heights change evenly along it.
+  /// Bends the path of a rotorcraft around fences; its height changes linearly along the path.
   std::optional<std::string> go_around_fences(const Vector3d& p, const MissionPlace& place) {
     if (winged_ || !keeps_fences_ || fences_.empty()) return std::nullopt;
     const PathPoint from = path_.points.back();
-    const auto way = fences_.find_way(from.p_W.head<2>(), p.head<2>());
-    if (!way) return std::nullopt;  // check() says which fence
+    const auto way = fences_.find_path(from.p_W.head<2>(), p.head<2>());
+    if (!way) return std::nullopt;  // check() names the fence
     double length_m = 0.0;
     Vector2d at = from.p_W.head<2>();
     for (const Vector2d& bend : *way) {
@@ -211,7 +211,7 @@ class MissionRoute final : public Planner {
     return std::nullopt;
   }
 
-  /// Laps beside the start where the way to the first place is too short to climb.
+  /// Adds laps near the start if the path to the first place is too short for the climb.
   void climb_to(const Vector3d& p, const MissionPlace& place) {
     const double rise_m = p.z() - start_.p.z();
     const double needed_m = rise_m / climb_slope_, direct_m = (p - start_.p).head<2>().norm();
@@ -230,7 +230,7 @@ class MissionRoute final : public Planner {
     }
   }
 
-  /// Points between two places above the terrain, so that ramps follow it.
+  /// Adds points between two places above the terrain, so that ramps follow it.
   void follow_ground(const MissionPlace& from, const MissionPlace& to) {
     const auto profile = GroundProfile::make({from.p_W, to.p_W}, ground_);
     if (!profile || profile->length_m() < kSamePlace_m) return;
@@ -247,7 +247,7 @@ class MissionRoute final : public Planner {
     }
   }
 
-  /// Rotorcraft go straight down; how wings land is their guidance's business.
+  /// Rotorcraft descend vertically; the landing of a fixed wing is a matter of its guidance.
   void land(const MissionPlace& place) {
     if (winged_) return;
     path_.points.back().kind = PathKind::kVertical;
@@ -256,19 +256,19 @@ class MissionRoute final : public Planner {
     add(p, PathKind::kVertical, place);
   }
 
-  /// Ways into the ground or out of the fences.
+  /// Checks for a path into the ground or a violated fence.
   std::optional<std::string> check() {
     constexpr double kLook_m = 2.0;
-    double least_m = std::numeric_limits<double>::infinity();
+    double min_m = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i + 1 < path_.points.size(); ++i) {
       const PathPoint &a = path_.points[i], &b = path_.points[i + 1];
       const std::string leg =
-          i == 0 ? fmt::format("the way to item {}", items_[1])
-                 : fmt::format("the way from item {} to item {}", items_[i], items_[i + 1]);
+          i == 0 ? fmt::format("the path to item {}", items_[1])
+                 : fmt::format("the path from item {} to item {}", items_[i], items_[i + 1]);
       if (keeps_fences_) {
         if (const auto fence =
                 find_broken_fence(mission_, origin_, a.p_W.head<2>(), b.p_W.head<2>())) {
-          return fmt::format("{} breaks {}; 'fences: ignore' flies it all the same", leg, *fence);
+          return fmt::format("{} violates {}; 'fences: ignore' flies it nevertheless", leg, *fence);
         }
       }
       if (i == 0 || a.kind == PathKind::kVertical) continue;
@@ -282,10 +282,10 @@ class MissionRoute final : public Planner {
           return fmt::format("{} goes {:.1f} m below the ground at ({:.1f}, {:.1f})", leg,
                              *ground_m - p.z(), p.x(), p.y());
         }
-        if (a.kind != PathKind::kTransit) least_m = std::min(least_m, p.z() - *ground_m);
+        if (a.kind != PathKind::kTransit) min_m = std::min(min_m, p.z() - *ground_m);
       }
     }
-    if (std::isfinite(least_m)) report_.numbers["height_above_ground_min_m"] = least_m;
+    if (std::isfinite(min_m)) report_.numbers["height_above_ground_min_m"] = min_m;
     return std::nullopt;
   }
 
@@ -308,7 +308,7 @@ class MissionRoute final : public Planner {
   double climb_slope_, ramp_error_m_;
   bool keeps_fences_;
   static constexpr double kFenceMargin_m = 3.0;  // of bends in the air
-  FenceWays fences_;
+  FencePaths fences_;
   bool winged_ = true;
   double radius_m_ = 25.0;
   MissionPlaces mission_places_;
@@ -317,7 +317,7 @@ class MissionRoute final : public Planner {
   GroundHeight ground_;
   double home_m_ = 0.0;
   PlannedPath path_;
-  std::vector<bool> camera_;  // at each point: works from there on
+  std::vector<bool> camera_;  // at each point: on from there
   std::vector<int> items_;    // at each point: the mission's item
   PlanReport report_;
 };

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "controllers/planning/flight/flight_way.h"
+#include "controllers/planning/flight/flight_path.h"
 #include "controllers/planning/flight/row_flight_params.h"
 #include "controllers/planning/routes/rrt_star.h"
 #include "engine/api/map.h"
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kShortestFlight_m = 1e-6;
 
-/// Distance of every point of a plan along the curve that Path makes of it.
+/// Distance of every point of a plan along the curve of its Path.
 std::vector<double> calc_distances(const PlannedPath& plan, const Path& way) {
   std::vector<double> distances_m;
   int segment = -1;
@@ -36,20 +36,20 @@ class RowFlight final : public Planner {
  public:
   RowFlight(const RowFlightParams& params, std::unique_ptr<FlightWay> way,
             const PlannerContext& context)
-      : params_(params), way_(std::move(way)), map_(*context.map), scene_(context.scene) {}
+      : params_(params), path_(std::move(way)), map_(*context.map), scene_(context.scene) {}
 
   const PlanReport* report() const override { return &report_; }
 
   Result<PlannedPath> plan(const Pose& start) override {
     report_ = {};
-    const FlightGround ground(map_, scene_, start.p.z() - params_.standing_m);
+    const FlightGround ground(map_, scene_, start.p.z() - params_.rest_height_m);
     if (const auto fault = find_blocked_vertical(ground, start.p.head<2>(), "take off")) {
       return Failure{*fault};
     }
-    Result<PlannedPath> found = way_->plan(start.p);
-    if (const PlanReport* report = way_->report()) report_ = *report;
+    Result<PlannedPath> found = path_->plan(start.p);
+    if (const PlanReport* report = path_->report()) report_ = *report;
     if (!found) return found;
-    PlannedPath rows = begin_at(start.p, std::move(found).value());
+    PlannedPath rows = start_at(start.p, std::move(found).value());
 
     PlannedPath flight;
     if (const auto fault = append_rows(ground, start.p, rows, flight)) return Failure{*fault};
@@ -60,16 +60,16 @@ class RowFlight final : public Planner {
   }
 
  private:
-  /// The ground planners begin at the leg where the vehicle stands next to it. This one climbs to
-  /// the leg where that is steep still: an estimate on the ground may be wrong by as much, and
-  /// between the rows the middle is the safest place. Else it begins where the vehicle stands and
-  /// joins the leg within a metre.
-  PlannedPath begin_at(const Eigen::Vector3d& start, PlannedPath path) const {
+  /// The ground planners start on the leg if the vehicle is next to it. This planner climbs to the
+  /// leg if that climb is steep: the position estimate on the ground may have an error of that
+  /// size, and the middle between the rows is the safest place. Else the path starts at the vehicle
+  /// and joins the leg within a metre.
+  PlannedPath start_at(const Eigen::Vector3d& start, PlannedPath path) const {
     constexpr double kAside_m = 1e-3, kJoin_m = 1.0, kClimbAside = 0.3;
     auto& points = path.points;
     if (points.size() < 2) return path;
     const double aside_m = (points[0].p_W - start).head<2>().norm();
-    const double climb_m = params_.height_m - params_.standing_m;
+    const double climb_m = params_.height_m - params_.rest_height_m;
     if (aside_m < kAside_m || aside_m < kClimbAside * climb_m) return path;
     std::size_t joint = 1;
     while (joint + 1 < points.size() && (points[joint].p_W - start).head<2>().norm() < kJoin_m &&
@@ -84,7 +84,7 @@ class RowFlight final : public Planner {
     return path;
   }
 
-  /// Straight up or down is possible where no canopy is as near as the vehicle is wide.
+  /// A vertical flight needs a distance to every canopy of the vehicle's radius plus the margin.
   std::optional<std::string> find_blocked_vertical(const FlightGround& ground,
                                                    const Eigen::Vector2d& p,
                                                    const char* doing) const {
@@ -98,7 +98,7 @@ class RowFlight final : public Planner {
         doing, p.x(), p.y(), nearest.centre_m, row.id, row.canopy_width_m, needed_m);
   }
 
-  /// Take-off and all until the end of the last row.
+  /// Appends the take-off and the path to the end of the last row.
   std::optional<std::string> append_rows(const FlightGround& ground, const Eigen::Vector3d& start,
                                          const PlannedPath& rows, PlannedPath& flight) {
     const Path way(rows);
@@ -134,7 +134,7 @@ class RowFlight final : public Planner {
     return std::nullopt;
   }
 
-  /// Straight up at the end of the last row, then straight home.
+  /// Appends a vertical climb at the end of the last row and a straight path home.
   std::optional<std::string> append_return(const FlightGround& ground, const Eigen::Vector3d& start,
                                            PlannedPath& flight) {
     PathPoint& exit = flight.points.back();
@@ -142,7 +142,7 @@ class RowFlight final : public Planner {
     if (!params_.returns || (to - from).norm() < kOnTheSpot_m) return std::nullopt;
     if (const auto fault = find_blocked_vertical(ground, from, "climb")) return fault;
 
-    const PathPiece straight =
+    const PathSegment straight =
         make_straight(from, to, PathKind::kReturn, -1, params_.return_speed_mps);
     PlannedPath home = make_planned_path({straight}, params_.route.pitch_m);
     const Path way(home);
@@ -152,7 +152,7 @@ class RowFlight final : public Planner {
         way, *ground_m, ground, params_.return_height_m, params_.radius_m, params_.return_smooth_m);
     if (heights.at(0.0) <= exit.p_W.z()) {
       return fmt::format(
-          "cannot climb to the way home at ({:.2f}, {:.2f}): it begins {:.2f} m high, the rows end "
+          "cannot climb to the way home at ({:.2f}, {:.2f}): it starts at {:.2f} m, the rows end "
           "at {:.2f} m; return_height_m = {:.2f} m must be above height_m = {:.2f} m",
           from.x(), from.y(), heights.at(0.0), exit.p_W.z(), params_.return_height_m,
           params_.height_m);
@@ -172,19 +172,19 @@ class RowFlight final : public Planner {
     return std::nullopt;
   }
 
-  /// Least height above the ground and above canopies that lie below the line itself.
+  /// Minimum height above the ground and above canopies directly below the path.
   static double calc_clearance_m(const Path& way, const HeightProfile& ground_m,
                                  const FlightGround& ground, const HeightProfile& heights) {
-    double least_m = std::numeric_limits<double>::infinity();
+    double min_m = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < heights.samples_m().size(); ++i) {
       const double at_m = static_cast<double>(i) * heights.step_m();
       double below_m = ground_m.samples_m()[i];
       if (const auto top_m = ground.canopy_top_m(way.pose_at(at_m).p, 0.0)) {
         below_m = std::max(below_m, *top_m);
       }
-      least_m = std::min(least_m, heights.samples_m()[i] - below_m);
+      min_m = std::min(min_m, heights.samples_m()[i] - below_m);
     }
-    return least_m;
+    return min_m;
   }
 
   std::optional<std::string> append_landing(const FlightGround& ground, PlannedPath& flight) const {
@@ -200,12 +200,12 @@ class RowFlight final : public Planner {
     if (!ground_m) {
       return fmt::format("cannot land at ({:.2f}, {:.2f}): there is no ground", p.x(), p.y());
     }
-    landed.p_W.z() = *ground_m + params_.standing_m;
+    landed.p_W.z() = *ground_m + params_.rest_height_m;
     flight.points.push_back(landed);
     return std::nullopt;
   }
 
-  /// Lengths of the flight: arcs in the plan, straight in height between two points.
+  /// Lengths of the flight: arcs in the plane, linear in height between two points.
   void measure(PlannedPath& flight) {
     double climb_m = 0.0;
     flight.length_m = 0.0;
@@ -223,7 +223,7 @@ class RowFlight final : public Planner {
   static constexpr double kOnTheSpot_m = 0.1;
 
   RowFlightParams params_;
-  std::unique_ptr<FlightWay> way_;
+  std::unique_ptr<FlightWay> path_;
   const RowMap& map_;
   const SceneQuery* scene_;
   PlanReport report_;
@@ -235,9 +235,8 @@ PartSpec row_flight_spec() {
   PartSpec spec;
   spec.name = "row_flight";
   spec.description =
-      "A flight along the alleys above the map's terrain with the ground planners' turns, home "
-      "above terrain and canopy, take-off and landing straight up and down (paper A, 4.2, fig. "
-      "20).";
+      "Flight along the alleys above the map's terrain with the ground planners' turns, return "
+      "above terrain and canopy, vertical take-off and landing (paper A, 4.2, fig. 20).";
   spec.parameters = row_flight_parameters();
   spec.reads = {"estimate"};
   spec.writes = {"plan", "plan_tree"};
@@ -254,11 +253,11 @@ std::unique_ptr<Planner> make_row_flight(const ParameterSet& parameters,
   const RowFlightParams params = read_row_flight_params(parameters, context, who);
   std::unique_ptr<FlightWay> way;
   if (!params.turns) {
-    way = make_grid_way(params.route, make_rrt_star_search(parameters, params.route, context),
-                        context);
+    way = make_grid_path(params.route, make_rrt_star_search(parameters, params.route, context),
+                         context);
   } else {
-    way = make_closed_form_way(params.route, *params.turns, params.radius_m + params.route.margin_m,
-                               context);
+    way = make_closed_form_path(params.route, *params.turns,
+                                params.radius_m + params.route.margin_m, context);
   }
   return std::make_unique<RowFlight>(params, std::move(way), context);
 }

@@ -11,7 +11,7 @@
 namespace vinerow::controllers {
 namespace {
 
-constexpr double kCoarsestPitch_m = 0.5;  // heights between waypoints are straight
+constexpr double kCoarsestPitch_m = 0.5;  // heights are linear between waypoints
 
 double calc_radius_m(const VehicleDescription& vehicle) {
   if (vehicle.rotorcraft && vehicle.rotorcraft->tip_radius_m > 0.0) {
@@ -27,11 +27,10 @@ const ParameterTable<RowFlightParams>& row_flight_table() {
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .number("height_m", "m", &P::height_m, kPositive,
-                  "of the vehicle's centre of mass above the map's ground, in rows and "
-                  "turns and on the way to the first row")
+                  "height of the vehicle's centre of mass above the map's ground, in rows and "
+                  "turns and on the path to the first row")
           .number("return_height_m", "m", &P::return_height_m, kPositive,
-                  "least height of the centre of mass above ground and canopies on the way "
-                  "home")
+                  "minimum height of the centre of mass above ground and canopies on the way home")
           .choice("turns", &P::turns,
                   {{"grid", std::nullopt},
                    {"dubins", TurnKind::kDubins},
@@ -41,9 +40,9 @@ const ParameterTable<RowFlightParams>& row_flight_table() {
           .number("smooth_m", "m", &P::smooth_m, between(0.0, 50.0),
                   "length over which the ground's heights are smoothed")
           .number("return_smooth_m", "m", &P::return_smooth_m, between(0.0, 50.0),
-                  "on the way home the path rises this far before a canopy to twice this "
-                  "far, from above")
-          .boolean("return_home", &P::returns, "fly home after the last row; else land at its end")
+                  "on the way home, the path starts to rise at twice this distance before a canopy")
+          .boolean("return_home", &P::returns,
+                   "fly home after the last row; false: land at its end")
           .number("return_speed_mps", "m/s", &P::return_speed_mps, between(0.0, 100.0),
                   "wanted speed on the way home; 0 = the guidance's own")
           .include(&P::route, route_planner_table())
@@ -66,18 +65,18 @@ RowFlightParams read_row_flight_params(const ParameterSet& parameters,
   const VehicleDescription& vehicle = *context.vehicle_description;
   RowFlightParams params = row_flight_table().read(parameters, who);
   complete_route_params(context, who, params.route);
-  params.standing_m = vehicle.height_above_ground_m;
+  params.rest_height_m = vehicle.height_above_ground_m;
   params.radius_m = calc_radius_m(vehicle);
-  if (params.height_m <= params.standing_m) {
+  if (params.height_m <= params.rest_height_m) {
     throw ConfigError(
-        fmt::format("{}: height_m = {:.2f} m is not above the {:.2f} m at which the centre of mass "
-                    "of vehicle type '{}' stands",
-                    who, params.height_m, params.standing_m, vehicle.type));
+        fmt::format("{}: height_m = {:.2f} m is not above {:.2f} m, the height of the centre of "
+                    "mass of vehicle type '{}' on the ground",
+                    who, params.height_m, params.rest_height_m, vehicle.type));
   }
   if (params.returns && params.return_height_m <= params.height_m) {
     throw ConfigError(
-        fmt::format("{}: return_height_m = {:.2f} m is not above height_m = {:.2f} m, the climb at "
-                    "the end of the last row leads nowhere",
+        fmt::format("{}: return_height_m = {:.2f} m is not above height_m = {:.2f} m, so there is "
+                    "no climb at the end of the last row",
                     who, params.return_height_m, params.height_m));
   }
   return params;

@@ -39,7 +39,7 @@ std::vector<int> make_alley_order(int count, AlleyOrder order) {
   }
   for (int i = 0; i < count; i += 2) places.push_back(i);
   const int last_even = places.empty() ? 0 : places.back();
-  // Back over the odd ones from the first that is not a neighbour, then those left over.
+  // Back over the odd alleys from the first one that is not a neighbour, then the remaining ones.
   const int first_odd = last_even - 3;
   for (int i = first_odd; i >= 1; i -= 2) places.push_back(i);
   for (int i = std::max(first_odd + 2, 1); i < count; i += 2) places.push_back(i);

@@ -17,7 +17,7 @@ constexpr double kSlight_rad = rad_from_deg(30.0);
 constexpr double kWidestArc_rad = rad_from_deg(120.0);
 constexpr double kFits = 1.0 + 1e-9;
 
-/// How a corner is passed: from so far before it to so far behind.
+/// Passage of a corner, from cut_m before it to cut_m behind it.
 struct Corner {
   enum class Way { kAsItIs, kArc, kLoop } way = Way::kAsItIs;
   double cut_m = 0.0;
@@ -34,15 +34,15 @@ Corner plan_corner(double turn_rad, double room_m, double radius_m) {
   return {Corner::Way::kLoop, std::min(wanted_m, room_m), turn_rad};
 }
 
-/// No arc longer than that, so that its chord tells it from its complement.
+/// Longest arc, so that its chord distinguishes it from its complement.
 constexpr double kLongestArc_rad = rad_from_deg(60.0);
 
-PathPieces split_arcs(const PathPieces& pieces) {
-  PathPieces split;
-  for (const PathPiece& piece : pieces) {
+PathSegments split_arcs(const PathSegments& pieces) {
+  PathSegments split;
+  for (const PathSegment& piece : pieces) {
     const double angle_rad = std::abs(piece.curvature_per_m) * piece.length_m;
     const int parts = std::max(1, static_cast<int>(std::ceil(angle_rad / kLongestArc_rad)));
-    PathPiece part = piece;
+    PathSegment part = piece;
     part.length_m = piece.length_m / parts;
     for (int i = 0; i < parts; ++i) {
       part.start = piece.at(i * part.length_m);
@@ -54,20 +54,21 @@ PathPieces split_arcs(const PathPieces& pieces) {
 
 }  // namespace
 
-RoundedWay round_corners(const std::vector<Eigen::Vector2d>& points,
-                         const std::vector<double>& speed_mps, double radius_m, PathKind kind) {
+RoundedPath round_corners(const std::vector<Eigen::Vector2d>& points,
+                          const std::vector<double>& speed_mps, double radius_m, PathKind kind) {
   const std::size_t legs = points.size() - 1;
-  std::vector<PathPiece> straights;
+  std::vector<PathSegment> straights;
   for (std::size_t i = 0; i < legs; ++i) {
     straights.push_back(make_straight(points[i], points[i + 1], kind, -1, speed_mps[i]));
   }
-  // What corners may take of a leg: all of it at its free end, half where both ends are corners.
+  // Length of a leg that a corner may use: all of it if the other end is free, half if both ends
+  // are corners.
   const auto room_m = [&](std::size_t leg) {
     const bool is_between = leg > 0 && leg + 1 < legs;
     return (is_between ? 0.5 : 1.0) * straights[leg].length_m;
   };
-  RoundedWay way;
-  double begin_m = 0.0;  // of the leg's straight, behind the corner before
+  RoundedPath way;
+  double start_m = 0.0;  // of the leg's straight, behind the corner before
   for (std::size_t i = 0; i < legs; ++i) {
     Corner corner;
     if (i + 1 < legs) {
@@ -75,11 +76,11 @@ RoundedWay round_corners(const std::vector<Eigen::Vector2d>& points,
           wrap_angle(straights[i + 1].start.yaw_rad - straights[i].start.yaw_rad);
       corner = plan_corner(turn_rad, std::min(room_m(i), room_m(i + 1)), radius_m);
     }
-    PathPiece straight = straights[i];
-    straight.start = straights[i].at(begin_m);
-    straight.length_m = std::max(straights[i].length_m - corner.cut_m - begin_m, 0.0);
+    PathSegment straight = straights[i];
+    straight.start = straights[i].at(start_m);
+    straight.length_m = std::max(straights[i].length_m - corner.cut_m - start_m, 0.0);
     way.pieces.push_back(straight);
-    begin_m = corner.cut_m;
+    start_m = corner.cut_m;
     const Pose2 from = straight.end();
     const double slow_mps = i + 1 < legs ? std::min(speed_mps[i], speed_mps[i + 1]) : 0.0;
     switch (corner.way) {
@@ -105,14 +106,13 @@ RoundedWay round_corners(const std::vector<Eigen::Vector2d>& points,
 double find_corner_radius_m(const std::optional<double>& wanted_m,
                             const VehicleDescription& vehicle, const std::string& who) {
   constexpr double kReserve = 1.1;
-  const double least_m =
-      vehicle.steers_by_axles() ? vehicle.min_turning_radius_m.value_or(0.0) : 0.0;
-  if (!wanted_m) return kReserve * least_m;
-  if (*wanted_m >= least_m) return *wanted_m;
+  const double min_m = vehicle.steers_by_axles() ? vehicle.min_turning_radius_m.value_or(0.0) : 0.0;
+  if (!wanted_m) return kReserve * min_m;
+  if (*wanted_m >= min_m) return *wanted_m;
   throw ConfigError(
       fmt::format("{}: a turning radius of {:g} m is less than the {:.3f} m that vehicle type '{}' "
                   "can turn",
-                  who, *wanted_m, least_m, vehicle.type));
+                  who, *wanted_m, min_m, vehicle.type));
 }
 
 }  // namespace vinerow::controllers

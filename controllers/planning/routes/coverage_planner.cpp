@@ -22,7 +22,7 @@ namespace {
 struct CoverageParams {
   double pitch_m = 0.33;
   TurnParams turn;
-  std::optional<double> turn_radius_m;  ///< absent: what the vehicle needs, at least 1 m
+  std::optional<double> turn_radius_m;  ///< absent: from the vehicle, at least 1 m
   RowRouteParams route;
   double speed_mps = 0.0;
   double lead_in_m = 0.0;
@@ -41,12 +41,12 @@ const ParameterTable<CoverageParams>& coverage_table() {
                   "pitch) parts")
           .choice("turn", turn(&TurnParams::kind),
                   {{"three_point_arc", TurnKind::kThreePointArc}, {"dubins", TurnKind::kDubins}},
-                  "how to get from one alley to the next")
+                  "path from one alley to the next")
           .number("turn_radius_m", "m", &P::turn_radius_m, kPositive,
-                  "radius of Dubins arcs; least radius allowed for three-point arcs; default 1.1 "
-                  "times the least of a vehicle that steers by its axles, else 1 (table 1)")
+                  "radius of Dubins arcs; minimum radius of three-point arcs; default 1.1 times "
+                  "the minimum of a vehicle with axle steering, else 1 (table 1)")
           .number("headland_m", "m", turn(&TurnParams::headland_m), between(0.0, 1e3),
-                  "straight on beyond the alley's end before turning, and before entering")
+                  "straight beyond the alley's end before turning, and before entering")
           .number("apex_m", "m", turn(&TurnParams::apex_m), kPositive,
                   "apex of the three-point arc beyond the alley ends; default half "
                   "the alley spacing, a semicircle")
@@ -59,7 +59,7 @@ const ParameterTable<CoverageParams>& coverage_table() {
           .number("lead_out_m", "m", &P::lead_out_m, between(0.0, 1e3),
                   "straight beyond the last alley")
           .boolean("approach", &P::approach,
-                   "plan the way from where the vehicle stands to the first alley")
+                   "plan the path from the vehicle's position to the first alley")
           .number("clearance_m", "m", &P::clearance_m, between(0.0, 10.0),
                   "distance that the planned line keeps from every canopy's footprint")
           .include(&P::route, row_route_table());
@@ -76,8 +76,8 @@ class Coverage final : public Planner {
     const auto legs = make_row_route(map_, params_.route, pose.p);
     if (!legs) return Failure{legs.reason()};
 
-    std::vector<PathPiece> pieces;
-    Pose2 at = pose;  // where the vehicle is after the pieces so far
+    std::vector<PathSegment> pieces;
+    Pose2 at = pose;  // pose of the vehicle after the pieces so far
     for (std::size_t i = 0; i < legs->size(); ++i) {
       const RouteLeg& leg = (*legs)[i];
       if (i == 0) {
@@ -106,10 +106,10 @@ class Coverage final : public Planner {
   }
 
  private:
-  /// From where the vehicle stands to the first alley: straight on if that leads there, else a
-  /// Dubins path; then the lead-in.
+  /// Appends the path from the vehicle's pose to the first alley: a straight if it leads there,
+  /// else a Dubins path; then the lead-in.
   void append_approach(const Pose2& pose, const Pose2& entry,
-                       std::vector<PathPiece>& pieces) const {
+                       std::vector<PathSegment>& pieces) const {
     const Pose2 begin = advance(entry, -params_.lead_in_m, 0.0);
     const Eigen::Vector2d way = begin.p - pose.p;
     const Eigen::Vector2d along = direction(begin.yaw_rad);
@@ -141,8 +141,9 @@ PartSpec coverage_spec() {
   PartSpec spec;
   spec.name = "coverage";
   spec.description =
-      "Drives the alleys of the row map with straight legs and headland turns (Martelli, Mocera, "
-      "Soma 2024, section 2.3): three-point arcs or Dubins paths, split at the waypoint pitch.";
+      "Path along the alleys of the row map with straight legs and headland turns (Martelli, "
+      "Mocera, Soma 2024, section 2.3): three-point arcs or Dubins paths, split at the waypoint "
+      "pitch.";
   spec.parameters = coverage_table().specs();
   spec.reads = {"estimate"};
   spec.writes = {"plan"};

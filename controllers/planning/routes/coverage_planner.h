@@ -11,7 +11,7 @@ namespace vinerow::controllers {
 
 PartSpec coverage_spec();
 
-/// @throws ConfigError if an alley is asked that the map does not have, or asked twice
+/// @throws ConfigError if an alley is listed that the map does not have, or listed twice
 std::unique_ptr<Planner> make_coverage(const ParameterSet& parameters,
                                        const PlannerContext& context);
 

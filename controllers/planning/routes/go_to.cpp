@@ -8,7 +8,7 @@
 #include "controllers/parts/paths/distance_field.h"
 #include "controllers/parts/paths/footprint.h"
 #include "controllers/parts/paths/lift.h"
-#include "controllers/planning/routes/route_room.h"
+#include "controllers/planning/routes/route_clearance.h"
 #include "controllers/planning/routes/row_check.h"
 #include "controllers/planning/search/analytic_turn.h"
 #include "controllers/planning/search/rrt_quartile.h"
@@ -36,19 +36,20 @@ const ParameterTable<GoToParams>& go_to_table() {
       ParameterTable<P>()
           .numbers("x_m", "m", &P::x_m, kAnyNumber, "x of the places in W (east), in their order")
           .numbers("y_m", "m", &P::y_m, kAnyNumber, "y of the places in W (north), as many as x_m")
-          .degrees("end_bearing_deg", &P::bearing_rad, between(-360.0, 360.0),
-                   "heading at the last place, clockwise from north; default: as it comes there")
-          .number("turning_radius_m", "m", &P::turning_radius_m, kPositive,
-                  "least turning radius; default the vehicle's own, 0.5 m where that turns on the "
-                  "spot")
+          .degrees(
+              "end_bearing_deg", &P::bearing_rad, between(-360.0, 360.0),
+              "heading at the last place, clockwise from north; default: the direction of arrival")
+          .number(
+              "turning_radius_m", "m", &P::turning_radius_m, kPositive,
+              "minimum turning radius; default the vehicle's own, 0.5 m if it turns on the spot")
           .number("margin_m", "m", &P::margin_m, between(0.0, 5.0),
-                  "room that every planned pose keeps around the vehicle's outline")
+                  "clearance of every planned pose around the vehicle's outline")
           .number("waypoint_pitch_m", "m", &P::pitch_m, kPositive,
                   "straights and arcs are split into round(length / pitch) parts")
           .number("speed_mps", "m/s", &P::speed_mps, between(0.0, 100.0),
                   "wanted speed; 0 = the follower's own")
-          .integer("max_iterations", &P::max_iterations, between(1, kMostQuartileIterations),
-                   "nodes expanded per way before the search gives up")
+          .integer("max_iterations", &P::max_iterations, between(1, kMaxQuartileIterations),
+                   "maximum number of nodes expanded per path")
           .rule([](const P& p) -> std::string {
             if (p.x_m.size() != p.y_m.size()) {
               return fmt::format("x_m has {} numbers and y_m {}, must be as many", p.x_m.size(),
@@ -88,7 +89,7 @@ class GoTo final : public Planner {
         scene_(context.scene),
         field_(map_.occupancy),
         footprint_(field_, context.vehicle_description->outline_B(), params.margin_m),
-        room_(map_, footprint_, kCheckStep_m) {}
+        free_space_(map_, footprint_, kCheckStep_m) {}
 
   const PlanReport* report() const override { return &report_; }
 
@@ -96,16 +97,16 @@ class GoTo final : public Planner {
     report_ = {};
     const std::vector<Pose2> places =
         find_places({start.p.head<2>(), yaw_from_quaternion(start.q)});
-    PathPieces pieces;
+    PathSegments pieces;
     for (std::size_t i = 0; i + 1 < places.size(); ++i) {
       const auto way = join(places[i], places[i + 1], static_cast<int>(i));
       if (!way) {
-        return Failure{fmt::format("no way from {} to {}: {}", to_string(places[i]),
+        return Failure{fmt::format("no path from {} to {}: {}", to_string(places[i]),
                                    to_string(places[i + 1]), way.reason())};
       }
       pieces.insert(pieces.end(), way->begin(), way->end());
     }
-    for (PathPiece& piece : pieces) {
+    for (PathSegment& piece : pieces) {
       piece.kind = piece.curvature_per_m == 0.0 ? PathKind::kLeg : PathKind::kTurn;
       piece.speed_mps = params_.speed_mps;
     }
@@ -119,8 +120,8 @@ class GoTo final : public Planner {
  private:
   static constexpr double kCheckStep_m = 0.1;
 
-  /// A place between two others is passed along the line from the one before to the one behind it,
-  /// where that is narrow with the heading that has the most room.
+  /// Places with headings: an intermediate place is passed along the line from the place before to
+  /// the place behind it or, if clearance is small, with the heading of the largest clearance.
   std::vector<Pose2> find_places(const Pose2& start) const {
     std::vector<Pose2> places = {start};
     for (std::size_t i = 0; i < params_.x_m.size(); ++i) {
@@ -136,30 +137,30 @@ class GoTo final : public Planner {
   }
 
   double find_free_yaw(const Eigen::Vector2d& p, double wanted_rad) const {
-    constexpr int kSteps = 24;        // of 7.5 deg to either side
-    constexpr double kRoomy_m = 0.3;  // beyond the margin: room to turn in
-    double best_rad = wanted_rad, most_m = footprint_.clearance_m({p, wanted_rad});
-    if (most_m >= params_.margin_m + kRoomy_m) return wanted_rad;
+    constexpr int kSteps = 24;        // steps of 7.5 deg to either side
+    constexpr double kRoomy_m = 0.3;  // clearance beyond the margin, for turning
+    double best_rad = wanted_rad, max_m = footprint_.clearance_m({p, wanted_rad});
+    if (max_m >= params_.margin_m + kRoomy_m) return wanted_rad;
     for (int i = 1; i <= kSteps; ++i) {
       const double aside_rad = kPi * i / kSteps;
       for (const double yaw_rad : {wanted_rad + aside_rad, wanted_rad - aside_rad}) {
         constexpr double kMore_m = 0.01;
         const double room_m = footprint_.clearance_m({p, yaw_rad});
-        if (room_m < most_m + kMore_m) continue;
+        if (room_m < max_m + kMore_m) continue;
         best_rad = yaw_rad;
-        most_m = room_m;
+        max_m = room_m;
       }
     }
     return best_rad;
   }
 
-  Result<PathPieces> join(const Pose2& from, const Pose2& to, int problem) {
+  Result<PathSegments> join(const Pose2& from, const Pose2& to, int problem) {
     const std::vector<AnalyticTurn> words =
         make_analytic_turns(from, to, {.radius_m = radius_m_, .longest_lead_m = 0.0});
     for (const AnalyticTurn& word : words) {
-      const PathPieces pieces = make_pieces(from, to, word);
-      if (room_.is_free(pieces)) return pieces;
-      break;  // the shortest alone: a longer one may lead far astray
+      const PathSegments pieces = make_pieces(from, to, word);
+      if (free_space_.is_free(pieces)) return pieces;
+      break;  // only the shortest: a longer one may be a long detour
     }
     SearchReport done;
     auto found = search_.find(from, to, footprint_, problem, done);
@@ -171,11 +172,11 @@ class GoTo final : public Planner {
     return found;
   }
 
-  void measure(const PathPieces& pieces) {
-    double least_m = std::numeric_limits<double>::infinity();
-    for (const PathPiece& piece : pieces) least_m = std::min(least_m, room_.clearance_m(piece));
+  void measure(const PathSegments& pieces) {
+    double min_m = std::numeric_limits<double>::infinity();
+    for (const PathSegment& piece : pieces) min_m = std::min(min_m, free_space_.clearance_m(piece));
     report_.numbers["length_m"] = calc_length_m(pieces);
-    report_.numbers["clearance_m"] = least_m;
+    report_.numbers["clearance_m"] = min_m;
   }
 
   GoToParams params_;
@@ -185,7 +186,7 @@ class GoTo final : public Planner {
   const SceneQuery* scene_;
   DistanceField field_;
   Footprint footprint_;
-  RouteRoom room_;
+  RouteClearance free_space_;
   PlanReport report_;
 };
 
@@ -195,9 +196,9 @@ PartSpec go_to_spec() {
   PartSpec spec;
   spec.name = "go_to";
   spec.description =
-      "From where the vehicle stands to given places, around rows and mapped obstacles: the "
-      "shortest Dubins path where it is free, else the quartile tree of rrt_quartile on the "
-      "occupancy grid, shortened.";
+      "Path from the vehicle's position to given places, around rows and mapped obstacles: the "
+      "shortest Dubins path if it is free, else the shortened result of the quartile tree of "
+      "rrt_quartile on the occupancy grid.";
   spec.parameters = go_to_table().specs();
   spec.reads = {"estimate"};
   spec.writes = {"plan", "plan_tree"};

@@ -1,6 +1,6 @@
 #pragma once
-/// Planner `go_to`: from where the vehicle stands to one place after the other, around what the map
-/// has in the way.
+/// Planner `go_to`: path from the vehicle's position to given places in order, around the obstacles
+/// on the map.
 
 #include <memory>
 
@@ -11,10 +11,10 @@ namespace vinerow::controllers {
 
 PartSpec go_to_spec();
 
-/// Each way by Dubins' words where one is free, else by the quartile tree on the occupancy grid
-/// (rrt_quartile.h), shortened; headings of places between follow from their neighbours. Reports
-/// "nodes", "iterations", "length_m", "clearance_m".
-/// @throws ConfigError if the map has no grid, or the vehicle no turning radius
+/// Each part is a Dubins path if one is free, else the shortened result of the quartile tree on the
+/// occupancy grid (rrt_quartile.h). Headings of intermediate places follow from their neighbours.
+/// Reports "nodes", "iterations", "length_m", "clearance_m".
+/// @throws ConfigError if the map has no grid, or if the vehicle has no turning radius
 std::unique_ptr<Planner> make_go_to(const ParameterSet& parameters, const PlannerContext& context);
 
 }  // namespace vinerow::controllers

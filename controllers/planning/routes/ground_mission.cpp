@@ -7,7 +7,7 @@
 
 #include "controllers/parts/paths/lift.h"
 #include "controllers/planning/routes/corner_rounding.h"
-#include "controllers/planning/routes/fence_ways.h"
+#include "controllers/planning/routes/fence_paths.h"
 #include "controllers/planning/routes/mission_items.h"
 #include "controllers/planning/routes/row_check.h"
 #include "engine/core/error.h"
@@ -19,8 +19,8 @@ using Vec = Eigen::Vector2d;
 
 constexpr double kSameSpot_m = 1e-3;
 
-/// Bends keep half the vehicle's width and this from fences.
-constexpr double kFenceRoom_m = 0.5;
+/// Distance of bends from fences, in addition to half the vehicle's width.
+constexpr double kFenceMargin_m = 0.5;
 
 double find_half_width_m(const VehicleDescription& vehicle) {
   double half_m = 0.0;
@@ -41,7 +41,7 @@ class GroundMission final : public Planner {
         places_(place_mission(mission, context.origin, false, who)),
         // A rounded corner is up to R (sqrt(2) - 1) inside a right angle.
         fences_(mission, context.origin,
-                kFenceRoom_m + find_half_width_m(*context.vehicle_description) +
+                kFenceMargin_m + find_half_width_m(*context.vehicle_description) +
                     (std::sqrt(2.0) - 1.0) * radius_m_) {}
 
   const PlanReport* report() const override { return &report_; }
@@ -52,7 +52,7 @@ class GroundMission final : public Planner {
     speed_mps_.clear();
     spray_.clear();
     detours_ = 0;
-    if (const auto fault = lay_way()) return Failure{*fault};
+    if (const auto fault = lay_path()) return Failure{*fault};
     if (points_.size() < 2) return Failure{"there is nothing to drive"};
     PlannedPath path = make_planned_path(join(), params_.pitch_m);
     if (const auto fault = check(path)) return Failure{*fault};
@@ -62,10 +62,10 @@ class GroundMission final : public Planner {
   }
 
  private:
-  std::optional<std::string> lay_way() {
+  std::optional<std::string> lay_path() {
     const Vec home = points_.front();
-    // What the file says of all vehicles with wings or rotors is not meant for this one.
-    double speed_mps = places_.first_said_mps;
+    // The file's default speeds for fixed wings and rotorcraft do not apply to a ground vehicle.
+    double speed_mps = places_.first_given_mps;
     bool sprays = places_.first_sprays;
     int before = 0;
     for (const MissionPlace& place : places_.places) {
@@ -75,7 +75,7 @@ class GroundMission final : public Planner {
         if (const auto fault = go_to(goal, speed_mps, sprays, before, place.item)) return fault;
         before = place.item;
       }
-      if (place.is_speed_said) speed_mps = place.speed_mps;
+      if (place.is_speed_given) speed_mps = place.speed_mps;
       sprays = place.sprays;
     }
     return std::nullopt;
@@ -85,14 +85,14 @@ class GroundMission final : public Planner {
                                    int item) {
     std::vector<Vec> way;
     if (params_.keeps_fences && !fences_.empty()) {
-      const auto found = fences_.find_way(points_.back(), goal);
+      const auto found = fences_.find_path(points_.back(), goal);
       if (!found) {
         return fmt::format(
-            "no way from {} to item {} keeps the fences: {}; 'fences: ignore' drives it all the "
-            "same",
+            "no path from {} to item {} keeps the fences: {}; 'fences: ignore' drives it "
+            "nevertheless",
             before == 0 ? std::string("the start") : fmt::format("item {}", before), item,
             find_broken_fence(mission_, origin_, points_.back(), goal)
-                .value_or("there is no room between them"));
+                .value_or("the gap between them is too narrow"));
       }
       way = *found;
       detours_ += way.empty() ? 0 : 1;
@@ -107,11 +107,11 @@ class GroundMission final : public Planner {
     return std::nullopt;
   }
 
-  /// Straights and round corners; where the sprayer is told of, legs are where it works.
-  PathPieces join() {
-    PathPieces pieces;
+  /// Straights and rounded corners; if the mission switches the sprayer, legs are where it works.
+  PathSegments join() {
+    PathSegments pieces;
     if (radius_m_ > 0.0) {
-      RoundedWay way = round_corners(points_, speed_mps_, radius_m_, PathKind::kLeg);
+      RoundedPath way = round_corners(points_, speed_mps_, radius_m_, PathKind::kLeg);
       report_.numbers["rounded_corners"] = way.arcs;
       report_.numbers["loops_at_corners"] = way.loops;
       pieces = std::move(way.pieces);
@@ -123,7 +123,7 @@ class GroundMission final : public Planner {
     }
     if (!places_.uses_sprayer) return pieces;
     std::size_t leg = 0;
-    for (PathPiece& piece : pieces) {
+    for (PathSegment& piece : pieces) {
       if (piece.kind != PathKind::kLeg) continue;
       if (!spray_[leg++]) piece.kind = PathKind::kTransit;
     }
@@ -140,8 +140,8 @@ class GroundMission final : public Planner {
       const auto fence = find_broken_fence(mission_, origin_, from, to);
       if (!fence) continue;
       return fmt::format(
-          "the corner near ({:.1f}, {:.1f}), rounded with {:.2f} m, breaks {}; 'fences: ignore' "
-          "drives it all the same",
+          "the corner near ({:.1f}, {:.1f}), rounded with {:.2f} m, violates {}; 'fences: ignore' "
+          "drives it nevertheless",
           from.x(), from.y(), radius_m_, *fence);
     }
     return std::nullopt;
@@ -163,7 +163,7 @@ class GroundMission final : public Planner {
   const SceneQuery* scene_;
   double radius_m_;
   MissionPlaces places_;
-  FenceWays fences_;
+  FencePaths fences_;
 
   std::vector<Vec> points_;
   std::vector<double> speed_mps_;  // of each leg; 0: the follower's own

@@ -1,6 +1,6 @@
 #pragma once
-/// Planner `mission_file` for ground vehicles: a ground station's mission driven from place to
-/// place, around its fences, at its speeds, with the sprayer where its items say.
+/// Planner `mission_file` for ground vehicles: drives a ground station's mission from place to
+/// place, around its fences, at its speeds, and switches the sprayer as its items command.
 
 #include <memory>
 #include <optional>
@@ -14,10 +14,10 @@ namespace vinerow::controllers {
 struct GroundMissionParams {
   bool keeps_fences = true;
   double pitch_m = 0.33;
-  std::optional<double> turning_radius_m;  ///< absent: what the vehicle needs
+  std::optional<double> turning_radius_m;  ///< absent: from the vehicle
 };
 
-/// Heights count for nothing; take-off and landing are places like others, or none. Reports
+/// Ignores heights. Take-off and landing are ordinary places if they have a position. Reports
 /// "items", "waypoints", "length_m", "ignored_items", "loiters" (driven as waypoints),
 /// "fence_detours", "rounded_corners", "loops_at_corners".
 /// @throws ConfigError as make_mission_route()

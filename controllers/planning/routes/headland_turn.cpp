@@ -12,15 +12,15 @@ namespace {
 
 constexpr double kShortestTurn_m = 1e-9;
 
-Result<std::vector<PathPiece>> make_three_point_arc(const Pose2& exit, const Pose2& entry,
-                                                    const TurnParams& params) {
+Result<std::vector<PathSegment>> make_three_point_arc(const Pose2& exit, const Pose2& entry,
+                                                      const TurnParams& params) {
   const Eigen::Vector2d out = direction(exit.yaw_rad), in = direction(entry.yaw_rad);
   if (out.dot(in) > -0.5) {
     return Failure{
         "a three-point arc joins alleys that are driven in opposite directions; use turn: dubins"};
   }
-  // Where the alleys end at different heights of the block, the shorter one is driven straight on,
-  // so that the arc starts and ends level and meets both legs smoothly.
+  // If one alley ends before the other, its straight is extended, so that the arc starts and ends
+  // level and meets both legs smoothly.
   const Eigen::Vector2d axis = (out - in).normalized();
   const double step = axis.dot(entry.p - exit.p);
   const Eigen::Vector2d a = exit.p + (params.headland_m + std::max(step, 0.0)) * out;
@@ -36,7 +36,7 @@ Result<std::vector<PathPiece>> make_three_point_arc(const Pose2& exit, const Pos
         "turn_radius_m = {:.3g} m; use turn: dubins, whose loop fits any spacing, or order: skip",
         2.0 * half_spacing, arc->radius_m(), params.radius_m)};
   }
-  std::vector<PathPiece> pieces;
+  std::vector<PathSegment> pieces;
   const auto add_straight = [&](const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
     if ((to - from).norm() > kShortestTurn_m) {
       pieces.push_back(make_straight(from, to, PathKind::kTurn, -1, params.speed_mps));
@@ -49,9 +49,9 @@ Result<std::vector<PathPiece>> make_three_point_arc(const Pose2& exit, const Pos
   return pieces;
 }
 
-std::vector<PathPiece> make_dubins_turn(const Pose2& exit, const Pose2& entry,
-                                        const TurnParams& params) {
-  std::vector<PathPiece> pieces;
+std::vector<PathSegment> make_dubins_turn(const Pose2& exit, const Pose2& entry,
+                                          const TurnParams& params) {
+  std::vector<PathSegment> pieces;
   const Pose2 from = advance(exit, params.headland_m, 0.0);
   const Pose2 to = advance(entry, -params.headland_m, 0.0);
   if (params.headland_m > kShortestTurn_m) {
@@ -67,8 +67,8 @@ std::vector<PathPiece> make_dubins_turn(const Pose2& exit, const Pose2& entry,
 
 }  // namespace
 
-Result<std::vector<PathPiece>> make_headland_turn(const Pose2& exit, const Pose2& entry,
-                                                  const TurnParams& params) {
+Result<std::vector<PathSegment>> make_headland_turn(const Pose2& exit, const Pose2& entry,
+                                                    const TurnParams& params) {
   if (params.kind == TurnKind::kDubins) return make_dubins_turn(exit, entry, params);
   return make_three_point_arc(exit, entry, params);
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// The turn from the end of one alley to the entrance of the next.
+/// Turn from the end of one alley to the entrance of the next.
 
 #include <optional>
 #include <vector>
@@ -16,7 +16,7 @@ enum class TurnKind {
 
 struct TurnParams {
   TurnKind kind = TurnKind::kThreePointArc;
-  double radius_m = 1.0;    ///< Dubins: of its arcs; three-point arc: the least allowed
+  double radius_m = 1.0;    ///< Dubins: of its arcs; three-point arc: the minimum allowed
   double headland_m = 0.0;  ///< straight on beyond both alley ends before and after turning
   std::optional<double>
       apex_m;  ///< of the three-point arc, beyond the alley ends; absent: semicircle
@@ -25,9 +25,9 @@ struct TurnParams {
 
 /// @param exit   end of the alley just driven, heading out
 /// @param entry  entrance of the next, heading in
-/// @returns straights and arcs; or why the turn does not fit: "the three-point arc has a radius of
-/// 0.8 m, ..."
-Result<std::vector<PathPiece>> make_headland_turn(const Pose2& exit, const Pose2& entry,
-                                                  const TurnParams& params);
+/// @returns straights and arcs, or the reason why the turn does not fit: "the three-point arc has a
+/// radius of 0.8 m, ..."
+Result<std::vector<PathSegment>> make_headland_turn(const Pose2& exit, const Pose2& entry,
+                                                    const TurnParams& params);
 
 }  // namespace vinerow::controllers

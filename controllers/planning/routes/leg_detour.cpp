@@ -11,17 +11,17 @@
 namespace vinerow::controllers {
 namespace {
 
-/// Part of a line of straights.
-PathPieces cut(const PathPieces& pieces, double from_m, double to_m) {
+/// Part of a sequence of straights.
+PathSegments cut(const PathSegments& pieces, double from_m, double to_m) {
   constexpr double kShortest_m = 1e-6;
-  PathPieces part;
-  double begin_m = 0.0;
-  for (const PathPiece& piece : pieces) {
-    const double first_m = std::clamp(from_m - begin_m, 0.0, piece.length_m);
-    const double last_m = std::clamp(to_m - begin_m, 0.0, piece.length_m);
-    begin_m += piece.length_m;
+  PathSegments part;
+  double start_m = 0.0;
+  for (const PathSegment& piece : pieces) {
+    const double first_m = std::clamp(from_m - start_m, 0.0, piece.length_m);
+    const double last_m = std::clamp(to_m - start_m, 0.0, piece.length_m);
+    start_m += piece.length_m;
     if (last_m - first_m < kShortest_m) continue;
-    PathPiece some = piece;
+    PathSegment some = piece;
     some.start = piece.at(first_m);
     some.length_m = last_m - first_m;
     part.push_back(some);
@@ -29,8 +29,8 @@ PathPieces cut(const PathPieces& pieces, double from_m, double to_m) {
   return part;
 }
 
-Pose2 pose_on(const PathPieces& pieces, double distance_m) {
-  for (const PathPiece& piece : pieces) {
+Pose2 pose_on(const PathSegments& pieces, double distance_m) {
+  for (const PathSegment& piece : pieces) {
     if (distance_m <= piece.length_m) return piece.at(distance_m);
     distance_m -= piece.length_m;
   }
@@ -41,7 +41,7 @@ struct Stretch {
   double from_m = 0.0, to_m = 0.0;
 };
 
-std::vector<Stretch> find_blocked(const PathPieces& pieces, const Footprint& footprint,
+std::vector<Stretch> find_blocked(const PathSegments& pieces, const Footprint& footprint,
                                   double step_m) {
   const double length_m = calc_length_m(pieces);
   const int parts = std::max(1, static_cast<int>(std::ceil(length_m / step_m)));
@@ -59,19 +59,20 @@ std::vector<Stretch> find_blocked(const PathPieces& pieces, const Footprint& foo
 
 }  // namespace
 
-Result<PathPieces> drive_around(const RouteLeg& leg, const Footprint& footprint,
-                                const RouteRoom& room, PoseSearch& search, int problem,
-                                const LegDetourParams& params, std::vector<SearchReport>& reports) {
-  PathPieces straights;
+Result<PathSegments> drive_around(const RouteLeg& leg, const Footprint& footprint,
+                                  const RouteClearance& room, PoseSearch& search, int problem,
+                                  const LegDetourParams& params,
+                                  std::vector<SearchReport>& reports) {
+  PathSegments straights;
   append_leg(leg, params.speed_mps, straights);
   const double length_m = calc_length_m(straights);
-  PathPieces way;
+  PathSegments way;
   double at_m = 0.0;
   for (const Stretch& stretch : find_blocked(straights, footprint, params.step_m)) {
-    if (stretch.from_m < at_m) continue;  // passed together with the one before
-    // A swerve of d takes about 2 sqrt(R d) of way: two radii for half a metre, more for more.
+    if (stretch.from_m < at_m) continue;  // already passed with the stretch before
+    // A swerve by d takes a length of about 2 sqrt(R d). Longer ones are tried in turn.
     constexpr double kRadii[] = {2.0, 3.5, 5.0};
-    std::optional<PathPieces> found;
+    std::optional<PathSegments> found;
     std::string reason = "it is at the leg's end";
     for (const double radii : kRadii) {
       const double from_m = std::max(at_m, stretch.from_m - radii * params.radius_m);
@@ -84,20 +85,20 @@ Result<PathPieces> drive_around(const RouteLeg& leg, const Footprint& footprint,
         reason = outcome.reason();
         continue;
       }
-      PathPieces swerve = *outcome;
+      PathSegments swerve = *outcome;
       if (!room.is_free(swerve)) {
-        reason = "the way found touches it";
+        reason = "the path found touches it";
         continue;
       }
-      for (PathPiece& piece : swerve) {
+      for (PathSegment& piece : swerve) {
         piece.kind = PathKind::kLeg;
         piece.alley = leg.alley;
         piece.speed_mps = params.speed_mps;
       }
-      // A loop through the neighbouring alley is no way around what stands in this one.
+      // Reject a loop through the neighbouring alley.
       constexpr double kLonger = 1.5;
       if (calc_length_m(swerve) > kLonger * (to_m - from_m)) {
-        reason = fmt::format("the shortest way found takes {:.1f} m for {:.1f} m",
+        reason = fmt::format("the shortest path found takes {:.1f} m for {:.1f} m",
                              calc_length_m(swerve), to_m - from_m);
         continue;
       }
@@ -107,12 +108,12 @@ Result<PathPieces> drive_around(const RouteLeg& leg, const Footprint& footprint,
       break;
     }
     if (!found) {
-      return Failure{fmt::format("the leg in alley {} is blocked: {}; no way around it: {}",
+      return Failure{fmt::format("the leg in alley {} is blocked: {}; no path around it: {}",
                                  leg.alley, room.tell(pose_on(straights, stretch.from_m)), reason)};
     }
     way.insert(way.end(), found->begin(), found->end());
   }
-  const PathPieces rest = cut(straights, at_m, length_m);
+  const PathSegments rest = cut(straights, at_m, length_m);
   way.insert(way.end(), rest.begin(), rest.end());
   return way;
 }

@@ -4,19 +4,19 @@
 
 #include <cmath>
 
-#include "controllers/planning/survey/survey_area.h"
 #include "engine/core/error.h"
 #include "engine/io/missions/mav_command.h"
 #include "engine/math/angles.h"
+#include "engine/math/polygon.h"
 
 namespace vinerow::controllers {
 namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kFarthest_m = 20e3;  // beyond it a plane world is no world
+constexpr double kFarthest_m = 20e3;  // beyond it a plane is no approximation of the Earth
 
-/// What an item is measured from, and where it is.
+/// Sets the position of an item and the reference of its altitude.
 void set_place(const io::MissionItem& item, const LocalFrame& frame, MissionPlace& place) {
   io::MavAltitude altitude = io::MavAltitude::kNone;
   io::find_mav_altitude(item.frame, altitude);
@@ -30,7 +30,7 @@ void set_place(const io::MissionItem& item, const LocalFrame& frame, MissionPlac
                                                                  : Reference::kKeep;
   if (!place.has_place) return;
   Geodetic at = io::place_of(item);
-  // Where it is seen from above depends on the height a little: 1 mm for 6 m, 1 km from the origin.
+  // The horizontal position depends slightly on the height: 1 mm per 6 m at 1 km from the origin.
   if (place.reference != Reference::kWorld) at.altitude_m += frame.origin().altitude_m;
   const Eigen::Vector3d p_W = frame.to_local(at);
   place.p_W = p_W.head<2>();
@@ -41,9 +41,8 @@ void require_near(const io::MissionFile& mission, const io::MissionItem& item,
                   const MissionPlace& place, const GeoOrigin& origin, const std::string& who) {
   if (!place.has_place || place.p_W.norm() <= kFarthest_m) return;
   throw ConfigError(fmt::format(
-      "{}: item {} of '{}' lies {:.1f} km from the world's origin ({:.6f}, {:.6f}), must be within "
-      "{:g} km; a world with "
-      "origin_latitude_deg = {:.6f}, origin_longitude_deg = {:.6f} would fit",
+      "{}: item {} of '{}' is {:.1f} km from the world's origin ({:.6f}, {:.6f}), must be within "
+      "{:g} km; a world with origin_latitude_deg = {:.6f}, origin_longitude_deg = {:.6f} would fit",
       who, item.number, mission.file.string(), 1e-3 * place.p_W.norm(),
       deg_from_rad(origin.latitude_rad), deg_from_rad(origin.longitude_rad), 1e-3 * kFarthest_m,
       item.params[4], item.params[5]));
@@ -58,14 +57,14 @@ MissionPlaces place_mission(const io::MissionFile& mission, const GeoOrigin& ori
   const auto& told = winged ? mission.cruise_speed_mps : mission.hover_speed_mps;
   double speed_mps = told.value_or(0.0);
   result.first_speed_mps = speed_mps;
-  bool camera = false, sprays = false, is_speed_said = false;
+  bool camera = false, sprays = false, is_speed_given = false;
   constexpr int kSprayer = 216;
   int flown = 0;
   for (const io::MissionItem& item : mission.items) {
     const io::MavCommand& command = *io::find_mav_command(item.command);
     MissionPlace place;
     place.speed_mps = speed_mps;
-    place.is_speed_said = is_speed_said;
+    place.is_speed_given = is_speed_given;
     place.sprays = sprays;
     place.camera = camera;
     using enum io::MavAction;
@@ -87,13 +86,13 @@ MissionPlaces place_mission(const io::MissionFile& mission, const GeoOrigin& ori
         const bool is_speed = item.params[0] == 0.0 || item.params[0] == 1.0;
         if (is_speed && item.params[1] > 0.0) {
           speed_mps = item.params[1];
-          is_speed_said = true;
+          is_speed_given = true;
         }
         if (!result.places.empty()) {
           result.places.back().speed_mps = speed_mps;
-          result.places.back().is_speed_said = is_speed_said;
-        } else if (is_speed_said) {
-          result.first_said_mps = speed_mps;
+          result.places.back().is_speed_given = is_speed_given;
+        } else if (is_speed_given) {
+          result.first_given_mps = speed_mps;
         }
         continue;
       }
@@ -123,7 +122,7 @@ MissionPlaces place_mission(const io::MissionFile& mission, const GeoOrigin& ori
     flown += place.task == MissionPlace::Task::kFly ||
              (place.task == MissionPlace::Task::kTakeOff && place.has_place);
     result.places.push_back(place);
-    // Nothing behind these is reached.
+    // Later items are never reached.
     if (place.task == MissionPlace::Task::kReturn || place.task == MissionPlace::Task::kLand) break;
     constexpr int kLoiterForever = 17;
     if (item.command == kLoiterForever) break;
@@ -132,9 +131,8 @@ MissionPlaces place_mission(const io::MissionFile& mission, const GeoOrigin& ori
     result.first_speed_mps = result.places.front().speed_mps;
   }
   if (flown == 0) {
-    throw ConfigError(
-        fmt::format("{}: '{}' has {} items, none of them a waypoint: there is nothing to fly", who,
-                    mission.file.string(), mission.items.size()));
+    throw ConfigError(fmt::format("{}: '{}' has {} items but no waypoint: there is nothing to fly",
+                                  who, mission.file.string(), mission.items.size()));
   }
   return result;
 }
@@ -162,10 +160,10 @@ std::optional<std::string> find_broken_fence(const io::MissionFile& mission,
   };
   int number = 0;
   for (const io::FencePolygon& fence : mission.fence_polygons) {
-    Polygon2 polygon;
+    Polygon polygon;
     for (const Geodetic& point : fence.points) polygon.push_back(local(point));
     if (auto found = find(fence.inclusion, fmt::format("polygon {}", ++number),
-                          [&](const Vector2d& p) { return is_inside_polygon(p, polygon); })) {
+                          [&](const Vector2d& p) { return contains(polygon, p); })) {
       return found;
     }
   }

@@ -7,7 +7,7 @@
 
 #include "controllers/parts/paths/lift.h"
 #include "controllers/planning/routes/leg_detour.h"
-#include "controllers/planning/routes/route_room.h"
+#include "controllers/planning/routes/route_clearance.h"
 #include "controllers/planning/routes/row_check.h"
 #include "controllers/planning/search/analytic_turn.h"
 #include "engine/api/map.h"
@@ -37,7 +37,7 @@ class RoutePlanner final : public Planner {
         scene_(context.scene),
         field_(map_.occupancy),
         footprint_(field_, context.vehicle_description->outline_B(), params.margin_m),
-        room_(map_, footprint_, params.check_step_m) {}
+        free_space_(map_, footprint_, params.check_step_m) {}
 
   const PlanReport* report() const override { return &report_; }
 
@@ -56,12 +56,12 @@ class RoutePlanner final : public Planner {
     auto legs = make_row_route(map_, params_.route, pose.p);
     if (!legs) return Failure{legs.reason()};
     std::vector<RouteLeg> route = *legs;
-    if (!footprint_.is_free(pose)) return Failure{"start in collision: " + room_.tell(pose)};
+    if (!footprint_.is_free(pose)) return Failure{"start in collision: " + free_space_.tell(pose)};
     for (const RouteLeg& leg : route) {
-      if (const auto fault = room_.find_blocked_end(leg)) return Failure{*fault};
+      if (const auto fault = free_space_.find_blocked_end(leg)) return Failure{*fault};
     }
 
-    PathPieces pieces;
+    PathSegments pieces;
     if (const auto fault = append_approach(pose, route.front(), pieces)) return Failure{*fault};
     if (const auto fault = append_driven(route.front(), pieces)) return Failure{*fault};
     for (std::size_t i = 1; i < route.size(); ++i) {
@@ -76,10 +76,11 @@ class RoutePlanner final : public Planner {
     return path;
   }
 
-  /// From where the vehicle stands to the first leg: straight on; or a short merge into the leg
-  /// where it stands a little aside; else the search. A vehicle that stands on the leg begins
-  /// there.
-  std::optional<std::string> append_approach(const Pose2& pose, RouteLeg& leg, PathPieces& pieces) {
+  /// Appends the path from the vehicle's pose to the first leg: a straight; or a short merge into
+  /// the leg if the vehicle is slightly beside it; else the result of the search. A vehicle on the
+  /// leg starts there.
+  std::optional<std::string> append_approach(const Pose2& pose, RouteLeg& leg,
+                                             PathSegments& pieces) {
     const Pose2 entry = leg.entry();
     const Eigen::Vector2d along = direction(entry.yaw_rad);
     const Eigen::Vector2d way = entry.p - pose.p;
@@ -94,9 +95,9 @@ class RoutePlanner final : public Planner {
       return std::nullopt;
     }
     if (is_aligned && ahead_m > 0.0 && std::abs(cross(along, way)) < kAlongTheLine_rad * ahead_m) {
-      const PathPiece straight =
+      const PathSegment straight =
           make_straight(pose.p, entry.p, PathKind::kTransit, -1, params_.speed_mps);
-      if (room_.is_free({straight})) {
+      if (free_space_.is_free({straight})) {
         pieces.push_back(straight);
         return std::nullopt;
       }
@@ -107,25 +108,25 @@ class RoutePlanner final : public Planner {
     const auto found = search_->find(pose, entry, footprint_, 0, done);
     add_work(done);
     if (!found) {
-      return fmt::format("no way from the start at {} to the entrance of alley {} at {}: {}",
+      return fmt::format("no path from the start at {} to the entrance of alley {} at {}: {}",
                          to_string(pose), leg.alley, to_string(entry), found.reason());
     }
     append_labelled(*found, PathKind::kTransit, pieces);
     return std::nullopt;
   }
 
-  /// The leg, around what stands in it.
-  std::optional<std::string> append_driven(const RouteLeg& leg, PathPieces& pieces) {
-    if (!room_.find_blocked(leg)) {
+  /// Appends the leg with detours around obstacles in it.
+  std::optional<std::string> append_driven(const RouteLeg& leg, PathSegments& pieces) {
+    if (!free_space_.find_blocked(leg)) {
       append_leg(leg, params_.speed_mps, pieces);
       return std::nullopt;
     }
-    // Streams of their own beside those of the turns, whose numbers are the legs'.
+    // Random streams separate from those of the turns, which have the numbers of the legs.
     constexpr int kFirstProblem = 1'000'000, kProblemsPerLeg = 1000;
     std::vector<SearchReport> done;
-    const auto way =
-        drive_around(leg, footprint_, room_, *search_, kFirstProblem + kProblemsPerLeg * leg.alley,
-                     {params_.turning_radius_m, params_.check_step_m, params_.speed_mps}, done);
+    const auto way = drive_around(
+        leg, footprint_, free_space_, *search_, kFirstProblem + kProblemsPerLeg * leg.alley,
+        {params_.turning_radius_m, params_.check_step_m, params_.speed_mps}, done);
     for (const SearchReport& search : done) add_work(search);
     if (!way) return way.reason();
     ++report_.numbers["legs_with_detours"];
@@ -133,17 +134,17 @@ class RoutePlanner final : public Planner {
     return std::nullopt;
   }
 
-  /// A Dubins path onto the leg that is hardly longer than the straight line.
-  bool append_merge(const Pose2& pose, RouteLeg& leg, double first_m, PathPieces& pieces) const {
+  /// Appends a Dubins path onto the leg that is hardly longer than the straight line.
+  bool append_merge(const Pose2& pose, RouteLeg& leg, double first_m, PathSegments& pieces) const {
     constexpr double kLongestMerge_m = 12.0, kStep_m = 0.5, kShareLonger = 0.05;
     const double longest_m = std::min(kLongestMerge_m, first_m - kStep_m);
     for (double s = 0.0; s <= longest_m; s += kStep_m) {
       const Pose2 joint = advance(leg.entry(), s, 0.0);
       const DubinsPath dubins = calc_dubins(pose, joint, params_.turning_radius_m);
       if (dubins.length_m() > (1.0 + kShareLonger) * (joint.p - pose.p).norm()) continue;
-      PathPieces merge;
+      PathSegments merge;
       append_dubins(pose, dubins, PathKind::kTransit, params_.turn_speed_mps, merge);
-      if (!room_.is_free(merge)) continue;
+      if (!free_space_.is_free(merge)) continue;
       pieces.insert(pieces.end(), merge.begin(), merge.end());
       leg.line_W.front() = joint.p;
       return true;
@@ -152,7 +153,7 @@ class RoutePlanner final : public Planner {
   }
 
   std::optional<std::string> append_turn(const RouteLeg& from, const RouteLeg& to, int problem,
-                                         PathPieces& pieces) {
+                                         PathSegments& pieces) {
     SearchReport done;
     const auto found = search_->find(from.exit(), to.entry(), footprint_, problem, done);
     add_work(done);
@@ -173,19 +174,20 @@ class RoutePlanner final : public Planner {
                          found.reason());
     }
     if (!missing_m) {
-      return fmt::format("no free ground joins alley {} at {} and alley {} at {}: {}", from.alley,
-                         to_string(from.exit()), to.alley, to_string(to.entry()), found.reason());
+      return fmt::format("no free ground connects alley {} at {} and alley {} at {}: {}",
+                         from.alley, to_string(from.exit()), to.alley, to_string(to.entry()),
+                         found.reason());
     }
     const Eigen::Vector2d size = calc_size(footprint_.outline_B());
     return fmt::format(
-        "the turn from alley {} to alley {} needs {:.2f} m more room at the turning radius of "
+        "the turn from alley {} to alley {} needs {:.2f} m more clearance at the turning radius of "
         "{:.2f} m (footprint {:.1f} x {:.1f} m, margin {:.2f} m): {}",
         from.alley, to.alley, *missing_m, params_.turning_radius_m, size.x(), size.y(),
         params_.margin_m, found.reason());
   }
 
-  void append_labelled(const PathPieces& found, PathKind kind, PathPieces& pieces) const {
-    for (PathPiece piece : found) {
+  void append_labelled(const PathSegments& found, PathKind kind, PathSegments& pieces) const {
+    for (PathSegment piece : found) {
       piece.kind = kind;
       piece.speed_mps = params_.turn_speed_mps;
       pieces.push_back(piece);
@@ -200,18 +202,18 @@ class RoutePlanner final : public Planner {
     }
   }
 
-  void measure(const PathPieces& pieces) {
-    double least_m = std::numeric_limits<double>::infinity(), least_in_turns_m = least_m;
-    for (const PathPiece& piece : pieces) {
-      const double room_m = room_.clearance_m(piece);
-      least_m = std::min(least_m, room_m);
+  void measure(const PathSegments& pieces) {
+    double min_m = std::numeric_limits<double>::infinity(), min_in_turns_m = min_m;
+    for (const PathSegment& piece : pieces) {
+      const double room_m = free_space_.clearance_m(piece);
+      min_m = std::min(min_m, room_m);
       if (piece.kind != PathKind::kTurn) continue;
-      least_in_turns_m = std::min(least_in_turns_m, room_m);
+      min_in_turns_m = std::min(min_in_turns_m, room_m);
       report_.numbers["turn_length_m"] += piece.length_m;
     }
     report_.numbers["length_m"] = calc_length_m(pieces);
-    report_.numbers["clearance_m"] = least_m;
-    if (report_.numbers["turns"] > 0.0) report_.numbers["turn_clearance_m"] = least_in_turns_m;
+    report_.numbers["clearance_m"] = min_m;
+    if (report_.numbers["turns"] > 0.0) report_.numbers["turn_clearance_m"] = min_in_turns_m;
   }
 
   Result<PlannedPath> lift(double height_m, PlannedPath path) const {
@@ -235,7 +237,7 @@ class RoutePlanner final : public Planner {
   const SceneQuery* scene_;
   DistanceField field_;
   Footprint footprint_;
-  RouteRoom room_;
+  RouteClearance free_space_;
   PlanReport report_;
 };
 
@@ -247,11 +249,11 @@ const ParameterTable<RoutePlannerParams>& route_planner_table() {
       ParameterTable<P>()
           .include(&P::route, row_route_table())
           .number("beyond_m", "m", inside(&P::route, &RowRouteParams::beyond_m), between(0.0, 50.0),
-                  "legs go this far beyond the row ends before and after a turn")
+                  "length of legs beyond the row ends before and after a turn")
           .number("turning_radius_m", "m", &P::wanted_radius_m, kPositive,
-                  "least turning radius; default the vehicle's own")
+                  "minimum turning radius; default the vehicle's own")
           .number("margin_m", "m", &P::margin_m, between(0.0, 5.0),
-                  "room that every planned pose keeps around the vehicle's outline")
+                  "clearance of every planned pose around the vehicle's outline")
           .number("waypoint_pitch_m", "m", &P::pitch_m, kPositive,
                   "straights and arcs are split into round(length / pitch) parts")
           .number("speed_mps", "m/s", &P::speed_mps, between(0.0, 100.0),

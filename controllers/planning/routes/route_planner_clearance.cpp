@@ -8,7 +8,7 @@
 namespace vinerow::controllers {
 namespace {
 
-constexpr double kReach_m = 10.0;  // around both ends: what is farther away joins nothing
+constexpr double kReach_m = 10.0;  // window around both ends
 constexpr double kClearanceStep_m = 0.1;
 
 OccupancyGrid make_window(const Pose2& from, const Pose2& to, const DistanceField& field) {
@@ -22,7 +22,7 @@ OccupancyGrid make_window(const Pose2& from, const Pose2& to, const DistanceFiel
   return window;
 }
 
-/// Cells that the point `from` can move to, as occupied cells of a grid of their own.
+/// Cells that the point `from` can reach, as the occupied cells of a new grid.
 OccupancyGrid fill_reachable(const Pose2& from, const Pose2& to, const DistanceField& field) {
   OccupancyGrid reached = make_window(from, to, field);
   std::vector<std::pair<int, int>> open;
@@ -32,7 +32,7 @@ OccupancyGrid fill_reachable(const Pose2& from, const Pose2& to, const DistanceF
     }
     const Eigen::Vector2d centre =
         reached.corner_W + reached.cell_m * Eigen::Vector2d(i + 0.5, j + 0.5);
-    // Walls are at least half a cell wide here, whichever way the cells lie.
+    // Walls count as at least half a cell wide, whatever the offset between the two grids.
     if (field.at(centre) <= 0.5 * reached.cell_m) return;
     reached.cells[static_cast<std::size_t>(j) * reached.columns + i] = 1;
     open.emplace_back(i, j);
@@ -68,21 +68,21 @@ std::optional<double> calc_missing_clearance_m(const Pose2& from, const Pose2& t
                                                double margin_m) {
   if (field.empty()) return 0.0;
   const OccupancyGrid reachable = fill_reachable(from, to, field);
-  const DistanceField beyond(reachable);  // how far a point is from the reachable ground
+  const DistanceField beyond(reachable);  // distance of a point from the reachable ground
   if (field.at(from.p) <= 0.0 || field.at(to.p) <= 0.0 || beyond.at(to.p) > field.cell_m()) {
     return std::nullopt;
   }
   const std::vector<Eigen::Vector2d> samples = sample_outline(outline_B);
-  double least_m = std::numeric_limits<double>::infinity();
+  double min_m = std::numeric_limits<double>::infinity();
   AnalyticTurnParams turn;
   turn.radius_m = radius_m;
   turn.lead_step_m = 0.5;
   for (const AnalyticTurn& candidate : make_analytic_turns(from, to, turn)) {
     double missing_m = 0.0;
-    for (const PathPiece& piece : make_pieces(from, to, candidate)) {
-      if (missing_m >= least_m) break;
+    for (const PathSegment& piece : make_pieces(from, to, candidate)) {
+      if (missing_m >= min_m) break;
       const int parts = static_cast<int>(std::ceil(piece.length_m / kClearanceStep_m));
-      for (int k = 0; k <= parts && missing_m < least_m; ++k) {
+      for (int k = 0; k <= parts && missing_m < min_m; ++k) {
         const Pose2 pose = piece.at(piece.length_m * k / parts);
         const Eigen::Vector2d ahead = direction(pose.yaw_rad), left = left_of(ahead);
         for (const Eigen::Vector2d& p_B : samples) {
@@ -94,9 +94,9 @@ std::optional<double> calc_missing_clearance_m(const Pose2& from, const Pose2& t
         }
       }
     }
-    least_m = std::min(least_m, missing_m);
+    min_m = std::min(min_m, missing_m);
   }
-  return least_m;
+  return min_m;
 }
 
 }  // namespace vinerow::controllers

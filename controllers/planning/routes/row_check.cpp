@@ -34,7 +34,7 @@ std::string describe(const PathPoint& point) {
   if (point.kind == PathKind::kLeg && point.alley >= 0) {
     return fmt::format("the leg in alley {}", point.alley);
   }
-  return point.kind == PathKind::kTurn ? "the turn" : "the way";
+  return point.kind == PathKind::kTurn ? "the turn" : "the path";
 }
 
 }  // namespace
@@ -57,7 +57,7 @@ std::optional<std::string> find_path_into_row(const PlannedPath& path, const Row
             "path into a row: {} passes ({:.2f}, {:.2f}), {:.2f} m from the centre line of row {}, "
             "whose canopy is {:.2f} m wide{}",
             describe(path.points[i]), from.x(), from.y(), distance, row.id, row.canopy_width_m,
-            clearance_m > 0.0 ? fmt::format(" and is to be kept clear by {:.2f} m", clearance_m)
+            clearance_m > 0.0 ? fmt::format(" and needs a clearance of {:.2f} m", clearance_m)
                               : "");
       }
     }

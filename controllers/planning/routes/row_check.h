@@ -1,5 +1,5 @@
 #pragma once
-/// Does a path run into a plant row?
+/// Check of whether a path runs into a plant row.
 
 #include <optional>
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace vinerow::controllers {
 
-/// Looks at every stretch between two points of a path, as driven straight.
-/// @param clearance_m  to keep from the canopy's footprint, >= 0
-/// @returns nothing if the path is free, else one sentence: "path into a row: ..."
+/// Checks the straight line between every two consecutive points of a path. @param clearance_m to
+/// keep from the canopy's footprint, >= 0 @returns nullopt if the path is free, else one sentence:
+/// "path into a row: ..."
 std::optional<std::string> find_path_into_row(const PlannedPath& path, const RowMap& map,
                                               double clearance_m);
 

@@ -46,10 +46,10 @@ const ParameterTable<RowRouteParams>& row_route_table() {
                    "indices of the alleys to drive, in order; empty = all of the map")
           .choice("order", &P::order,
                   {{"serpentine", AlleyOrder::kSerpentine}, {"skip", AlleyOrder::kSkip}},
-                  "serpentine: each alley's neighbour next; skip: every second one, the "
-                  "rest on the way back, for wide turns")
+                  "serpentine: neighbouring alleys one after another; skip: every second alley, "
+                  "the others on the way back, for wide turns")
           .number("straighten_m", "m", &P::straighten_m, between(0.0, 10.0),
-                  "vertices of an alley's line this near to a straight are left out");
+                  "tolerance within which vertices of an alley's line are left out of a straight");
   return table;
 }
 
@@ -69,7 +69,7 @@ Result<std::vector<RouteLeg>> make_row_route(const RowMap& map, const RowRoutePa
                                              const Eigen::Vector2d& start_W) {
   if (map.alleys.empty()) return Failure{"the map has no alleys to drive"};
   std::vector<RouteLeg> legs;
-  Eigen::Vector2d at = start_W;  // where the vehicle is after the legs so far
+  Eigen::Vector2d at = start_W;  // position of the vehicle after the legs so far
   for (const int alley : driving_order(map, params)) {
     if (alley < 0 || alley >= static_cast<int>(map.alleys.size())) {
       return Failure{
@@ -94,7 +94,7 @@ Result<std::vector<RouteLeg>> make_row_route(const RowMap& map, const RowRoutePa
   return legs;
 }
 
-void append_leg(const RouteLeg& leg, double speed_mps, std::vector<PathPiece>& pieces) {
+void append_leg(const RouteLeg& leg, double speed_mps, std::vector<PathSegment>& pieces) {
   for (std::size_t i = 0; i + 1 < leg.line_W.size(); ++i) {
     pieces.push_back(
         make_straight(leg.line_W[i], leg.line_W[i + 1], PathKind::kLeg, leg.alley, speed_mps));

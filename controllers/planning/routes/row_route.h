@@ -1,6 +1,6 @@
 #pragma once
-/// The mission of a ground vehicle as a sequence of sub-goals: the alleys to drive, each with its
-/// entrance and exit, and the turns between them (paper A, section 4.1; reference: sub-goals at row
+/// Route of a ground vehicle as a sequence of sub-goals: the alleys to drive, each with its
+/// entrance and exit, with turns between them (paper A, section 4.1; reference: sub-goals at row
 /// end, turn exit, row start).
 
 #include <string>
@@ -15,7 +15,7 @@
 
 namespace vinerow::controllers {
 
-/// An alley as it will be driven.
+/// An alley in driving direction.
 struct RouteLeg {
   int alley = -1;
   std::vector<Eigen::Vector2d> line_W;  ///< >= 2 vertices in driving order
@@ -24,27 +24,27 @@ struct RouteLeg {
 };
 
 struct RowRouteParams {
-  std::vector<int> alleys;  ///< in this order; empty = all of the map
+  std::vector<int> alleys;  ///< in this order; empty: all of the map
   AlleyOrder order = AlleyOrder::kSerpentine;
   double straighten_m = 0.02;
-  double beyond_m = 0.0;  ///< legs go this far beyond the row ends before and after a turn
+  double beyond_m = 0.0;  ///< length of legs beyond the row ends before and after a turn
 
   /// @param alley_count  of the map  @param who  for errors, "rover.planner (coverage)"
-  /// @throws ConfigError if an alley is asked that the map does not have, or asked twice
+  /// @throws ConfigError if an alley is listed that the map does not have, or listed twice
   void demand_alleys(int alley_count, const std::string& who) const;
 };
 
-/// Parameters of every planner that drives alleys: alleys, order, straighten_m.
+/// Common parameters of planners that drive alleys: alleys, order, straighten_m.
 const ParameterTable<RowRouteParams>& row_route_table();
 
-/// Legs, each entered from the end nearer to where the one before ended, which makes directions
-/// alternate; the first from the end nearer to `start_W`. The first entrance and the last exit stay
-/// at the row ends whatever beyond_m is.
-/// @returns a failure that names the alley, if the map has none or one has no length
+/// Legs in order. Each starts at the end nearer to the end of the leg before, so that directions
+/// alternate; the first starts at the end nearer to `start_W`. The first entrance and the last exit
+/// stay at the row ends, whatever beyond_m is. @returns a failure that names the alley, if the map
+/// has no alleys or one has no length
 Result<std::vector<RouteLeg>> make_row_route(const RowMap& map, const RowRouteParams& params,
                                              const Eigen::Vector2d& start_W);
 
 /// The leg's straights, of kind kLeg.
-void append_leg(const RouteLeg& leg, double speed_mps, std::vector<PathPiece>& pieces);
+void append_leg(const RouteLeg& leg, double speed_mps, std::vector<PathSegment>& pieces);
 
 }  // namespace vinerow::controllers

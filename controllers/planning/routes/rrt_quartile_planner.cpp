@@ -35,7 +35,8 @@ std::string find_fault_in_steps(const QuartilePlannerParams& p) {
       tree.step_m, diagonal_m, tree.cell_m);
 }
 
-/// route_planner.h's, its own and those of the tree; the tree's curvature follows from them.
+/// Parameters of route_planner.h, of this planner and of the tree; the tree's curvature follows
+/// from them.
 const ParameterTable<QuartilePlannerParams>& rrt_quartile_table() {
   using P = QuartilePlannerParams;
   using Search = RrtQuartileParams;
@@ -54,26 +55,26 @@ const ParameterTable<QuartilePlannerParams>& rrt_quartile_table() {
                    "vehicle's turning radius, two_wheel: 30 deg (paper A)")
           .choice("heuristic", search(&Search::heuristic),
                   {{"geodesic", DistanceKind::kGeodesic}, {"euclid", DistanceKind::kEuclid}},
-                  "distance to the goal along free ground, or straight (eq. 22), which "
-                  "points into the row between two alleys")
+                  "distance to the goal: along free ground, or straight (eq. 22), which leads into "
+                  "the row between two alleys")
           .boolean("quartiles", tree(&Tree::quartiles),
-                   "grow from the lowest quartile of distance that has open nodes; "
-                   "false: from any open node")
+                   "true: grow from the lowest quartile of distance that has open nodes; false: "
+                   "from any open node")
           .number("step_m", "m", tree(&Tree::step_m), between(0.02, 100.0),
                   "length of every arc of the tree")
           .number("cell_m", "m", tree(&Tree::cell_m), between(0.01, 100.0),
-                  "size of the cells that hold one node each")
-          .degrees("cell_deg", tree(&Tree::cell_rad), between(0.5, 90.0), "the same for headings")
+                  "size of the cells, each of which holds one node")
+          .degrees("cell_deg", tree(&Tree::cell_rad), between(0.5, 90.0),
+                   "size of the cells in heading")
           .number("join_m", "m", tree(&Tree::join_m), between(0.01, 1e4),
-                  "longest Dubins path that joins the tree to the goal exactly")
+                  "longest Dubins path that joins the tree to the goal")
           .integer("max_iterations", search(&Search::max_iterations),
-                   between(1, kMostQuartileIterations),
-                   "nodes expanded per turn before the search gives up")
+                   between(1, kMaxQuartileIterations), "maximum number of nodes expanded per turn")
           .integer("refinements", search(&Search::refinements), between(0, 4),
-                   "when the tree is exhausted, so often again with half the step and "
-                   "half the cells")
+                   "number of further searches after the tree is exhausted, each with half the "
+                   "step and half the cells")
           .boolean("smooth", search(&Search::smooth),
-                   "shorten the way found by checked Dubins paths")
+                   "shorten the path found by checked Dubins paths")
           .rule([](const P& p) -> std::string {
             return p.steering_angle_rad && p.route.wanted_radius_m
                        ? "give steering_angle_deg or turning_radius_m, not both"
@@ -86,7 +87,7 @@ const ParameterTable<QuartilePlannerParams>& rrt_quartile_table() {
 /// Curvature of the arcs to the left and right.
 double find_curvature_per_m(const QuartilePlannerParams& params, const PlannerContext& context,
                             const std::string& who) {
-  const double radius_m = params.route.turning_radius_m;  // the least in use
+  const double radius_m = params.route.turning_radius_m;  // the minimum in use
   const bool is_four_wheel = params.steering == Steering::kFourWheel;
   const bool has_angle = params.steering_angle_rad.has_value();
   if (params.route.wanted_radius_m || (is_four_wheel && !has_angle)) return 1.0 / radius_m;
@@ -96,7 +97,7 @@ double find_curvature_per_m(const QuartilePlannerParams& params, const PlannerCo
   const double wheel_base_m =
       vehicle.need_positive(vehicle.need_wheeled(who).wheel_base_m, "wheel_base_m", who);
   const double curvature_per_m = (is_four_wheel ? 2.0 : 1.0) * std::tan(angle_rad) / wheel_base_m;
-  constexpr double kRounding = 1e-3;  // vehicles tell their radius with few digits
+  constexpr double kRounding = 1e-3;  // radii of vehicles have few digits
   if (curvature_per_m * radius_m > 1.0 + kRounding) {
     throw ConfigError(fmt::format(
         "{}: steering_angle_deg = {:.4g} deg on {} turns at a radius of {:.3f} m, the vehicle at "
@@ -113,10 +114,10 @@ PartSpec rrt_quartile_spec() {
   PartSpec spec;
   spec.name = "rrt_quartile";
   spec.description =
-      "Drives the alleys of the row map; turns by the tree of paper A, section 4.1 (three steering "
-      "angles, quartiles of the distance to the goal, eq. 22), whose nodes are closed and cells "
-      "occupied so that it ends. Near neighbours are not rewired: the way is not claimed to be the "
-      "shortest, only shortened afterwards.";
+      "Path along the alleys of the row map with turns from the tree of paper A, section 4.1 "
+      "(three steering angles, quartiles of the distance to the goal, eq. 22). Nodes are closed "
+      "and cells occupied so that the search ends. Near neighbours are not rewired, so the path is "
+      "not necessarily the shortest; it is shortened afterwards.";
   spec.parameters = rrt_quartile_table().specs();
   spec.reads = {"estimate"};
   spec.writes = {"plan", "plan_tree"};

@@ -10,7 +10,7 @@ namespace vinerow::controllers {
 
 PartSpec rrt_quartile_spec();
 /// @throws ConfigError for arcs tighter than the vehicle turns, steps that do not leave a cell, and
-/// what make_route_planner refuses
+/// as make_route_planner
 std::unique_ptr<Planner> make_rrt_quartile(const ParameterSet& parameters,
                                            const PlannerContext& context);
 

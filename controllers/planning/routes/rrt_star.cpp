@@ -10,29 +10,29 @@ namespace vinerow::controllers {
 
 namespace {
 
-/// radius_m and check_step_m are those of the route.
+/// Without radius_m and check_step_m, which come from the route.
 const ParameterTable<RrtStarParams>& rrt_star_table() {
   using P = RrtStarParams;
-  using Cost = WayCostParams;
+  using Cost = PathCostParams;
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .integer("iterations", &P::iterations, between(0, 5e3),
-                   "of RRT*, for every turn that a shorter way is possible for; 0: the first way "
-                   "stands; the work grows with the square")
+                   "iterations of RRT* for every turn that can be shorter; 0: keep the initial "
+                   "path; the cost grows with the square")
           .integer("first_iterations", &P::first_iterations, between(1, 1e5),
-                   "of RRT, where no turn in closed form fits; it stops at the first way")
+                   "iterations of RRT if no turn in closed form fits; it stops at the first path")
           .number("range_m", "m", &P::range_m, between(0.01, 1e4), "longest edge of the tree")
           .number("reach_m", "m", &P::reach_m, between(0.1, 1e4),
-                  "how far around both ends ways are looked for")
+                  "distance around both ends within which paths are searched")
           .number("curvature_reserve", "", &P::curvature_reserve, between(0.0, 1.0),
-                  "turns are wider than the least radius by up to this share where there is room, "
-                  "so that the follower can steer in")
+                  "share by which turns may be wider than the minimum radius if there is "
+                  "clearance, so that the follower has a steering reserve")
           .number("clearance_weight", "", inside(&P::cost, &Cost::clearance_weight),
-                  between(0.0, 100.0), "a metre driven at no clearance costs 1 + this")
+                  between(0.0, 100.0), "a metre at zero clearance costs 1 + this")
           .number("wanted_clearance_m", "m", inside(&P::cost, &Cost::wanted_clearance_m),
-                  between(1e-3, 1e3), "from here on clearance costs nothing more")
+                  between(1e-3, 1e3), "clearance above which a metre costs 1")
           .number("bend_cost_m", "m", inside(&P::cost, &Cost::bend_m), between(0.0, 10.0),
-                  "every change of curvature costs as much as this length");
+                  "length that costs as much as a change of curvature");
   return table;
 }
 
@@ -58,8 +58,9 @@ PartSpec rrt_star_spec() {
   PartSpec spec;
   spec.name = "rrt_star";
   spec.description =
-      "Plans legs along the alleys and turns on the occupancy grid: a first turn in closed form, "
-      "improved by RRT* (Karaman, Frazzoli 2011) in OMPL for a car-like vehicle (paper A, 4.1).";
+      "Path with legs along the alleys and turns on the occupancy grid: an initial turn in closed "
+      "form, improved by RRT* (Karaman, Frazzoli 2011) in OMPL for a car-like vehicle (paper A, "
+      "4.1).";
   spec.parameters = route_planner_table().specs();
   for (ParameterSpec& parameter : rrt_star_search_parameters()) {
     spec.parameters.push_back(std::move(parameter));

@@ -1,6 +1,6 @@
 #pragma once
-/// Planner `rrt_star`: legs along the alleys and turns by RRT* of OMPL with a first way in closed
-/// form (paper A, section 4.1).
+/// Planner `rrt_star`: legs along the alleys and turns by OMPL's RRT* with an initial path in
+/// closed form (paper A, section 4.1).
 
 #include <memory>
 
@@ -14,7 +14,7 @@ PartSpec rrt_star_spec();
 
 /// Parameters of the search alone: iterations, first_iterations, range_m, reach_m, ...
 std::vector<ParameterSpec> rrt_star_search_parameters();
-/// The search by its parameters. @param route  of the planner that uses it
+/// Makes the search from its parameters. @param route of the planner that uses it
 std::unique_ptr<PoseSearch> make_rrt_star_search(const ParameterSet& parameters,
                                                  const RoutePlannerParams& route,
                                                  const PartContext& context);

@@ -19,8 +19,8 @@
 namespace vinerow::controllers {
 namespace {
 
-/// Lines "x,y" in metres; a first line of names, empty lines and lines that start with '#' are
-/// skipped.
+/// Reads lines "x,y" in metres. Skips a first line of names, empty lines and lines that start with
+/// '#'.
 std::vector<Eigen::Vector2d> read_csv(const std::string& file) {
   std::ifstream stream(file);
   if (!stream) throw ConfigError(fmt::format("{}: cannot be read", file));
@@ -51,7 +51,7 @@ struct WaypointsParams {
   double pitch_m = 0.33;                   ///< 0: straights are not split
   double speed_mps = 0.0;                  ///< 0: the follower's own
   double clearance_m = 0.0;
-  std::optional<double> turning_radius_m;  ///< absent: what the vehicle needs
+  std::optional<double> turning_radius_m;  ///< absent: from the vehicle
 };
 
 const ParameterTable<WaypointsParams>& waypoints_table() {
@@ -61,8 +61,8 @@ const ParameterTable<WaypointsParams>& waypoints_table() {
           .numbers("x_m", "m", &P::x_m, kAnyNumber, "x of the points in W (east)")
           .numbers("y_m", "m", &P::y_m, kAnyNumber, "y of the points in W (north), as many as x_m")
           .numbers("z_m", "m", &P::z_m, kAnyNumber,
-                   "heights of the points in W, as many, for what flies: straight "
-                   "in space; default: on the ground")
+                   "heights of the points in W, as many as x_m, for flying vehicles: straight in "
+                   "space; default: on the ground")
           .path("file", &P::file,
                 "CSV file with a line x,y in metres for each point, instead of the lists")
           .number("waypoint_pitch_m", "m", &P::pitch_m, between(0.0, 1e3),
@@ -71,10 +71,10 @@ const ParameterTable<WaypointsParams>& waypoints_table() {
                   "wanted speed; 0 = the follower's own")
           .number("clearance_m", "m", &P::clearance_m, between(0.0, 10.0),
                   "distance that the planned line keeps from every canopy's footprint")
-          .number("turning_radius_m", "m", &P::turning_radius_m, between(0.0, 1e3),
-                  "corners on the ground are rounded with this radius; 0 = not at all; default: "
-                  "1.1 times the least of a vehicle that steers by its axles, else 0: the follower "
-                  "turns it on the spot")
+          .number(
+              "turning_radius_m", "m", &P::turning_radius_m, between(0.0, 1e3),
+              "radius of rounded corners on the ground; 0 = not rounded; default: 1.1 times the "
+              "minimum of a vehicle with axle steering, else 0: the follower turns it on the spot")
           .rule([](const P& p) -> std::string {
             if (!p.file.empty() || p.x_m.size() == p.y_m.size()) return "";
             return fmt::format("x_m has {} numbers and y_m {}, must be as many", p.x_m.size(),
@@ -125,7 +125,7 @@ class Waypoints final : public Planner {
   Result<PlannedPath> plan(const Pose& start) override {
     report_ = {};
     if (!heights_m_.empty()) return plan_flight();
-    PlannedPath path = make_planned_path(lay_way(), pitch_m_ > 0.0 ? pitch_m_ : kNotSplit_m);
+    PlannedPath path = make_planned_path(lay_path(), pitch_m_ > 0.0 ? pitch_m_ : kNotSplit_m);
     if (map_ != nullptr) {
       if (const auto fault = find_path_into_row(path, *map_, clearance_m_)) return Failure{*fault};
     }
@@ -136,15 +136,15 @@ class Waypoints final : public Planner {
  private:
   static constexpr double kNotSplit_m = 1e9;
 
-  PathPieces lay_way() {
+  PathSegments lay_path() {
     const std::vector<double> speed_mps(points_.size() - 1, speed_mps_);
     if (radius_m_ > 0.0) {
-      RoundedWay way = round_corners(points_, speed_mps, radius_m_, PathKind::kLeg);
+      RoundedPath way = round_corners(points_, speed_mps, radius_m_, PathKind::kLeg);
       report_.numbers["rounded_corners"] = way.arcs;
       report_.numbers["loops_at_corners"] = way.loops;
       return std::move(way.pieces);
     }
-    PathPieces pieces;
+    PathSegments pieces;
     for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
       pieces.push_back(make_straight(points_[i], points_[i + 1], PathKind::kLeg, -1, speed_mps_));
     }
@@ -156,7 +156,7 @@ class Waypoints final : public Planner {
                        who);
   }
 
-  /// Straight from point to point in space; what lies below is not asked.
+  /// Straights from point to point in space; the ground below is ignored.
   PlannedPath plan_flight() const {
     PlannedPath path;
     for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -165,9 +165,10 @@ class Waypoints final : public Planner {
       point.speed_mps = speed_mps_;
       path.points.push_back(point);
       if (i == 0) continue;
-      const Eigen::Vector3d way_W = point.p_W - path.points[i - 1].p_W;
-      path.length_m += way_W.norm();
-      path.points[i - 1].yaw_rad = path.points[i].yaw_rad = std::atan2(way_W.y(), way_W.x());
+      const Eigen::Vector3d displacement_W = point.p_W - path.points[i - 1].p_W;
+      path.length_m += displacement_W.norm();
+      path.points[i - 1].yaw_rad = path.points[i].yaw_rad =
+          std::atan2(displacement_W.y(), displacement_W.x());
     }
     return path;
   }
@@ -186,8 +187,8 @@ PartSpec waypoints_spec() {
   PartSpec spec;
   spec.name = "waypoints";
   spec.description =
-      "A path of straights between points given in the scenario or in a CSV file, on the ground or "
-      "in the air.";
+      "Path of straights between points from the scenario or a CSV file, on the ground or in the "
+      "air.";
   spec.parameters = waypoints_table().specs();
   spec.reads = {"estimate"};
   spec.writes = {"plan"};

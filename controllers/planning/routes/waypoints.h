@@ -1,5 +1,5 @@
 #pragma once
-/// Planner `waypoints`: a path given point by point, in the scenario or in a CSV file.
+/// Planner `waypoints`: a path from a list of points in the scenario or in a CSV file.
 
 #include <memory>
 
@@ -10,9 +10,8 @@ namespace vinerow::controllers {
 
 PartSpec waypoints_spec();
 
-/// @throws ConfigError if the lists differ in length, fewer than two points are given, or the file
-/// has a
-///         line that is not two numbers
+/// @throws ConfigError if the lists differ in length, fewer than two points are given, or a line of
+/// the file is not two numbers
 std::unique_ptr<Planner> make_waypoints(const ParameterSet& parameters,
                                         const PlannerContext& context);
 

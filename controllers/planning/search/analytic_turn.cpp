@@ -29,9 +29,9 @@ std::vector<AnalyticTurn> make_analytic_turns(const Pose2& from, const Pose2& to
   return turns;
 }
 
-std::vector<PathPiece> make_pieces(const Pose2& from, const Pose2& to, const AnalyticTurn& turn) {
+std::vector<PathSegment> make_pieces(const Pose2& from, const Pose2& to, const AnalyticTurn& turn) {
   constexpr double kShortest_m = 1e-9;
-  std::vector<PathPiece> pieces;
+  std::vector<PathSegment> pieces;
   const auto add_straight = [&](const Pose2& start, double length_m) {
     if (length_m > kShortest_m) {
       pieces.push_back({start, length_m, 0.0, PathKind::kTurn, -1, 0.0});
@@ -43,9 +43,9 @@ std::vector<PathPiece> make_pieces(const Pose2& from, const Pose2& to, const Ana
   return pieces;
 }
 
-double calc_length_m(const std::vector<PathPiece>& pieces) {
+double calc_length_m(const std::vector<PathSegment>& pieces) {
   return std::accumulate(pieces.begin(), pieces.end(), 0.0,
-                         [](double sum, const PathPiece& piece) { return sum + piece.length_m; });
+                         [](double sum, const PathSegment& piece) { return sum + piece.length_m; });
 }
 
 }  // namespace vinerow::controllers

@@ -7,9 +7,10 @@
 
 namespace vinerow::controllers {
 
-/// What is tried: every Dubins word between the poses moved on by one straight and back by another,
-/// for all pairs of straights 0, step, 2 step .. longest. Paper B calls the straights headland and
-/// has one length for both; here each end has its own, which rows that end at a slant need.
+/// Candidates: every Dubins word between the first pose moved forward by one straight and the
+/// second moved back by another, for all pairs of straights 0, step, 2 step .. longest. Paper B
+/// calls the straights headland and uses one length for both. Here each end has its own, which
+/// slanted row ends need.
 struct AnalyticTurnParams {
   double radius_m = 1.0;
   double longest_lead_m = 6.0;
@@ -23,14 +24,14 @@ struct AnalyticTurn {
   DubinsPath dubins;
 };
 
-/// All that exist, shortest first; of those within a millimetre the one with the shorter straight
-/// out.
+/// All turns that exist, shortest first; within a millimetre, the one with the shorter straight out
+/// first.
 std::vector<AnalyticTurn> make_analytic_turns(const Pose2& from, const Pose2& to,
                                               const AnalyticTurnParams& params);
 
 /// Straights and arcs of kind kTurn from `from` to `to`.
-std::vector<PathPiece> make_pieces(const Pose2& from, const Pose2& to, const AnalyticTurn& turn);
+std::vector<PathSegment> make_pieces(const Pose2& from, const Pose2& to, const AnalyticTurn& turn);
 
-double calc_length_m(const std::vector<PathPiece>& pieces);
+double calc_length_m(const std::vector<PathSegment>& pieces);
 
 }  // namespace vinerow::controllers

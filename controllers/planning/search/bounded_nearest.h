@@ -1,5 +1,5 @@
 #pragma once
-/// Nearest neighbours for a distance that is dear and not symmetric, with a cheap lower bound.
+/// Nearest neighbours for an expensive, asymmetric distance with a cheap lower bound.
 
 #include <ompl/datastructures/NearestNeighbors.h>
 
@@ -10,9 +10,9 @@
 
 namespace vinerow::controllers {
 
-/// A plain list. The distance from an element to the query is worked out only where the bound does
-/// not already exceed the worst that would be kept. Exact; of equals the one added first.
-/// nearestK() leaves out elements farther away than `longest`: a tree has no edges to them anyway.
+/// A plain list. The distance from an element to the query is computed only if the bound does not
+/// exceed the worst distance to be kept. Exact; among equals, the one added first. nearestK()
+/// leaves out elements farther away than `longest`, to which a tree has no edges.
 template <typename T>
 class BoundedNearest final : public ompl::NearestNeighbors<T> {
  public:
@@ -30,7 +30,7 @@ class BoundedNearest final : public ompl::NearestNeighbors<T> {
     return true;
   }
   T nearest(const T& query) const override {
-    // The element of the least bound first: it leaves few others to look at.
+    // The element of the smallest bound first: it leaves few others to evaluate.
     bounds_.clear();
     std::size_t least = 0;
     for (std::size_t i = 0; i < elements_.size(); ++i) {

@@ -20,8 +20,8 @@ namespace {
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
 
-/// One of OMPL's tree planners with our neighbours, and a generator that only it uses: OMPL seeds
-/// its own from the clock.
+/// One of OMPL's tree planners with our nearest neighbours and its own generator: OMPL seeds its
+/// generators from the clock.
 template <typename Base>
 class Seeded final : public Base {
  public:
@@ -32,7 +32,8 @@ class Seeded final : public Base {
     this->nn_ = std::make_shared<BoundedNearest<Motion*>>(
         [radius_m](Motion* const& from, Motion* const& to) {
           const Pose2 a = CarSpace::pose_of(from->state), b = CarSpace::pose_of(to->state);
-          // A way is at least as long as the straight line, and as the arc that turns the heading.
+          // A path is at least as long as the straight line and as the arc of the change of
+          // heading.
           return std::max((b.p - a.p).norm(),
                           radius_m * std::abs(wrap_angle(b.yaw_rad - a.yaw_rad)) - 1e-9);
         },
@@ -57,10 +58,10 @@ class Seeded final : public Base {
   using Motion = typename Base::Motion;
 };
 
-/// Space, problem and random stream of one run; outlives the planner.
+/// Space, problem and random stream of one run; must outlive the planner.
 struct Setup {
   Setup(const CarProblem& problem, CarSampling& sampling, RandomStream& random) {
-    // Reports of what goes right and wrong come through results here, never on the console.
+    // Success and failure are reported by results, never on the console.
     ompl::msg::noOutputHandler();
     auto space = std::make_shared<CarSpace>(problem.radius_m, problem.low_W, problem.high_W);
     space->setStateSamplerAllocator([&sampling, &random](const ob::StateSpace* of) {
@@ -116,7 +117,7 @@ CarTree run_rrt_star(const CarProblem& problem, CarSampling sampling, RandomStre
   const auto seed = static_cast<std::uint_fast32_t>(random.next_u64() >> 32);
   Setup setup(problem, sampling, random);
   Seeded<og::RRTstar> planner(setup.si, seed, problem.radius_m, problem.range_m);
-  // Ways found on the way narrow down where to look.
+  // Solutions found during the search narrow the sampling.
   const double known = sampling.best_cost();
   sampling.best_cost = [&planner, known] {
     const double own = planner.bestCost().value();

@@ -1,5 +1,5 @@
 #pragma once
-/// OMPL's planners, run once with a fixed number of iterations and a seed of their own.
+/// Runs of OMPL's planners with a fixed number of iterations and a given random stream.
 
 #include <cstdint>
 #include <vector>
@@ -12,7 +12,7 @@ struct CarProblem {
   double radius_m = 1.0;
   Eigen::Vector2d low_W = {0, 0}, high_W = {0, 0};  ///< box to search in
   const Footprint* footprint = nullptr;
-  const WayCost* cost = nullptr;
+  const PathCost* cost = nullptr;
   double check_step_m = 0.1;
   double range_m = 3.0;  ///< longest edge of the tree
   std::int64_t iterations = 0;
@@ -27,14 +27,13 @@ struct CarTree {
 };
 
 /// RRT* (Karaman and Frazzoli, "Sampling-based algorithms for optimal motion planning", Int. J.
-/// Robotics Research 30, 2011). The tree begins with sampling.first_way.
+/// Robotics Research 30, 2011). The tree starts with sampling.initial_path.
 /// @throws ompl::Exception
 CarTree run_rrt_star(const CarProblem& problem, CarSampling sampling, RandomStream random);
 
 /// RRT (LaValle and Kuffner, "Randomized kinodynamic planning", Int. J. Robotics Research 20,
-/// 2001), for a first way where closed forms fail; stops at the first found. A tree from the goal
-/// as in RRT-Connect would have to be grown backwards, which OMPL does not do where ways have a
-/// direction.
+/// 2001), for an initial path if closed forms fail; stops at the first path. A tree from the goal
+/// as in RRT-Connect would have to grow backwards, which OMPL does not support for directed paths.
 /// @throws ompl::Exception
 CarTree run_rrt(const CarProblem& problem, CarSampling sampling, RandomStream random);
 

@@ -5,14 +5,14 @@
 namespace vinerow::controllers {
 namespace {
 namespace ob = ompl::base;
-constexpr int kMostTries = 50;  // until a sample that cannot improve anything is let through
+constexpr int kMaxTries = 50;  // then a sample that cannot improve the path is accepted
 }  // namespace
 
 CarSampler::CarSampler(const CarSpace* space, const CarSampling& sampling, RandomStream& random)
     : StateSampler(space), car_(*space), sampling_(sampling), random_(random) {}
 
 Pose2 CarSampler::draw() {
-  const auto& way = sampling_.first_way;
+  const auto& way = sampling_.initial_path;
   if (!way.empty() && random_.uniform() < sampling_.near_share) {
     const auto at = static_cast<std::size_t>(random_.uniform() * static_cast<double>(way.size()));
     const double x = random_.normal(), y = random_.normal(), yaw = random_.normal();
@@ -39,12 +39,12 @@ bool CarSampler::is_worth(const Pose2& pose) const {
 }
 
 void CarSampler::sampleUniform(ob::State* state) {
-  if (given_out_ < sampling_.first_way.size()) {
-    CarSpace::set_pose(sampling_.first_way[given_out_++], state);
+  if (given_out_ < sampling_.initial_path.size()) {
+    CarSpace::set_pose(sampling_.initial_path[given_out_++], state);
     return;
   }
   Pose2 pose = draw();
-  for (int i = 0; i < kMostTries && !is_worth(pose); ++i) pose = draw();
+  for (int i = 0; i < kMaxTries && !is_worth(pose); ++i) pose = draw();
   CarSpace::set_pose(pose, state);
   car_.enforceBounds(state);
 }

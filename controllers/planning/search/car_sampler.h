@@ -1,5 +1,5 @@
 #pragma once
-/// Where RRT* looks: along the first way, around it, and wherever a shorter way could pass.
+/// Sampler of RRT*: along the initial path, around it, and wherever a cheaper path could pass.
 
 #include <ompl/base/StateSampler.h>
 
@@ -13,16 +13,16 @@ namespace vinerow::controllers {
 
 struct CarSampling {
   Pose2 from, to;
-  /// Poses of a first way: given out first, one after the other, so that the tree holds that way;
-  /// later as centres to look around. May be empty.
-  std::vector<Pose2> first_way;
-  /// A way through a sample must be able to cost less: its Dubins lengths from `from` and to `to`
-  /// together (informed sampling after Gammell, Srinivasa, Barfoot, "Informed RRT*", IROS 2014, by
-  /// rejection). Infinite where no way is known.
+  /// Poses of an initial path. They are the first samples, one after the other, so that the tree
+  /// contains that path; later they are centres of samples. May be empty.
+  std::vector<Pose2> initial_path;
+  /// Cost of the best path so far. A sample is rejected unless the sum of its Dubins lengths from
+  /// `from` and to `to` is below it (informed sampling by rejection, after Gammell, Srinivasa,
+  /// Barfoot, "Informed RRT*", IROS 2014). Infinite if no path is known.
   std::function<double()> best_cost;
   const Footprint* footprint = nullptr;
-  double near_share = 0.5;  ///< of the samples around the first way
-  double near_m = 0.6;      ///< standard deviation of those
+  double near_share = 0.5;  ///< share of the samples around the initial path
+  double near_m = 0.6;      ///< standard deviation of their positions
   double near_rad = 0.4;
 };
 

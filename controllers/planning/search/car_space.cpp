@@ -78,7 +78,8 @@ bool CarMotionValidator::checkMotion(const ob::State* from, const ob::State* to,
   return false;
 }
 
-CarObjective::CarObjective(const ob::SpaceInformationPtr& si, const WayCost& cost, double longest_m)
+CarObjective::CarObjective(const ob::SpaceInformationPtr& si, const PathCost& cost,
+                           double longest_m)
     : OptimizationObjective(si), cost_(cost), longest_m_(longest_m) {
   description_ = "length and clearance";
 }

@@ -9,13 +9,13 @@ namespace vinerow::controllers {
 namespace {
 
 constexpr double kCell_m = 0.2;
-// Steps to a neighbour beside and across, in fifths of a cell: 7/5 is within 1 % of sqrt(2).
+// Steps to a straight and a diagonal neighbour in fifths of a cell: 7/5 is within 1 % of sqrt(2).
 constexpr int kBeside = 5, kAcross = 7;
 constexpr int kFar = std::numeric_limits<int>::max();
-// Ground this much farther from the goal than the start is measured too, m: room to turn in.
+// Margin by which ground farther from the goal than the start is measured, m, for turning.
 constexpr double kBeyondStart_m = 15.0;
 
-/// Radius of the circle around B's origin inside the outline; 0 where the origin is outside.
+/// Radius of the circle around B's origin inside the outline; 0 if the origin is outside.
 double calc_inner_radius_m(const std::vector<Eigen::Vector2d>& outline_B) {
   double radius_m = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < outline_B.size(); ++i) {
@@ -50,7 +50,7 @@ void GoalDistance::measure(const Footprint& footprint, const Eigen::Vector2d& fr
   const int goal_cell = cell_of(goal_), from_cell = cell_of(from);
   if (goal_cell < 0) return;
 
-  // Costs grow by 7 at most, so eight lists in a ring hold all cells that wait.
+  // Costs grow by at most 7, so a ring of eight lists holds all waiting cells.
   std::array<std::vector<int>, kAcross + 1> waiting;
   steps_[goal_cell] = 0;
   waiting[0].push_back(goal_cell);

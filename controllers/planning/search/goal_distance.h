@@ -1,11 +1,12 @@
 #pragma once
-/// How far a point is from the goal: straight (paper A, eq. 22), or along the free ground.
+/// Distance of a point from the goal: straight (paper A, eq. 22), or along the free ground.
 ///
-/// The straight distance points into the next row when the goal is in the next alley; the distance
-/// along the ground leads around the row's end. It is a shortest way over a grid of 0.2 m cells,
-/// to all eight neighbours, grown from the goal (Dijkstra 1959, with Dial's buckets). Cells where
-/// not even the circle inside the vehicle's outline fits, taken one cell diagonal smaller for the
-/// grid's coarseness, are no ground: what it does not reach, no vehicle reaches.
+/// If the goal is in the next alley, the straight distance leads into the row between; the distance
+/// along the ground leads around the row's end. It is the shortest path over a grid of 0.2 m cells
+/// with eight neighbours, grown from the goal (Dijkstra 1959, with Dial's buckets). A cell is
+/// blocked if it has no space for the inscribed circle of the vehicle's outline, reduced by one
+/// cell diagonal because of the grid's resolution. Cells that this search does not reach, no
+/// vehicle reaches.
 
 #include <Eigen/Core>
 #include <vector>
@@ -18,11 +19,11 @@ enum class DistanceKind { kEuclid, kGeodesic };
 
 class GoalDistance {
  public:
-  /// @param from  the search's start: the ground is measured until well beyond it
+  /// @param from  start of the search; the ground is measured until well beyond it
   GoalDistance(DistanceKind kind, const Footprint& footprint, const Eigen::Vector2d& from,
                const Eigen::Vector2d& goal);
 
-  /// m, >= 0; infinity for what the ground does not reach or was not measured any more.
+  /// Distance, m, >= 0; infinity for points that are not reachable or beyond the measured ground.
   double at(const Eigen::Vector2d& p_W) const;
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-/// Which node of a search tree holds a cell of (x, y, heading): an open-addressing table that only
-/// looks up and overwrites, so that nothing depends on its order. No heap but when it doubles.
+/// Hash table from a cell of (x, y, heading) to the search tree's node in it. Open addressing with
+/// lookup and overwrite only, so that nothing depends on its order. Allocates only when it doubles.
 
 #include <algorithm>
 #include <cmath>
@@ -14,13 +14,13 @@ namespace vinerow::controllers {
 
 class PoseCells {
  public:
-  /// @param cell_m,cell_rad  > 0; headings are cut into round(2 pi / cell_rad) equal parts
+  /// @param cell_m,cell_rad  > 0; headings are divided into round(2 pi / cell_rad) equal parts
   PoseCells(double cell_m, double cell_rad)
       : cell_m_(cell_m),
         headings_(std::max(1, static_cast<int>(std::lround(2.0 * kPi / cell_rad)))),
         slots_(1 << 14) {}
 
-  /// Cell of a pose; its origin is W's. Positions to +-1e6 cells.
+  /// Cell of a pose, counted from the origin of W. Positions up to +-1e6 cells.
   std::uint64_t key(const Pose2& pose) const {
     const auto i = static_cast<std::int64_t>(std::floor(pose.p.x() / cell_m_)) + (1 << 20);
     const auto j = static_cast<std::int64_t>(std::floor(pose.p.y() / cell_m_)) + (1 << 20);
@@ -30,7 +30,7 @@ class PoseCells {
            static_cast<std::uint64_t>(h);
   }
 
-  /// @returns the node that holds the cell, -1 if none does
+  /// @returns the node in the cell, -1 if it is empty
   int find(std::uint64_t key) const {
     const Slot& slot = slots_[place(key)];
     return slot.node;

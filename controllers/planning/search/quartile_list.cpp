@@ -57,7 +57,7 @@ std::array<int, 4> QuartileList::quartile_buckets() const {
   VINEROW_DEMAND(all_.total > 0);
   std::array<int, 4> upper;
   for (int q = 0; q < 4; ++q) {
-    // The quartile's last rank: a quarter of the nodes, rounded up, is at or below it.
+    // Last rank of the quartile: its share of the nodes, rounded up, is at or below it.
     const int count = static_cast<int>((static_cast<std::int64_t>(q + 1) * all_.total + 3) / 4);
     upper[q] = all_.find(count - 1);
   }

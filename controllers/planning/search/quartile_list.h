@@ -1,12 +1,12 @@
 #pragma once
-/// Open nodes of a search tree, drawn at random from the lowest quartile of distance that has any
+/// Open nodes of a search tree, drawn at random from the lowest non-empty quartile of distance
 /// (paper A, section 4.1, after eq. 22).
 ///
-/// The quartiles are those of all nodes ever added, open or not: a quartile whose nodes have all
-/// been expanded is passed over, and when all four are, the tree is exhausted. Distances are kept
-/// in buckets of 5 cm with counts in Fenwick trees (Fenwick, "A new data structure for cumulative
-/// frequency tables", Software: Practice and Experience 24, 1994), so that adding, closing and
-/// drawing cost a few dozen steps, however many nodes there are.
+/// The quartiles are those of all nodes ever added, open or not. A quartile whose nodes are all
+/// closed is skipped; if all four are, the tree is exhausted. Distances are kept in buckets of 5 cm
+/// with counts in Fenwick trees (Fenwick, "A new data structure for cumulative frequency tables",
+/// Software: Practice and Experience 24, 1994), so that adding, closing and drawing cost a few
+/// dozen steps, whatever the number of nodes.
 
 #include <array>
 #include <cstdint>
@@ -23,10 +23,11 @@ class QuartileList {
   /// @param quartiles  false: all open nodes are drawn with the same chance
   explicit QuartileList(bool quartiles);
 
-  /// Node numbers are given out here: 0, 1, 2, ... @param distance_m  >= 0, may be infinite
+  /// Adds a node; numbers are assigned in order: 0, 1, 2, ... @param distance_m  >= 0, may be
+  /// infinite
   /// @returns the new node's number; it is open
   int add(double distance_m);
-  /// @pre node was added. Closing twice is allowed.
+  /// @pre the node was added. Closing twice is allowed.
   void close(int node);
   int open_count() const { return open_.total; }
   /// Upper ends of the quartiles, as bucket numbers. @pre a node was added
@@ -37,7 +38,7 @@ class QuartileList {
   int draw(RandomStream& random) const;
 
  private:
-  static constexpr int kBuckets = 1 << 13;  // to 409 m; what is farther is in the last
+  static constexpr int kBuckets = 1 << 13;  // up to 409 m; farther nodes are in the last bucket
 
   /// Counts per bucket with prefix sums.
   struct Counts {

@@ -6,6 +6,22 @@
 
 namespace vinerow::controllers {
 
+// Plan of the search, with kappa = curvature_per_m, h = step_m, R = 1 / kappa:
+//
+//   tree = {start}, all nodes open
+//   while no node has reached the goal:
+//     node <- random open node of the lowest quartile of distance to the goal (QuartileList)
+//     none: exhausted;  close node
+//     for curvature in (kappa, 0, -kappa):
+//       child = end of the arc of length h from node
+//       the cell of child holds a node with depth <= that of child: drop child
+//       the outline along the arc is not free: drop child
+//       close the node that held the cell;  add child, open
+//       Dubins path of radius R from child to the goal is short enough and free: solved
+//
+// Every arc has length h, so depth * h is the length of the path from the start. A cell is taken
+// over only by a shorter path, so each cell changes hands finitely often and the search ends.
+
 QuartileTree::QuartileTree(const QuartileTreeParams& params, const Footprint& footprint,
                            const GoalDistance& distance, const Pose2& from, const Pose2& to)
     : params_(params),
@@ -37,12 +53,14 @@ void QuartileTree::expand(int node) {
     const Node child = {advance(parent.pose, params_.step_m, params_.step_m * curvature_per_m),
                         node, parent.depth + 1, curvature_per_m};
     const std::uint64_t cell = cells_.key(child.pose);
+    // The cheap test of the cell precedes the collision check.
     const int holder = cells_.find(cell);
     if (holder >= 0 && nodes_[holder].depth <= child.depth) continue;
     if (!footprint_.is_free_along(parent.pose, params_.step_m, curvature_per_m,
                                   params_.check_step_m)) {
       continue;
     }
+    // The former holder stays in the tree with its children but does not grow any more.
     if (holder >= 0) list_.close(holder);
     add(child, cell);
     if (joined_ >= 0) return;
@@ -58,6 +76,7 @@ void QuartileTree::add(const Node& node, std::uint64_t cell) {
 
 void QuartileTree::join(int node) {
   const Pose2& from = nodes_[node].pose;
+  // The straight distance is a lower bound of the Dubins length.
   if ((from.p - to_.p).norm() > params_.join_m) return;
   const DubinsPath dubins = calc_dubins(from, to_, 1.0 / params_.curvature_per_m);
   if (dubins.length_m() > params_.join_m) return;
@@ -73,14 +92,14 @@ void QuartileTree::join(int node) {
   last_ = dubins;
 }
 
-std::vector<PathPiece> QuartileTree::path() const {
+std::vector<PathSegment> QuartileTree::path() const {
   VINEROW_DEMAND(joined_ >= 0);
   std::vector<int> chain;
   for (int node = joined_; nodes_[node].parent >= 0; node = nodes_[node].parent) {
     chain.push_back(node);
   }
   std::reverse(chain.begin(), chain.end());
-  std::vector<PathPiece> pieces;
+  std::vector<PathSegment> pieces;
   for (const int node : chain) {
     const double curvature_per_m = nodes_[node].curvature_per_m;
     if (!pieces.empty() && pieces.back().curvature_per_m == curvature_per_m) {

@@ -1,16 +1,16 @@
 #pragma once
-/// The tree of paper A, section 4.1: from every node three arcs of equal length, left, straight and
-/// right; the next node to grow from is drawn from the lowest quartile of distance to the goal.
+/// Search tree of paper A, section 4.1. From every node three arcs of equal length grow: left,
+/// straight and right. The next node is drawn from the lowest quartile of distance to the goal.
 ///
-/// What the paper leaves open is filled in so that the search ends: a node is closed once its three
-/// arcs have been tried; a child that falls into an occupied cell of (x, y, heading) is dropped
-/// unless it is nearer to the start along the tree, in which case it takes the cell over (the
-/// paper's "rewire"); every arc is checked with the vehicle's outline at steps; and when no node is
-/// open, the tree is exhausted. There is no rewiring of near neighbours as in Karaman and
-/// Frazzoli's RRT*, so the way found is not claimed to be the shortest.
+/// The paper leaves details open; they are chosen so that the search ends. A node is closed once
+/// its three arcs have been tried. A child in an occupied cell of (x, y, heading) is dropped,
+/// unless it is nearer to the start along the tree; then it takes over the cell (the paper's
+/// "rewire"). Every arc is checked with the vehicle's outline at steps. If no node is open, the
+/// tree is exhausted. There is no rewiring of near neighbours as in Karaman and Frazzoli's RRT*, so
+/// the path is not necessarily the shortest.
 ///
-/// The goal itself is met exactly: from every new node near enough, the shortest Dubins path to the
-/// goal is tried; the first that is free ends the search.
+/// The path ends exactly at the goal: from every new node that is near enough, the shortest Dubins
+/// path to the goal is tried, and the first free one ends the search.
 
 #include <cstdint>
 #include <vector>
@@ -29,7 +29,7 @@ struct QuartileTreeParams {
   double step_m = 0.4;             ///< length of every arc
   double cell_m = 0.2;             ///< of the occupied cells
   double cell_rad = rad_from_deg(8.0);
-  double check_step_m = 0.1;  ///< between poses of the swept check
+  double check_step_m = 0.1;  ///< between poses of the collision check
   double join_m = 3.0;        ///< longest Dubins path that joins the tree to the goal
   bool quartiles = true;
 };
@@ -54,16 +54,16 @@ class QuartileTree {
 
   const std::vector<Node>& nodes() const { return nodes_; }
   std::int64_t iterations() const { return iterations_; }
-  /// From the start to the goal, exactly; arcs of equal curvature in one piece.
+  /// Path from the start exactly to the goal, with neighbouring arcs of equal curvature joined.
   /// @pre grow() returned kSolved
-  std::vector<PathPiece> path() const;
-  /// Every edge as two straight strokes, two points each.
+  std::vector<PathSegment> path() const;
+  /// Every edge as two straight lines, two points each.
   std::vector<Eigen::Vector2d> edges_W() const;
 
  private:
   void expand(int node);
   void add(const Node& node, std::uint64_t cell);
-  /// Tries to meet the goal from a node.
+  /// Tries to reach the goal from a node.
   void join(int node);
 
   QuartileTreeParams params_;
@@ -74,8 +74,8 @@ class QuartileTree {
   QuartileList list_;
   std::vector<Node> nodes_;
   std::int64_t iterations_ = 0;
-  int joined_ = -1;  // node from which the goal was met
-  DubinsPath last_;  // the way from there
+  int joined_ = -1;  // node from which the goal was reached
+  DubinsPath last_;  // path from there
 };
 
 }  // namespace vinerow::controllers

@@ -22,16 +22,17 @@ QuartileTreeParams refine(QuartileTreeParams params) {
 RrtQuartile::RrtQuartile(const RrtQuartileParams& params, PartContext context)
     : params_(params), context_(std::move(context)) {}
 
-Result<std::vector<PathPiece>> RrtQuartile::find(const Pose2& from, const Pose2& to,
-                                                 const Footprint& footprint, int problem,
-                                                 SearchReport& report) {
+Result<std::vector<PathSegment>> RrtQuartile::find(const Pose2& from, const Pose2& to,
+                                                   const Footprint& footprint, int problem,
+                                                   SearchReport& report) {
   if (!footprint.is_free(from)) {
-    return Failure{"start in collision: " + describe_room(from, footprint)};
+    return Failure{"start in collision: " + describe_clearance(from, footprint)};
   }
-  if (!footprint.is_free(to)) return Failure{"goal in collision: " + describe_room(to, footprint)};
+  if (!footprint.is_free(to))
+    return Failure{"goal in collision: " + describe_clearance(to, footprint)};
   const GoalDistance distance(params_.heuristic, footprint, from.p, to.p);
   if (std::isinf(distance.at(from.p))) {
-    return Failure{"no free ground as wide as the vehicle joins start and goal"};
+    return Failure{"no free ground as wide as the vehicle connects start and goal"};
   }
 
   RandomStream random = context_.random(fmt::format("problem{}", problem));
@@ -45,7 +46,7 @@ Result<std::vector<PathPiece>> RrtQuartile::find(const Pose2& from, const Pose2&
     const std::vector<Eigen::Vector2d> edges_W = tree.edges_W();
     report.tree_W.insert(report.tree_W.end(), edges_W.begin(), edges_W.end());
     if (status == TreeStatus::kSolved) {
-      std::vector<PathPiece> pieces = tree.path();
+      std::vector<PathSegment> pieces = tree.path();
       if (!params_.smooth) return pieces;
       report.first_length_m = calc_length_m(pieces);
       ShortcutParams shortcut;

@@ -1,5 +1,5 @@
 #pragma once
-/// The search of paper A, section 4.1, on the occupancy grid.
+/// Search of paper A, section 4.1, on the occupancy grid.
 
 #include "controllers/planning/search/pose_search.h"
 #include "controllers/planning/search/quartile_tree.h"
@@ -7,8 +7,8 @@
 
 namespace vinerow::controllers {
 
-/// Of one search: a node takes about 250 bytes, so all of them half a gigabyte.
-inline constexpr double kMostQuartileIterations = 2e6;
+/// Limit of one search: a node takes about 250 bytes, so the tree at most half a gigabyte.
+inline constexpr double kMaxQuartileIterations = 2e6;
 
 struct RrtQuartileParams {
   QuartileTreeParams tree;
@@ -18,17 +18,17 @@ struct RrtQuartileParams {
   bool smooth = true;
 };
 
-/// Searches with a QuartileTree; when the tree is exhausted, once more with finer steps and cells,
-/// since the exhausted one proves only that no sequence of its own arcs leads to the goal.
-/// Stops on iterations. The same call gives the same bits.
+/// Searches with a QuartileTree. If the tree is exhausted, it searches again with finer steps and
+/// cells, since an exhausted tree proves only that no sequence of its own arcs leads to the goal.
+/// The iterations are limited. The same call gives the same bits.
 class RrtQuartile final : public PoseSearch {
  public:
   /// @param context  seed and names of its random streams
   RrtQuartile(const RrtQuartileParams& params, PartContext context);
 
-  Result<std::vector<PathPiece>> find(const Pose2& from, const Pose2& to,
-                                      const Footprint& footprint, int problem,
-                                      SearchReport& report) override;
+  Result<std::vector<PathSegment>> find(const Pose2& from, const Pose2& to,
+                                        const Footprint& footprint, int problem,
+                                        SearchReport& report) override;
 
  private:
   RrtQuartileParams params_;

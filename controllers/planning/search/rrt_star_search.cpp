@@ -9,7 +9,7 @@
 
 #include "controllers/planning/search/analytic_turn.h"
 #include "controllers/planning/search/car_planners.h"
-#include "controllers/planning/search/first_way.h"
+#include "controllers/planning/search/initial_path.h"
 
 namespace vinerow::controllers {
 namespace {
@@ -17,10 +17,10 @@ namespace {
 std::optional<std::string> find_taken(const Pose2& pose, const char* name,
                                       const Footprint& footprint) {
   if (footprint.is_free(pose)) return std::nullopt;
-  return fmt::format("{} in collision: {}", name, describe_room(pose, footprint));
+  return fmt::format("{} in collision: {}", name, describe_clearance(pose, footprint));
 }
 
-/// Adds what a tree holds, its edges as straight strokes.
+/// Adds a tree's nodes, iterations and edges, the latter as straight lines.
 void tell(const CarTree& tree, double radius_m, SearchReport& report) {
   constexpr double kStroke_m = 0.4;
   report.nodes += tree.nodes;
@@ -44,14 +44,14 @@ RrtStarSearch::RrtStarSearch(const RrtStarParams& params,
                              std::function<RandomStream(int)> random_of)
     : params_(params), random_of_(std::move(random_of)) {}
 
-Result<PathPieces> RrtStarSearch::find(const Pose2& from, const Pose2& to,
-                                       const Footprint& footprint, int problem,
-                                       SearchReport& report) try {
+Result<PathSegments> RrtStarSearch::find(const Pose2& from, const Pose2& to,
+                                         const Footprint& footprint, int problem,
+                                         SearchReport& report) try {
   report = {};
   if (const auto fault = find_taken(from, "start", footprint)) return Failure{*fault};
   if (const auto fault = find_taken(to, "goal", footprint)) return Failure{*fault};
 
-  const WayCost cost(params_.cost, footprint);
+  const PathCost cost(params_.cost, footprint);
   CarProblem car;
   car.radius_m = params_.radius_m;
   car.low_W = from.p.cwiseMin(to.p).array() - params_.reach_m;
@@ -66,9 +66,9 @@ Result<PathPieces> RrtStarSearch::find(const Pose2& from, const Pose2& to,
   sampling.footprint = &footprint;
   sampling.best_cost = [] { return std::numeric_limits<double>::infinity(); };
 
-  PathPieces best;
-  if (const auto first = find_first_way(from, to, params_.radius_m, params_.curvature_reserve,
-                                        footprint, cost, params_.check_step_m)) {
+  PathSegments best;
+  if (const auto first = find_initial_path(from, to, params_.radius_m, params_.curvature_reserve,
+                                           footprint, cost, params_.check_step_m)) {
     best = first->pieces;
     car.radius_m = first->radius_m;
   } else {
@@ -77,17 +77,17 @@ Result<PathPieces> RrtStarSearch::find(const Pose2& from, const Pose2& to,
     tell(tree, car.radius_m, report);
     best = join_poses(tree.way, car.radius_m);
     if (best.empty() || !is_free(best, footprint, params_.check_step_m)) {
-      return Failure{fmt::format(
-          "no closed form fits the turning radius of {:.2f} m, and a tree of {} nodes found no way "
-          "in {} iterations within {:.1f} m",
-          params_.radius_m, tree.nodes, tree.iterations, params_.reach_m)};
+      return Failure{
+          fmt::format("no closed form fits the turning radius of {:.2f} m, and a tree of {} nodes "
+                      "found no path in {} iterations within {:.1f} m",
+                      params_.radius_m, tree.nodes, tree.iterations, params_.reach_m)};
     }
   }
   report.first_length_m = calc_length_m(best);
-  const auto improve = [&](const PathPieces& way) {
-    // A hundredth is not worth the bends that it takes.
+  const auto improve = [&](const PathSegments& way) {
+    // A gain of one per cent does not justify more bends.
     constexpr double kWorthwhile = 0.99;
-    const PathPieces shorter =
+    const PathSegments shorter =
         shorten_by_cost(way, car.radius_m, footprint, cost, params_.check_step_m);
     if (cost.of(shorter) < kWorthwhile * cost.of(best) &&
         is_free(shorter, footprint, params_.check_step_m)) {
@@ -97,20 +97,20 @@ Result<PathPieces> RrtStarSearch::find(const Pose2& from, const Pose2& to,
   improve(best);
 
   const double known = cost.of(best);
-  const double least_m = calc_dubins(from, to, car.radius_m).length_m();
-  // Where the first way is the shortest that any vehicle of this radius has, there is no better.
-  if (params_.iterations == 0 || known <= least_m * (1.0 + 1e-6)) return best;
+  const double min_m = calc_dubins(from, to, car.radius_m).length_m();
+  // The initial path is optimal if it is the shortest for this radius without obstacles.
+  if (params_.iterations == 0 || known <= min_m * (1.0 + 1e-6)) return best;
   constexpr double kSeedPitch_m = 0.75;
   car.iterations = params_.iterations;
-  sampling.first_way = sample_poses(best, std::min(kSeedPitch_m, 0.5 * params_.range_m));
-  sampling.first_way.erase(sampling.first_way.begin());  // the root of the tree
+  sampling.initial_path = sample_poses(best, std::min(kSeedPitch_m, 0.5 * params_.range_m));
+  sampling.initial_path.erase(sampling.initial_path.begin());  // the root of the tree
   sampling.best_cost = [known] { return known; };
   const CarTree tree = run_rrt_star(car, sampling, random_of_(2 * problem + 1));
   tell(tree, car.radius_m, report);
   if (tree.way.size() > 1) improve(join_poses(tree.way, car.radius_m));
   return best;
 } catch (const ompl::Exception& fault) {
-  return Failure{fmt::format("OMPL gave up: {}", fault.what())};
+  return Failure{fmt::format("OMPL failed: {}", fault.what())};
 }
 
 }  // namespace vinerow::controllers

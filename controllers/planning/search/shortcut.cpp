@@ -12,8 +12,8 @@ constexpr double kSaving_m = 0.01;
 constexpr double kShortestPart_m = 0.5;
 constexpr double kNothing_m = 1e-9;
 
-/// Appends a piece, to the last one where both bend alike.
-void append(const PathPiece& piece, std::vector<PathPiece>& pieces) {
+/// Appends a piece; extends the last one if both have the same curvature.
+void append(const PathSegment& piece, std::vector<PathSegment>& pieces) {
   if (piece.length_m < kNothing_m) return;
   if (!pieces.empty() && std::abs(pieces.back().curvature_per_m - piece.curvature_per_m) < 1e-12) {
     pieces.back().length_m += piece.length_m;
@@ -22,40 +22,40 @@ void append(const PathPiece& piece, std::vector<PathPiece>& pieces) {
   }
 }
 
-/// Appends what lies between two distances from the path's start.
-void append_part(const std::vector<PathPiece>& path, double from_m, double to_m,
-                 std::vector<PathPiece>& pieces) {
-  double begin_m = 0.0;
-  for (const PathPiece& piece : path) {
-    const double first_m = std::clamp(from_m - begin_m, 0.0, piece.length_m);
-    const double last_m = std::clamp(to_m - begin_m, 0.0, piece.length_m);
-    begin_m += piece.length_m;
+/// Appends the part between two distances from the path's start.
+void append_part(const std::vector<PathSegment>& path, double from_m, double to_m,
+                 std::vector<PathSegment>& pieces) {
+  double start_m = 0.0;
+  for (const PathSegment& piece : path) {
+    const double first_m = std::clamp(from_m - start_m, 0.0, piece.length_m);
+    const double last_m = std::clamp(to_m - start_m, 0.0, piece.length_m);
+    start_m += piece.length_m;
     if (last_m <= first_m) continue;
-    PathPiece part = piece;
+    PathSegment part = piece;
     if (first_m > 0.0) part.start = piece.at(first_m);
     part.length_m = last_m - first_m;
     append(part, pieces);
   }
 }
 
-Pose2 pose_at(const std::vector<PathPiece>& path, double distance_m) {
-  for (const PathPiece& piece : path) {
+Pose2 pose_at(const std::vector<PathSegment>& path, double distance_m) {
+  for (const PathSegment& piece : path) {
     if (distance_m <= piece.length_m) return piece.at(distance_m);
     distance_m -= piece.length_m;
   }
   return path.back().end();
 }
 
-/// The shortest free Dubins path of any word, if it is shorter than that.
-std::vector<PathPiece> find_shortcut(const Pose2& from, const Pose2& to, double shorter_than_m,
-                                     const ShortcutParams& params, const Footprint& footprint) {
-  std::vector<PathPiece> best, pieces;
+/// The shortest free Dubins path of any word, if it is shorter than the given length.
+std::vector<PathSegment> find_shortcut(const Pose2& from, const Pose2& to, double shorter_than_m,
+                                       const ShortcutParams& params, const Footprint& footprint) {
+  std::vector<PathSegment> best, pieces;
   for (const DubinsWord word : kDubinsWords) {
     const DubinsPath dubins = calc_dubins_word(from, to, params.radius_m, word);
     if (dubins.length_m() >= shorter_than_m) continue;
     pieces.clear();
     append_dubins(from, dubins, PathKind::kTurn, 0.0, pieces);
-    const bool is_free = std::all_of(pieces.begin(), pieces.end(), [&](const PathPiece& piece) {
+    const bool is_free = std::all_of(pieces.begin(), pieces.end(), [&](const PathSegment& piece) {
       return footprint.is_free_along(piece.start, piece.length_m, piece.curvature_per_m,
                                      params.check_step_m);
     });
@@ -68,9 +68,9 @@ std::vector<PathPiece> find_shortcut(const Pose2& from, const Pose2& to, double 
 
 }  // namespace
 
-std::vector<PathPiece> shorten_at_random(std::vector<PathPiece> pieces,
-                                         const ShortcutParams& params, const Footprint& footprint,
-                                         RandomStream& random) {
+std::vector<PathSegment> shorten_at_random(std::vector<PathSegment> pieces,
+                                           const ShortcutParams& params, const Footprint& footprint,
+                                           RandomStream& random) {
   double length_m = calc_length_m(pieces);
   const int tries = static_cast<int>(std::ceil(params.tries_per_m * length_m));
   for (int i = 0; i <= tries; ++i) {
@@ -82,12 +82,12 @@ std::vector<PathPiece> shorten_at_random(std::vector<PathPiece> pieces,
       to_m = from_m + part_m;
     }
     const Pose2 from = pose_at(pieces, from_m), to = pose_at(pieces, to_m);
-    const std::vector<PathPiece> shortcut =
+    const std::vector<PathSegment> shortcut =
         find_shortcut(from, to, to_m - from_m - kSaving_m, params, footprint);
     if (shortcut.empty()) continue;
-    std::vector<PathPiece> shorter;
+    std::vector<PathSegment> shorter;
     append_part(pieces, 0.0, from_m, shorter);
-    for (const PathPiece& piece : shortcut) append(piece, shorter);
+    for (const PathSegment& piece : shortcut) append(piece, shorter);
     append_part(pieces, to_m, length_m, shorter);
     pieces = std::move(shorter);
     length_m = calc_length_m(pieces);

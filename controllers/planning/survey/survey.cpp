@@ -14,11 +14,11 @@ class Survey final : public Planner {
   Survey(SurveyRequest request, const PlannerContext& context)
       : request_(std::move(request)),
         scene_(context.scene),
-        standing_m_(context.vehicle_description->height_above_ground_m) {}
+        rest_height_m_(context.vehicle_description->height_above_ground_m) {}
 
   Result<PlannedPath> plan(const Pose& start) override {
     report_ = {};
-    auto plan = plan_survey(request_, start, make_ground(scene_, start.p.z() - standing_m_));
+    auto plan = plan_survey(request_, start, make_ground(scene_, start.p.z() - rest_height_m_));
     if (!plan) return Failure{plan.reason()};
     report_.numbers = plan->numbers;
     return plan->path;
@@ -29,7 +29,7 @@ class Survey final : public Planner {
  private:
   SurveyRequest request_;
   const SceneQuery* scene_;
-  double standing_m_;
+  double rest_height_m_;
   PlanReport report_;
 };
 
@@ -40,9 +40,8 @@ PartSpec survey_spec() {
   spec.name = "survey";
   spec.description =
       "Parallel lanes over a parcel for a camera that looks down: height from ground sampling "
-      "distance, overlaps, turns the aircraft can fly, waypoints above the terrain (paper A, "
-      "section "
-      "2; docs/guides/survey.md).";
+      "distance, overlaps, flyable turns, waypoints above the terrain (paper A, section 2; "
+      "docs/guides/survey.md).";
   spec.parameters = survey_parameters();
   spec.reads = {"estimate"};
   spec.writes = {"plan"};

@@ -1,5 +1,5 @@
 #pragma once
-/// Planner `survey`: lanes over a parcel for pictures from the air (paper A, section 2).
+/// Planner `survey`: lanes over a parcel for aerial pictures (paper A, section 2).
 
 #include <memory>
 
@@ -11,7 +11,7 @@ namespace vinerow::controllers {
 PartSpec survey_spec();
 
 /// The report's numbers are SurveyPlan::numbers. @throws ConfigError as read_survey_request(), and
-/// for vehicles that do not fly
+/// if the vehicle does not fly
 std::unique_ptr<Planner> make_survey(const ParameterSet& parameters, const PlannerContext& context);
 
 }  // namespace vinerow::controllers

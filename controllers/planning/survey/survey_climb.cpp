@@ -23,7 +23,7 @@ Result<SurveyClimb> try_climb(const SurveyRequest& request, double start_m, Surv
   SurveyClimb climb;
   climb.wanted_m = make_wanted_heights(*profile, request.height_m, request.max_slope);
   if (!request.rotorcraft) {
-    climb.length_m = begin_heights_at(*profile, start_m, request.max_slope, climb.wanted_m);
+    climb.length_m = start_heights_at(*profile, start_m, request.max_slope, climb.wanted_m);
   }
   climb.clearance_m = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < profile->samples().size(); ++i) {
@@ -40,12 +40,12 @@ Result<SurveyClimb> try_climb(const SurveyRequest& request, double start_m, Surv
   return climb;
 }
 
-/// Along the way, of a corner.
+/// Distance of a corner along the path.
 double distance_to(const SurveyClimb& climb, std::size_t point) {
   return climb.profile.samples()[climb.profile.at_point(point)].distance_m;
 }
 
-/// The lane's height there is reached before its pictures begin.
+/// Whether the lane's height is reached before its pictures start.
 bool is_high_enough(const SurveyClimb& climb) {
   return climb.length_m <= distance_to(climb, climb.route.first_lane_point);
 }
@@ -56,7 +56,7 @@ SurveyRoute add_laps(const SurveyRequest& request, const Pose& start_W, const Su
   const std::size_t first = route.first_lane_point;
   const Vector2d to_W = route.points[first].p_W, start = start_W.p.head<2>();
   std::vector<Vector2d> corners = make_climb_laps(start, yaw_rad, to_W, way_m, radius_m, to_left);
-  // The last lap is left at its last corner, heading back.
+  // The path leaves the last lap at its last corner, heading back.
   const Vector2d along_W = (route.points[first + 1].p_W - to_W).normalized();
   const std::vector<Vector2d> approach =
       find_approach(corners.back(), Vector2d(-direction(yaw_rad)), to_W, along_W, radius_m);
@@ -83,7 +83,7 @@ Result<SurveyClimb> climb_to_first_lane(const SurveyRequest& request, const Pose
     const std::vector<double> heights_m =
         make_wanted_heights(best.profile, request.height_m, request.max_slope);
     const double there_m = heights_m[best.profile.at_point(route.first_lane_point)];
-    // A little more than needed: on the way to the first lane the terrain has its say, too.
+    // A little more than needed, because of the terrain on the path to the first lane.
     constexpr double kMore = 1.01, kMore_m = 5.0;
     const double way_m = kMore * std::abs(there_m - start_m) / request.max_slope + kMore_m;
     best.clearance_m = -std::numeric_limits<double>::infinity();
@@ -94,7 +94,7 @@ Result<SurveyClimb> climb_to_first_lane(const SurveyRequest& request, const Pose
       if (climb->clearance_m > best.clearance_m) best = std::move(climb).value();
     }
   }
-  constexpr double kLaunched_m = 30.0;  // nearer to the start the launch has its own way
+  constexpr double kLaunched_m = 30.0;  // nearer to the start the launch has its own path
   if (best.clearance_m <= 0.0 && best.where_m > kLaunched_m) {
     return Failure{fmt::format(
         "the climb from ({:.1f}, {:.1f}) at {:.0f} % meets the ground at ({:.1f}, {:.1f}), {:.0f} "
@@ -113,9 +113,8 @@ Result<SurveyClimb> climb_to_first_lane(const SurveyRequest& request, const Pose
   return best;
 }
 
-/// "point 3 of the polygon at (x, y) lies 12.3 m outside the terrain"
-std::optional<std::string> find_corner_outside(const Polygon2& polygon,
-                                               const GroundHeight& ground) {
+/// Sentence such as "point 3 of the polygon at (x, y) is outside the terrain, ..."
+std::optional<std::string> find_corner_outside(const Polygon& polygon, const GroundHeight& ground) {
   Vector2d middle = Vector2d::Zero();
   for (const Vector2d& p : polygon) middle += p / static_cast<double>(polygon.size());
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -123,20 +122,19 @@ std::optional<std::string> find_corner_outside(const Polygon2& polygon,
     if (ground(p)) continue;
     const std::string point =
         fmt::format("point {} of the polygon at ({:.1f}, {:.1f})", i + 1, p.x(), p.y());
-    // Where the terrain begins on the way to the polygon's middle.
+    // Find the start of the terrain on the line to the polygon's centre.
     constexpr int kSteps = 2000;
     const Vector2d way = middle - p;
     for (int k = 1; k <= kSteps; ++k) {
       const double share = static_cast<double>(k) / kSteps;
       if (!ground(p + share * way)) continue;
       return fmt::format(
-          "{} lies outside the terrain, which begins {:.1f} m from there towards the "
-          "polygon's middle",
+          "{} is outside the terrain, which starts {:.1f} m from there towards the polygon's "
+          "centre",
           point, share * way.norm());
     }
     return fmt::format(
-        "{} lies outside the terrain, and so does the way to the polygon's middle at "
-        "({:.1f}, {:.1f})",
+        "{} is outside the terrain, and so is the line to the polygon's centre at ({:.1f}, {:.1f})",
         point, middle.x(), middle.y());
   }
   return std::nullopt;

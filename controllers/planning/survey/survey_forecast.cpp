@@ -19,16 +19,16 @@ struct Place {
 
 SurveyForecast forecast_survey(const SurveyRequest& request, const std::vector<SurveyShot>& shots,
                                const GroundHeight& ground, std::optional<Vector2d>& bare_W) {
-  constexpr double kPlaces = 20000.0, kMostCells = 1e6;
-  const Polygon2& polygon = request.polygon_W;
+  constexpr double kPlaces = 20000.0, kMaxCells = 1e6;
+  const Polygon& polygon = request.polygon_W;
   Vector2d low = polygon.front(), high = low;
   for (const Vector2d& p : polygon) {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  // A sliver fills little of its box: the box's cells are counted, too.
+  // A narrow polygon fills little of its box: limit the number of the box's cells, too.
   const double cell_m = std::sqrt(
-      std::max(std::abs(polygon_area_m2(polygon)) / kPlaces, (high - low).prod() / kMostCells));
+      std::max(std::abs(signed_area_m2(polygon)) / kPlaces, (high - low).prod() / kMaxCells));
   const int columns = static_cast<int>((high.x() - low.x()) / cell_m) + 1;
   const int rows = static_cast<int>((high.y() - low.y()) / cell_m) + 1;
   const auto place_at = [&](int i, int j) {
@@ -39,7 +39,7 @@ SurveyForecast forecast_survey(const SurveyRequest& request, const std::vector<S
   for (int j = 0; j < rows; ++j) {
     for (int i = 0; i < columns; ++i) {
       const Vector2d p = place_at(i, j);
-      if (!is_inside_polygon(p, polygon)) continue;
+      if (!contains(polygon, p)) continue;
       const std::optional<double> height_m = ground(p);
       if (!height_m) {
         if (!bare_W) bare_W = p;
@@ -71,14 +71,14 @@ SurveyForecast forecast_survey(const SurveyRequest& request, const std::vector<S
     }
   }
   SurveyForecast forecast;
-  forecast.least_views = std::numeric_limits<int>::max();
+  forecast.min_views = std::numeric_limits<int>::max();
   std::int64_t count = 0, covered = 0, views = 0;
   for (const Place& place : places) {
     if (place.views < 0) continue;
     ++count;
     covered += place.views > 0;
     views += place.views;
-    forecast.least_views = std::min(forecast.least_views, place.views);
+    forecast.min_views = std::min(forecast.min_views, place.views);
   }
   if (count == 0) return {};
   forecast.covered_share = static_cast<double>(covered) / static_cast<double>(count);

@@ -1,5 +1,5 @@
 #pragma once
-/// What the planned pictures will show of the polygon, over its real terrain.
+/// Forecast of how the planned pictures cover the polygon, over its terrain.
 
 #include <optional>
 #include <vector>
@@ -9,14 +9,13 @@
 namespace vinerow::controllers {
 
 struct SurveyForecast {
-  double covered_share = 0.0;  ///< of the polygon's area, seen on a picture at least
-  int least_views = 0;         ///< pictures of the place that is seen least
+  double covered_share = 0.0;  ///< of the polygon's area, seen on at least one picture
+  int min_views = 0;           ///< minimum number of pictures that show a place
   double mean_views = 0.0;
 };
 
-/// Looks at about 20,000 places of the polygon. The camera looks straight down; what hides behind
-/// hills is not asked.
-/// @param[out] bare_W  a place of the polygon without ground, where there is one
+/// Evaluates about 20,000 places of the polygon. The camera looks straight down; occlusion by hills
+/// is ignored. @param[out] bare_W a place of the polygon without ground, if there is one
 SurveyForecast forecast_survey(const SurveyRequest& request, const std::vector<SurveyShot>& shots,
                                const GroundHeight& ground, std::optional<Eigen::Vector2d>& bare_W);
 

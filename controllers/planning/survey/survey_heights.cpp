@@ -7,25 +7,41 @@
 namespace vinerow::controllers {
 namespace {
 
-constexpr double kSurveyStep_m = 1.0;   // between samples
-constexpr double kMostSamples = 800.0;  // of a piece
-// The ground between two samples is not looked at: keep a little of the allowed error for it.
+// Chosen: finer than the terrain's detail that matters at survey heights.
+constexpr double kSurveyStep_m = 1.0;  // between samples
+// Samples of a piece at most: the work of split_piece grows with their square. Chosen.
+constexpr double kMaxSamples = 800.0;
+// A step count may exceed a whole number by this rounding. Chosen.
+constexpr double kCountRounding = 1e-9;
+// Share of the allowed error that ramps use; the rest is for the ground between samples. Chosen.
 constexpr double kErrorShare = 0.98;
+// Sums of squared lengths that differ by less are equal. Chosen, above their rounding.
+constexpr double kSameSquares_m2 = 1e-6;
 
-/// Points within one piece: samples first to last, both included.
+/// Ramps over one piece, samples first to last, both included: appends their end points.
+///
+/// Samples i at distance s_i with the wanted height w_i. A ramp from i to j > i is allowed if
+///
+///   |w_i + m (s_k - s_i) - w_k| <= e for all i < k < j,   m = (w_j - w_i) / (s_j - s_i)
+///
+/// that is if m is in the intersection of the intervals (w_k - w_i -+ e) / (s_k - s_i), which
+/// `low` and `high` hold while j advances. Dynamic programming over j minimises the number of ramps
+/// N, then the sum Q of their squared lengths, which is smallest if they are even:
+///
+///   (N, Q)_j = min over allowed i of (N_i + 1, Q_i + (s_j - s_i)^2)
 void split_piece(const std::vector<GroundProfile::Sample>& samples,
                  const std::vector<double>& wanted_m, int first, int last, double error_m,
                  std::vector<int>& points) {
   const int count = last - first + 1;
   struct Best {
     int ramps = std::numeric_limits<int>::max();
-    double squares_m2 = 0.0;  // of the ramps' lengths: small where they are even
+    double squares_m2 = 0.0;  // sum of the ramps' squared lengths
     int before = -1;
   };
   std::vector<Best> best(count);
   best[0].ramps = 0;
   for (int i = 0; i + 1 < count; ++i) {
-    // Slopes of ramps from i that miss none of the samples passed by more than allowed.
+    // Slopes of ramps from i that miss none of the samples between by more than allowed.
     double low = -std::numeric_limits<double>::infinity(), high = -low;
     for (int j = i + 1; j < count; ++j) {
       const double way_m = samples[first + j].distance_m - samples[first + i].distance_m;
@@ -35,7 +51,7 @@ void split_piece(const std::vector<GroundProfile::Sample>& samples,
       const int ramps = best[i].ramps + 1;
       if (slope >= low && slope <= high &&
           (ramps < best[j].ramps ||
-           (ramps == best[j].ramps && squares_m2 < best[j].squares_m2 - 1e-6))) {
+           (ramps == best[j].ramps && squares_m2 < best[j].squares_m2 - kSameSquares_m2))) {
         best[j] = {ramps, squares_m2, i};
       }
       low = std::max(low, (rise_m - error_m) / way_m);
@@ -64,8 +80,8 @@ Result<GroundProfile> GroundProfile::make(const std::vector<Eigen::Vector2d>& li
   profile.at_point_.push_back(0);
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
     const Eigen::Vector2d way = line[i + 1] - line[i];
-    const double length_m = way.norm(), step_m = std::max(kSurveyStep_m, length_m / kMostSamples);
-    const int count = std::max(1, static_cast<int>(std::ceil(length_m / step_m - 1e-9)));
+    const double length_m = way.norm(), step_m = std::max(kSurveyStep_m, length_m / kMaxSamples);
+    const int count = std::max(1, static_cast<int>(std::ceil(length_m / step_m - kCountRounding)));
     for (int k = 1; k <= count; ++k) {
       const double share = static_cast<double>(k) / count;
       add(line[i] + share * way, distance_m + share * length_m);
@@ -76,17 +92,17 @@ Result<GroundProfile> GroundProfile::make(const std::vector<Eigen::Vector2d>& li
   const int n = static_cast<int>(known.size());
   profile.beyond_ = static_cast<int>(std::count(known.begin(), known.end(), false));
   if (profile.beyond_ == n) return Failure{"there is no ground below any of it"};
-  // The nearer of the known heights before and after.
+  // Samples without ground get the nearer of the known heights before and after.
   std::vector<int> before(n, -1), after(n, -1);
   for (int i = 0; i < n; ++i) before[i] = known[i] ? i : i > 0 ? before[i - 1] : -1;
   for (int i = n - 1; i >= 0; --i) after[i] = known[i] ? i : i + 1 < n ? after[i + 1] : -1;
   for (int i = 0; i < n; ++i) {
     if (known[i]) continue;
-    const auto way_to = [&](int j) {
+    const auto distance_to = [&](int j) {
       return j < 0 ? std::numeric_limits<double>::infinity()
                    : std::abs(profile.samples_[j].distance_m - profile.samples_[i].distance_m);
     };
-    const int from = way_to(before[i]) <= way_to(after[i]) ? before[i] : after[i];
+    const int from = distance_to(before[i]) <= distance_to(after[i]) ? before[i] : after[i];
     profile.samples_[i].ground_m = profile.samples_[from].ground_m;
   }
   return profile;
@@ -98,6 +114,7 @@ std::vector<double> make_wanted_heights(const GroundProfile& profile, double abo
   std::vector<double> wanted_m;
   for (const GroundProfile::Sample& sample : samples) wanted_m.push_back(sample.ground_m + above_m);
   const std::size_t n = samples.size();
+  // Raise what falls too steeply (forwards), then what rises too steeply (backwards).
   for (std::size_t i = 1; i < n; ++i) {
     const double way_m = samples[i].distance_m - samples[i - 1].distance_m;
     wanted_m[i] = std::max(wanted_m[i], wanted_m[i - 1] - max_slope * way_m);
@@ -109,7 +126,7 @@ std::vector<double> make_wanted_heights(const GroundProfile& profile, double abo
   return wanted_m;
 }
 
-double begin_heights_at(const GroundProfile& profile, double start_m, double max_slope,
+double start_heights_at(const GroundProfile& profile, double start_m, double max_slope,
                         std::vector<double>& wanted_m) {
   const auto& samples = profile.samples();
   const double sign = start_m < wanted_m.front() ? 1.0 : -1.0;

@@ -47,7 +47,7 @@ io::MissionFile make_survey_mission(const SurveyPlan& plan, const GeoOrigin& ori
   };
   if (plan.rotorcraft) take_off(0.0, points[0].p_W);
   bool is_on = false;
-  // Home itself is where "return" leads.
+  // "Return" leads to home itself.
   const std::size_t end = returns ? points.size() - 1 : points.size();
   for (std::size_t i = 1; i < end; ++i) {
     constexpr double kPitch_deg = 15.0;

@@ -13,34 +13,63 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kLess_m = 1e-6;  // a way must be this much shorter to count as shorter
+// Chosen: above the rounding of sums, below any length that matters, so that ties do not depend on
+// rounding.
+constexpr double kLess_m = 1e-6;  // an order must be this much shorter to count as shorter
+// Limits of the improvement, chosen for its run time, which grows with the third power of the
+// lanes.
+constexpr int kMaxPasses = 60;              // over all changes
+constexpr int kLongestMoved = 4;            // lanes of a run that is moved
+constexpr int kMaxImproved = 120;           // lanes; above, the best pattern is the result
+constexpr int kFewLanes = 40;               // lanes; up to here more patterns are improved
+constexpr std::size_t kImproved = 6;        // patterns that are improved with few lanes
+constexpr std::size_t kImprovedOfMany = 2;  // patterns that are improved with more lanes
 
-/// From the start to where a lane is entered.
-double calc_way_in_m(const OrderTask& task, int lane, bool up) {
+// Cost of an order l_1 ... l_n of lanes that are flown alternately up and down, the first one up or
+// down (calc_extra_distance_m):
+//
+//   |start - entry(l_1)| + sum over i of turn(l_i, l_i+1) + |exit(l_n) - home|
+//   turn(a, b) = |t_a - t_b| + |end_a - end_b| + (|t_a - t_b| < 2 R ? 8 R : 0)
+//
+// t is the position across the lanes and end the end of the lane at which the turn is: the upper
+// one after a lane flown up. Both corners of a turn are level with the longer lane.
+//
+// Exact (Held and Karp): W(S, l) is the least cost of the set S of lanes that ends with lane l,
+//
+//   W({l}, l) = |start - entry(l)|,   W(S + m, m) = min over l in S of W(S, l) + turn(l, m)
+//
+// The direction of a lane follows from the size of S: it alternates. 2^n n^2 steps.
+//
+// Above kMaxExactLanes lanes: patterns (snake, racetrack, interleaved lanes of every stride,
+// mirrored), the best of them improved by local search.
+
+/// Distance from the start to the entry of a lane.
+double calc_entry_distance_m(const OrderTask& task, int lane, bool up) {
   const LaneEnds& ends = task.lanes[lane];
   return (Vector2d(up ? ends.low_m : ends.high_m, ends.across_m) - task.start).norm();
 }
 
-/// From where a lane ends home.
-double calc_way_out_m(const OrderTask& task, int lane, bool up) {
+/// Distance from the exit of a lane to home.
+double calc_exit_distance_m(const OrderTask& task, int lane, bool up) {
   const LaneEnds& ends = task.lanes[lane];
   return (Vector2d(up ? ends.high_m : ends.low_m, ends.across_m) - task.home).norm();
 }
 
 void keep_better(const OrderTask& task, const std::vector<int>& lanes, LaneOrder& best) {
   for (const bool up : {true, false}) {
-    const double way_m = calc_added_way_m(task, lanes, up);
-    if (way_m < best.added_way_m - kLess_m) best = {lanes, up, way_m};
+    const double way_m = calc_extra_distance_m(task, lanes, up);
+    if (way_m < best.extra_distance_m - kLess_m) best = {lanes, up, way_m};
   }
 }
 
 LaneOrder no_order() {
   LaneOrder order;
-  order.added_way_m = kInfinity;
+  order.extra_distance_m = kInfinity;
   return order;
 }
 
-/// Lanes 0, stride, 2 stride ..., then those between, every other class backwards.
+/// Lanes 0, stride, 2 stride ..., then the classes between; with alternate, every other class is
+/// reversed.
 std::vector<int> interleave(int count, int stride, int first_class, bool alternate) {
   std::vector<int> lanes;
   for (int k = 0; k < stride; ++k) {
@@ -52,7 +81,8 @@ std::vector<int> interleave(int count, int stride, int first_class, bool alterna
   return lanes;
 }
 
-/// 0, stride, 1, stride + 1, ...: a racetrack that moves on by a lane each lap, block after block.
+/// 0, stride, 1, stride + 1, ...: a racetrack that advances by a lane on each lap, block after
+/// block.
 std::vector<int> racetrack(int count, int stride) {
   std::vector<int> lanes;
   for (int begin = 0; begin < count; begin += 2 * stride) {
@@ -64,17 +94,16 @@ std::vector<int> racetrack(int count, int stride) {
   return lanes;
 }
 
-/// Reverses stretches and moves short ones until nothing gets shorter.
+/// Reverses runs of lanes, swaps lanes and moves short runs until no change shortens the order.
 void improve(const OrderTask& task, LaneOrder& order) {
   const int n = static_cast<int>(order.lanes.size());
-  constexpr int kMostPasses = 60, kLongestMoved = 4;
   bool better = true;
   const auto try_order = [&](const std::vector<int>& lanes) {
-    const double before_m = order.added_way_m;
+    const double before_m = order.extra_distance_m;
     keep_better(task, lanes, order);
-    better |= order.added_way_m < before_m;
+    better |= order.extra_distance_m < before_m;
   };
-  for (int pass = 0; pass < kMostPasses && better; ++pass) {
+  for (int pass = 0; pass < kMaxPasses && better; ++pass) {
     better = false;
     for (int i = 0; i < n; ++i) {
       for (int j = i + 1; j < n; ++j) {
@@ -110,21 +139,22 @@ bool is_wide_turn(const LaneEnds& a, const LaneEnds& b, double turn_radius_m) {
   return std::abs(a.across_m - b.across_m) < 2.0 * turn_radius_m - kLess_m;
 }
 
-double calc_turn_way_m(const LaneEnds& a, const LaneEnds& b, bool at_high, double turn_radius_m) {
+double calc_turn_length_m(const LaneEnds& a, const LaneEnds& b, bool at_high,
+                          double turn_radius_m) {
   const double step_m = std::abs(a.across_m - b.across_m);
-  // Both corners lie level with the lane that reaches farther.
+  // Both corners are level with the lane that reaches farther.
   const double uneven_m = at_high ? std::abs(a.high_m - b.high_m) : std::abs(a.low_m - b.low_m);
   return step_m + uneven_m + (is_wide_turn(a, b, turn_radius_m) ? 8.0 * turn_radius_m : 0.0);
 }
 
-double calc_added_way_m(const OrderTask& task, const std::vector<int>& lanes, bool starts_up) {
+double calc_extra_distance_m(const OrderTask& task, const std::vector<int>& lanes, bool starts_up) {
   bool up = starts_up;
-  double way_m = calc_way_in_m(task, lanes.front(), up);
+  double way_m = calc_entry_distance_m(task, lanes.front(), up);
   for (std::size_t i = 0; i + 1 < lanes.size(); ++i, up = !up) {
     way_m +=
-        calc_turn_way_m(task.lanes[lanes[i]], task.lanes[lanes[i + 1]], up, task.turn_radius_m);
+        calc_turn_length_m(task.lanes[lanes[i]], task.lanes[lanes[i + 1]], up, task.turn_radius_m);
   }
-  return way_m + calc_way_out_m(task, lanes.back(), up);
+  return way_m + calc_exit_distance_m(task, lanes.back(), up);
 }
 
 LaneOrder order_lanes_exactly(const OrderTask& task) {
@@ -133,11 +163,11 @@ LaneOrder order_lanes_exactly(const OrderTask& task) {
   const std::size_t sets = std::size_t{1} << n;
   LaneOrder best = no_order();
   for (const bool starts_up : {true, false}) {
-    // Shortest way over a set of lanes that ends with lane `last`, at [set * n + last].
+    // W(set, last) at [set * n + last], and the lane before `last`.
     std::vector<double> way_m(sets * n, kInfinity);
     std::vector<std::int8_t> before(sets * n, -1);
     for (int i = 0; i < n; ++i) {
-      way_m[(std::size_t{1} << i) * n + i] = calc_way_in_m(task, i, starts_up);
+      way_m[(std::size_t{1} << i) * n + i] = calc_entry_distance_m(task, i, starts_up);
     }
     for (std::size_t set = 1; set < sets; ++set) {
       const bool up = starts_up == (__builtin_popcountll(set) % 2 == 1);
@@ -146,8 +176,8 @@ LaneOrder order_lanes_exactly(const OrderTask& task) {
         if (so_far_m == kInfinity) continue;
         for (int next = 0; next < n; ++next) {
           if (set >> next & 1) continue;
-          const double way = so_far_m + calc_turn_way_m(task.lanes[last], task.lanes[next], up,
-                                                        task.turn_radius_m);
+          const double way = so_far_m + calc_turn_length_m(task.lanes[last], task.lanes[next], up,
+                                                           task.turn_radius_m);
           const std::size_t at = (set | std::size_t{1} << next) * n + next;
           if (way < way_m[at] - kLess_m) {
             way_m[at] = way;
@@ -156,10 +186,11 @@ LaneOrder order_lanes_exactly(const OrderTask& task) {
         }
       }
     }
+    // Add the distance home, then follow the lanes back from the best end.
     const bool ends_up = starts_up == (n % 2 == 1);
     for (int last = 0; last < n; ++last) {
-      const double way = way_m[(sets - 1) * n + last] + calc_way_out_m(task, last, ends_up);
-      if (way >= best.added_way_m - kLess_m) continue;
+      const double way = way_m[(sets - 1) * n + last] + calc_exit_distance_m(task, last, ends_up);
+      if (way >= best.extra_distance_m - kLess_m) continue;
       best = {{}, starts_up, way};
       std::size_t set = sets - 1;
       for (int lane = last; lane >= 0;) {
@@ -186,7 +217,7 @@ LaneOrder order_lanes_as_snake(const OrderTask& task) {
 
 LaneOrder order_lanes_by_improvement(const OrderTask& task) {
   const int n = static_cast<int>(task.lanes.size());
-  // Patterns whose stride is about what the turn needs; the best few are worth improving.
+  // Patterns of all strides; only the best few are improved.
   std::vector<LaneOrder> orders = {order_lanes_as_snake(task)};
   for (int stride = 2; stride <= n; ++stride) {
     std::vector<std::vector<int>> patterns = {racetrack(n, stride)};
@@ -203,19 +234,18 @@ LaneOrder order_lanes_by_improvement(const OrderTask& task) {
     }
   }
   std::stable_sort(orders.begin(), orders.end(), [](const LaneOrder& a, const LaneOrder& b) {
-    return a.added_way_m < b.added_way_m;
+    return a.extra_distance_m < b.extra_distance_m;
   });
-  constexpr int kMostImproved = 120;  // lanes; above, a pattern has to do
-  const std::size_t worth = n > kMostImproved ? 0 : n > 40 ? 2 : 6;
+  const std::size_t worth = n > kMaxImproved ? 0 : n > kFewLanes ? kImprovedOfMany : kImproved;
   for (std::size_t i = 0; i < std::min(worth, orders.size()); ++i) improve(task, orders[i]);
   return *std::min_element(orders.begin(), orders.end(), [](const auto& a, const auto& b) {
-    return a.added_way_m < b.added_way_m;
+    return a.extra_distance_m < b.extra_distance_m;
   });
 }
 
 LaneOrder order_lanes(const OrderTask& task) {
   const int n = static_cast<int>(task.lanes.size());
-  return n <= kMostExactLanes ? order_lanes_exactly(task) : order_lanes_by_improvement(task);
+  return n <= kMaxExactLanes ? order_lanes_exactly(task) : order_lanes_by_improvement(task);
 }
 
 }  // namespace vinerow::controllers

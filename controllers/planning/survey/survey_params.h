@@ -1,5 +1,5 @@
 #pragma once
-/// The parameters of surveys, read against the vehicle that is to fly them.
+/// Parameters of surveys, checked against the vehicle that flies them.
 
 #include <string>
 #include <vector>
@@ -12,15 +12,16 @@ namespace vinerow::controllers {
 
 std::vector<ParameterSpec> survey_parameters();
 
-/// The vehicle's `stall_speed_mps`, `min_turning_radius_m` and `max_bank_rad` count where it tells
-/// them. Without `rotorcraft` it is planned for as what it is. The polygon is the one given, or the
-/// parcel of the map.
-/// @throws ConfigError beginning with `who`: no polygon, two of them, gsd_m beside height_m, a bank
-/// that the vehicle does not fly, and all that find_survey_fault() finds
+/// Respects the vehicle's `stall_speed_mps`, `min_turning_radius_m` and `max_bank_rad` if it has
+/// them. Without the key `rotorcraft`, the kind of vehicle decides. The polygon is the given one,
+/// or the parcel of the map.
+/// @throws ConfigError that starts with `who` if there is no polygon or there are two, if gsd_m and
+/// height_m are both given, if the bank exceeds the vehicle's, and for faults of
+/// find_survey_fault()
 SurveyRequest read_survey_request(const ParameterSet& parameters, const PlannerContext& context,
                                   const std::string& who);
 
-/// The terrain of a scene; flat at `flat_m` where there is no scene.
+/// Ground of a scene's terrain; flat at `flat_m` if there is no scene.
 GroundHeight make_ground(const SceneQuery* scene, double flat_m);
 
 }  // namespace vinerow::controllers

@@ -27,7 +27,7 @@ class SurveyPlanner {
 
   Result<SurveyPlan> plan() {
     plan_.rotorcraft = request_.rotorcraft;
-    const bool is_sound = !find_polygon_fault(request_.polygon_W);
+    const bool is_sound = !io::find_area_fault(request_.polygon_W);
     if (request_.lane_yaw_rad) {
       plan_.frame.yaw_rad = *request_.lane_yaw_rad;
     } else if (is_sound) {
@@ -48,7 +48,7 @@ class SurveyPlanner {
           fmt::format("the polygon has no terrain at ({:.1f}, {:.1f})", bare_W->x(), bare_W->y())};
     }
     set("covered_share", forecast.covered_share);
-    set("views_min", forecast.least_views);
+    set("views_min", forecast.min_views);
     set("views_mean", forecast.mean_views);
     return std::move(plan_);
   }
@@ -68,9 +68,9 @@ class SurveyPlanner {
     return needs;
   }
 
-  /// Before any lane is cut: how many lanes and pictures there would be.
+  /// Limit on the number of lanes and pictures, checked before any lane is cut.
   std::optional<std::string> find_size_fault() const {
-    constexpr double kMostLanes = 1'000.0, kMostPictures = 200'000.0;
+    constexpr double kMaxLanes = 1'000.0, kMaxPictures = 200'000.0;
     const LaneNeeds needs = lane_needs();
     Vector2d low = plan_.frame.to_lane(request_.polygon_W.front()), high = low;
     for (const Vector2d& p : request_.polygon_W) {
@@ -80,13 +80,12 @@ class SurveyPlanner {
     const double lanes = (high.y() - low.y()) / needs.spacing_m + 1.0;
     const double pictures = lanes * (high.x() - low.x()) /
                             ((1.0 - request_.forward_overlap) * needs.footprint_length_m);
-    if (lanes <= kMostLanes && pictures <= kMostPictures) return std::nullopt;
+    if (lanes <= kMaxLanes && pictures <= kMaxPictures) return std::nullopt;
     return fmt::format(
         "{:.0f} m x {:.0f} m at {:.4g} m would take {:.3g} lanes {:.3g} m apart and {:.3g} "
-        "pictures, "
-        "at most {:.0f} lanes and {:.0f} pictures are planned: fly higher or survey less",
+        "pictures, must be at most {:.0f} lanes and {:.0f} pictures: fly higher or survey less",
         high.x() - low.x(), high.y() - low.y(), request_.height_m, lanes, needs.spacing_m, pictures,
-        kMostLanes, kMostPictures);
+        kMaxLanes, kMaxPictures);
   }
 
   void cut() {
@@ -95,7 +94,7 @@ class SurveyPlanner {
     const LaneNeeds needs = lane_needs();
     plan_.lanes = cut_lanes(request_.polygon_W, plan_.frame, needs);
 
-    // Often enough where ramps run low, but not more often than the camera can.
+    // Often enough for the lowest ramps, but not more often than the camera can.
     const Vector2d along = plan_.frame.along();
     const double up_mps = *calc_ground_speed_mps(request_.speed_mps, request_.wind_W, along);
     const double down_mps = *calc_ground_speed_mps(request_.speed_mps, request_.wind_W, -along);
@@ -105,7 +104,7 @@ class SurveyPlanner {
         std::max((1.0 - request_.forward_overlap) * camera.footprint_length_m(lowest_m),
                  fastest_mps / camera.max_rate_Hz);
     for (SurveyLane& lane : plan_.lanes) {
-      for (LanePiece& piece : lane.pieces) {
+      for (LaneSegment& piece : lane.pieces) {
         const double length_m = piece.to_m - piece.from_m;
         const double whole_m =
             plan_.photo_distance_m * std::ceil(length_m / plan_.photo_distance_m - 1e-9);
@@ -116,7 +115,7 @@ class SurveyPlanner {
     const double spacing_m = plan_.lanes.size() > 1
                                  ? plan_.lanes[1].across_m - plan_.lanes[0].across_m
                                  : needs.footprint_width_m;
-    set("area_ha", std::abs(polygon_area_m2(request_.polygon_W)) / kM2PerHa);
+    set("area_ha", std::abs(signed_area_m2(request_.polygon_W)) / kM2PerHa);
     set("lanes", static_cast<double>(plan_.lanes.size()));
     set("lane_spacing_m", spacing_m);
     const double bearing_deg = 90.0 - deg_from_rad(plan_.frame.yaw_rad);
@@ -137,10 +136,10 @@ class SurveyPlanner {
     task_.start_W = start_W_.p.head<2>();
     task_.returns = request_.returns;
     task_.turn_radius_m = calc_turn_radius_m(request_);
-    // Rolling in and out takes about three quarters of a second (paper A's reference, section 2:
-    // phi / 2 phi' + tau), settling on the line about one.
+    // Roll-in and roll-out take about three quarters of a second (paper A's reference, section 2:
+    // phi / 2 phi' + tau), settling on the line about one second.
     constexpr double kSettle_s = 2.0;
-    // A multirotor stops at corners: v^2 / 2a until it is as fast as on the lane.
+    // A multirotor stops at corners: v^2 / 2a until it reaches the speed of the lane.
     const double usual_m =
         request_.rotorcraft
             ? 0.5 * request_.speed_mps * request_.speed_mps / kRotorAcceleration_mps2
@@ -182,14 +181,14 @@ class SurveyPlanner {
     return std::nullopt;
   }
 
-  /// Waypoints, lengths and times.
+  /// Sets waypoints, lengths and times.
   void fly() {
     const auto& samples = profile_->samples();
     const std::vector<int> split =
         split_ramps(*profile_, wanted_m_, route_.points.size(), request_.ramp_error_m);
     std::size_t leg = 0;
     double time_s = 0.0, slope = 0.0;
-    std::map<PathKind, double> ways_m;
+    std::map<PathKind, double> lengths_m;
     ramp_m_.assign(samples.size(), 0.0);
     for (std::size_t k = 0; k < split.size(); ++k) {
       const int at = split[k];
@@ -212,14 +211,14 @@ class SurveyPlanner {
         const double share = (samples[i].distance_m - samples[at].distance_m) / length_m;
         ramp_m_[i] = wanted_m_[at] + share * rise_m;
       }
-      ways_m[point.kind] += length_m;
+      lengths_m[point.kind] += length_m;
       plan_.path.length_m += std::hypot(length_m, rise_m);
       const auto speed_mps =
           calc_ground_speed_mps(request_.speed_mps, request_.wind_W, way.normalized());
       time_s += length_m / speed_mps.value_or(request_.speed_mps);
       if (samples[at].distance_m >= climb_m_) slope = std::max(slope, std::abs(rise_m / length_m));
     }
-    // Slowing down to a stop and speeding up again takes v / a longer than passing.
+    // A stop takes v / a longer than passing at speed v.
     if (request_.rotorcraft) {
       time_s +=
           static_cast<double>(route_.points.size()) * request_.speed_mps / kRotorAcceleration_mps2;
@@ -227,8 +226,8 @@ class SurveyPlanner {
     set("waypoints", static_cast<double>(split.size()));
     set("ramp_points", static_cast<double>(split.size() - route_.points.size()));
     set("length_m", plan_.path.length_m);
-    set("lane_way_m", ways_m[PathKind::kLeg]);
-    set("turn_way_m", ways_m[PathKind::kTurn]);
+    set("lane_way_m", lengths_m[PathKind::kLeg]);
+    set("turn_way_m", lengths_m[PathKind::kTurn]);
     set("flight_time_s", time_s);
     set("slope_max", slope);
     measure_heights();
@@ -267,9 +266,9 @@ class SurveyPlanner {
       const Vector2d from = route_.points[leg].p_W, way = route_.points[leg + 1].p_W - from;
       const int count = static_cast<int>(std::lround(way.norm() / plan_.photo_distance_m));
       int i = profile_->at_point(leg);
-      const double begin_m = samples[i].distance_m;
+      const double start_m = samples[i].distance_m;
       for (int k = 0; k <= count; ++k) {
-        const double at_m = begin_m + k * plan_.photo_distance_m;
+        const double at_m = start_m + k * plan_.photo_distance_m;
         while (i + 1 < profile_->at_point(leg + 1) && samples[i + 1].distance_m < at_m) ++i;
         const double share = std::clamp(
             (at_m - samples[i].distance_m) / (samples[i + 1].distance_m - samples[i].distance_m),

@@ -11,14 +11,14 @@
 namespace vinerow::controllers {
 namespace {
 
-/// Airspeed at which the speed over ground along a lane is just `ground_mps`, both ways.
+/// Airspeed at which the speed over ground along a lane is at most `ground_mps` in both directions.
 std::optional<double> find_airspeed_mps(const SurveyRequest& request, double yaw_rad,
                                         double ground_mps) {
   const double along = std::abs(request.wind_W.dot(direction(yaw_rad)));
   const double aside = cross(direction(yaw_rad), request.wind_W);
   if (ground_mps <= along) return std::nullopt;
   const double airspeed_mps = std::hypot(ground_mps - along, aside);
-  // Slower than the wind it would not come forward the other way.
+  // At an airspeed below the wind's it would make no progress in the other direction.
   return std::sqrt(std::max(0.0, airspeed_mps * airspeed_mps - aside * aside)) > along
              ? std::optional(airspeed_mps)
              : std::nullopt;
@@ -54,12 +54,12 @@ std::optional<double> calc_ground_speed_mps(double airspeed_mps, const Eigen::Ve
 double calc_turn_radius_m(const SurveyRequest& request) {
   if (request.rotorcraft) return 0.0;
   const double fastest_mps = request.speed_mps + request.wind_W.norm();
-  return std::max(request.least_radius_m,
+  return std::max(request.min_radius_m,
                   fastest_mps * fastest_mps / (request.gravity_mps2 * std::tan(request.bank_rad)));
 }
 
 std::optional<std::string> find_survey_fault(const SurveyRequest& request, double lane_yaw_rad) {
-  if (const auto fault = find_polygon_fault(request.polygon_W)) {
+  if (const auto fault = io::find_area_fault(request.polygon_W)) {
     return fmt::format("the polygon cannot be surveyed: {}", *fault);
   }
   if (request.speed_mps <= request.stall_speed_mps) {
@@ -80,7 +80,7 @@ std::optional<std::string> find_survey_fault(const SurveyRequest& request, doubl
   const double needed_Hz = ground_mps / step_m;
   if (needed_Hz <= camera.max_rate_Hz * (1.0 + 1e-9)) return std::nullopt;
   const double needed_height_m =
-      request.height_m * needed_Hz / camera.max_rate_Hz;  // footprints grow with the height
+      request.height_m * needed_Hz / camera.max_rate_Hz;  // the footprint grows with the height
   return fmt::format(
       "{:.0f} % forward overlap at {:.0f} m and {:.1f} m/s over ground{} needs a picture every "
       "{:.1f} m, but camera '{}' takes {:g} a second and reaches {:.1f} %: it needs {}, or a "

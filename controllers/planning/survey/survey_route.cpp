@@ -11,9 +11,9 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// By how much turns at the corners of a line do not fit between each other, m.
+/// Length by which the turns at a line's corners do not fit between each other, m.
 double calc_misfit_m(const std::vector<Vector2d>& line, double turn_radius_m) {
-  constexpr double kSharpest_rad = 2.6;  // beyond, the tangents have no end
+  constexpr double kSharpest_rad = 2.6;  // beyond, the tangents become too long
   double misfit_m = 0.0, before_m = 0.0;
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
     const Vector2d way = line[i + 1] - line[i];
@@ -37,7 +37,7 @@ class RouteMaker {
   void add(const Vector2d& p_W, PathKind kind, int lane = -1) {
     constexpr double kSame_m = 1e-3;
     auto& points = route_.points;
-    // Two corners at one place are one; what begins there is the later one's.
+    // Two corners at one place become one, with the kind and lane of the later one.
     if (!points.empty() && (points.back().p_W - p_W).norm() < kSame_m) {
       points.back().kind = kind;
       points.back().lane = lane;
@@ -46,7 +46,7 @@ class RouteMaker {
     }
   }
 
-  /// From where it starts to the run-in of the first lane, which heads along `sign` s.
+  /// From the start to the run-in of the first lane, which heads along `sign` s.
   void approach(double s, double t, double sign) {
     const Vector2d to_W = frame_.to_world(s, t), along_W = sign * frame_.along();
     add(task_.start_W, PathKind::kTransit);
@@ -59,10 +59,10 @@ class RouteMaker {
   }
 
   void fly(const SurveyLane& lane, int index, bool up) {
-    std::vector<LanePiece> pieces = lane.pieces;
+    std::vector<LaneSegment> pieces = lane.pieces;
     if (!up) {
       std::reverse(pieces.begin(), pieces.end());
-      for (LanePiece& piece : pieces) std::swap(piece.from_m, piece.to_m);
+      for (LaneSegment& piece : pieces) std::swap(piece.from_m, piece.to_m);
     }
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       add(frame_.to_world(pieces[i].from_m, lane.across_m), PathKind::kLeg, index);
@@ -79,7 +79,7 @@ class RouteMaker {
     add(frame_.to_world(s, from.across_m), PathKind::kTurn);
     if (is_wide_turn(from, to, radius_m)) {
       ++route_.wide_turns;
-      // Away from the next lane first, on, and back over it.
+      // Away from the next lane first, then ahead, and back across it.
       const double away = to.across_m > from.across_m ? -2.0 * radius_m : 2.0 * radius_m;
       const double on = s + sign * 2.0 * radius_m;
       add(frame_.to_world(s, from.across_m + away), PathKind::kTurn);
@@ -94,7 +94,7 @@ class RouteMaker {
     route_.points.back().kind = PathKind::kReturn;
     add(frame_.to_world(s, t), PathKind::kReturn);
     if (!task_.returns) return;
-    // The way there, flown backwards.
+    // The approach to the place, reversed.
     const std::vector<Vector2d> corners =
         find_approach(task_.start_W, std::nullopt, frame_.to_world(s, t), -sign * frame_.along(),
                       task_.turn_radius_m);
@@ -140,23 +140,23 @@ std::vector<Vector2d> find_approach(const Vector2d& from_W,
                                     const std::optional<Vector2d>& heading_W, const Vector2d& to_W,
                                     const Vector2d& along_W, double turn_radius_m) {
   const Vector2d aside_W = left_of(along_W);
-  std::vector<std::vector<Vector2d>> ways = {{}};
+  std::vector<std::vector<Vector2d>> paths = {{}};
   const double level_m = std::abs((from_W - to_W).dot(aside_W));
   for (const double b : {2.0 * turn_radius_m, 3.0 * turn_radius_m, 5.0 * turn_radius_m, level_m}) {
     for (const double side : {1.0, -1.0}) {
       const Vector2d beside = to_W + side * b * aside_W;
-      ways.push_back({beside});
+      paths.push_back({beside});
       for (const double a : {2.0 * turn_radius_m, 4.0 * turn_radius_m}) {
-        ways.push_back({Vector2d(beside - a * along_W)});
-        ways.push_back({Vector2d(beside + a * along_W), beside});  // alongside, and back
-        ways.push_back({Vector2d(beside - a * along_W), Vector2d(to_W - a * along_W)});
+        paths.push_back({Vector2d(beside - a * along_W)});
+        paths.push_back({Vector2d(beside + a * along_W), beside});  // along the lane, and back
+        paths.push_back({Vector2d(beside - a * along_W), Vector2d(to_W - a * along_W)});
       }
     }
   }
-  constexpr double kOn_m = 1e3;  // the lane has room for its turn
+  constexpr double kOn_m = 1e3;  // the lane is long enough for its turn
   double best_m = std::numeric_limits<double>::infinity();
   std::vector<Vector2d> best;
-  for (const std::vector<Vector2d>& way : ways) {
+  for (const std::vector<Vector2d>& way : paths) {
     std::vector<Vector2d> line;
     if (heading_W) line.push_back(from_W - kOn_m * *heading_W);
     line.push_back(from_W);
@@ -165,7 +165,7 @@ std::vector<Vector2d> find_approach(const Vector2d& from_W,
     line.push_back(to_W + kOn_m * along_W);
     double length_m = 0.0;
     for (std::size_t i = 1; i < line.size(); ++i) length_m += (line[i] - line[i - 1]).norm();
-    constexpr double kMisfit = 100.0;  // any way that fits is better than one that does not
+    constexpr double kMisfit = 100.0;  // any path that fits is better than one that does not
     const double worth_m = length_m + kMisfit * calc_misfit_m(line, turn_radius_m);
     if (worth_m >= best_m - 1e-6) continue;
     best_m = worth_m;
@@ -187,7 +187,7 @@ std::vector<Vector2d> make_climb_laps(const Vector2d& start_W, double yaw_rad,
   std::vector<Vector2d> corners;
   double length_m = 0.0;
   constexpr double kLonger = 1.05;
-  // The last lap leaves for the target at its third corner, so its length is not known beforehand.
+  // The last lap turns to the target at its third corner, so its length is not known in advance.
   for (double side_m = std::max(shortest_m, 0.5 * extra_m / laps - wide_m); length_m < way_m;
        side_m *= kLonger) {
     corners.clear();

@@ -1,5 +1,5 @@
 #pragma once
-/// A survey's way seen from above: to the first lane, lanes and turns, home.
+/// Horizontal path of a survey: to the first lane, along lanes and turns, home.
 
 #include <optional>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace vinerow::controllers {
 
-/// A corner of the way; `kind` and `lane` are those of the straight that begins here.
+/// A corner of the path; `kind` and `lane` are those of the straight that starts here.
 struct RoutePoint {
   Eigen::Vector2d p_W = {0, 0};
   PathKind kind = PathKind::kTransit;
@@ -19,7 +19,7 @@ struct RoutePoint {
 
 struct SurveyRoute {
   std::vector<RoutePoint> points;
-  std::size_t first_lane_point = 0;  ///< where the first lane's run-in begins
+  std::size_t first_lane_point = 0;  ///< index of the point where the first lane's run-in starts
   int wide_turns = 0;
 };
 
@@ -34,18 +34,18 @@ struct RouteTask {
 SurveyRoute make_survey_route(const RouteTask& task, const LaneFrame& frame,
                               const std::vector<SurveyLane>& lanes, const LaneOrder& order);
 
-/// Corners of a way from a place to a lane, so that every corner can be flown with the turn radius:
-/// between two corners there is room for both turns (R tan(angle / 2) each). The shortest of some
-/// dozens; where none fits, the one that misses least.
-/// @param heading_W  unit, with which it comes to `from_W`; absent: any
-/// @param to_W       the lane's beginning  @param along_W  unit, of the lane
+/// Corners of a path from a place to a lane that can all be flown with the turn radius: the
+/// distance between two corners is enough for both turns (R tan(angle / 2) each). The shortest of
+/// some dozens of candidates; if none fits, the one that misses least.
+/// @param heading_W  unit, direction of arrival at `from_W`; absent: any
+/// @param to_W       start of the lane  @param along_W  unit, of the lane
 std::vector<Eigen::Vector2d> find_approach(const Eigen::Vector2d& from_W,
                                            const std::optional<Eigen::Vector2d>& heading_W,
                                            const Eigen::Vector2d& to_W,
                                            const Eigen::Vector2d& along_W, double turn_radius_m);
 
-/// Corners of laps beside the start that make the way to `target` at least `way_m` long: straight
-/// on along `yaw_rad` first, then round to the left or right.
+/// Corners of laps near the start that make the path to `target` at least `way_m` long: first
+/// straight ahead along `yaw_rad`, then round to the left or right.
 std::vector<Eigen::Vector2d> make_climb_laps(const Eigen::Vector2d& start_W, double yaw_rad,
                                              const Eigen::Vector2d& target_W, double way_m,
                                              double turn_radius_m, bool to_left);

@@ -1,6 +1,5 @@
 #pragma once
-/// Messages that command a vehicle, and named numbers of any kind.
-/// Frames and units: engine/api/messages.h.
+/// Command messages, and named numbers of any kind. Frames and units: engine/api/messages.h.
 
 #include <cstdint>
 #include <span>
@@ -11,7 +10,7 @@
 
 namespace vinerow {
 
-/// Wanted forward and turning speed of a ground vehicle. ROS 2: geometry_msgs/msg/TwistStamped.
+/// Desired speed and yaw rate of a ground vehicle. ROS 2: geometry_msgs/msg/TwistStamped.
 struct VelocityCommand {
   static constexpr const char* kType = "VelocityCommand";
   double v_mps = 0.0;
@@ -24,20 +23,20 @@ struct VelocityCommand {
   }
 };
 
-/// What a local planner wants of a vehicle with two steered axles. ROS 2:
+/// Command of a local planner to a vehicle with two steered axles. ROS 2:
 /// vinerow_msgs/msg/LocalCommand.
 struct LocalCommand {
   static constexpr const char* kType = "LocalCommand";
   enum class Mode : std::uint8_t {
     kFollow = 0,  ///< follow the plan, not faster than v_mps
     kDrive = 1,   ///< drive with these axle angles at v_mps (negative: backwards)
-    kStop = 2     ///< stand still until told otherwise
+    kStop = 2     ///< stop until the next command
   };
   Mode mode = Mode::kStop;
   double v_mps = 0.0;
   double front_axle_rad = 0.0;  ///< positive to the left
   double rear_axle_rad = 0.0;
-  double clearance_m = 0.0;  ///< least distance to anything known on the way chosen, m
+  double clearance_m = 0.0;  ///< smallest distance to known obstacles on the chosen path, m
 
   template <class Self, class F>
   static void fields(Self& self, F&& f) {
@@ -45,7 +44,8 @@ struct LocalCommand {
     f({"speed", "m/s", "limit when following, signed speed when driving"}, self.v_mps);
     f({"front_axle", "rad", "positive to the left"}, self.front_axle_rad);
     f({"rear_axle", "rad"}, self.rear_axle_rad);
-    f({"clearance", "m", "least distance to anything known on the way chosen"}, self.clearance_m);
+    f({"clearance", "m", "smallest distance to known obstacles on the chosen path"},
+      self.clearance_m);
   }
 };
 
@@ -58,7 +58,7 @@ inline std::span<const EnumName> enum_names(LocalCommand::Mode) {
   return kNames;
 }
 
-/// Named numbers of one kind: actuator commands, wheel states. Names are fixed when the writer
+/// Named numbers of one kind: actuator commands, wheel states. The names are fixed when the writer
 /// connects. ROS 2: vinerow_msgs/msg/NamedValues (see record/).
 struct NamedValues {
   static constexpr const char* kType = "NamedValues";

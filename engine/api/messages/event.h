@@ -1,6 +1,5 @@
 #pragma once
-/// The message that tells people what happened.
-/// Frames and units: engine/api/messages.h.
+/// Event message: reports to people what happened. Frames and units: engine/api/messages.h.
 
 #include <cstdint>
 #include <span>
@@ -10,7 +9,7 @@
 
 namespace vinerow {
 
-/// What happened, for people: phase changes, contacts, warnings. ROS 2: rcl_interfaces/msg/Log.
+/// Report for people: phase changes, contacts, warnings. ROS 2: rcl_interfaces/msg/Log.
 struct Event {
   static constexpr const char* kType = "Event";
   enum class Level : std::uint8_t { kInfo = 20, kWarning = 30, kError = 40 };

@@ -1,6 +1,5 @@
 #pragma once
-/// Messages that say where a flying vehicle should be.
-/// Frames and units: engine/api/messages.h.
+/// Reference messages of flying vehicles. Frames and units: engine/api/messages.h.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -11,7 +10,7 @@
 
 namespace vinerow {
 
-/// Where a flying vehicle should be at one moment.
+/// Reference state of a flying vehicle at one moment.
 struct TrajectoryPoint {
   static constexpr const char* kType = "TrajectoryPoint";
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< of B's origin, m
@@ -30,8 +29,8 @@ struct TrajectoryPoint {
   }
 };
 
-/// Where a flying vehicle should be now and in the coming moments: points[i] holds at the signal's
-/// stamp + i dt_s. ROS 2: trajectory_msgs/msg/MultiDOFJointTrajectory.
+/// Reference trajectory of a rotorcraft: points[i] is for the signal's stamp + i dt_s. ROS 2:
+/// trajectory_msgs/msg/MultiDOFJointTrajectory.
 struct ReferenceTrajectory {
   static constexpr const char* kType = "ReferenceTrajectory";
   static constexpr MessageFrame kFrame = MessageFrame::kWorld;
@@ -42,12 +41,13 @@ struct ReferenceTrajectory {
     kRow = 3,
     kTurn = 4,
     kReturn = 5,  ///< home, above the canopy
-    kLand = 6,    ///< straight down, until the ground is felt
+    kLand = 6,    ///< straight down, until ground contact is detected
     kDone = 7,    ///< landed: rotors off, nothing left to do
-    kHover = 8    ///< holds a place
+    kHover = 8    ///< holds a position
   };
   double dt_s = 0.05;
-  std::vector<TrajectoryPoint> points;  ///< constant in number from the first to the last tick
+  std::vector<TrajectoryPoint> points;  ///< their number is constant from the first to the last
+                                        ///< tick
   Phase phase = Phase::kWait;
   double distance_m = 0.0;  ///< flown along the plan
   double remaining_m = 0.0;
@@ -77,18 +77,18 @@ inline std::span<const EnumName> enum_names(ReferenceTrajectory::Phase) {
   return kNames;
 }
 
-/// What a vehicle on wings is to hold now. ROS 2: vinerow_msgs/msg/AirReference.
+/// Reference of a winged vehicle. ROS 2: vinerow_msgs/msg/AirReference.
 struct AirReference {
   static constexpr const char* kType = "AirReference";
   static constexpr MessageFrame kFrame = MessageFrame::kWorld;
   enum class Phase : std::uint8_t {
     kWait = 0,      ///< on the launcher, propeller off
     kLaunch = 1,    ///< straight ahead and up
-    kStraight = 2,  ///< along a leg, or on the way to it
+    kStraight = 2,  ///< along a leg, or towards it
     kTurn = 3,
     kLoiter = 4,  ///< circles
-    kLand = 5,    ///< down to the ground; the propeller stops where `power` says so
-    kDone = 6     ///< nothing left to do: on the ground, or circling where `power` is on
+    kLand = 5,    ///< down to the ground; the propeller stops when `power` is false
+    kDone = 6     ///< task complete: on the ground, or circling if `power` is true
   };
   Phase phase = Phase::kWait;
   bool power = false;         ///< whether the propeller may run
@@ -96,12 +96,12 @@ struct AirReference {
   double course_rad = 0.0;    ///< of the velocity over ground, from east, positive to the left
   double heading_rad = 0.0;   ///< of body x: the course, crabbed by the wind; continuous
   double heading_rate_radps = 0.0;
-  double bank_rad = 0.0;  ///< roll that this turn takes, positive to the right (right wing down)
+  double bank_rad = 0.0;  ///< roll for this turn, positive to the right (right wing down)
   double height_m = 0.0;  ///< z of W
   double climb_angle_rad = 0.0;                      ///< of the path through the air
-  Eigen::Vector3d wind_W = Eigen::Vector3d::Zero();  ///< mean wind as far as it is known, m/s
-  double cross_track_m = 0.0;                        ///< of the leg flown, positive: left of it
-  std::int32_t waypoint = 0;                         ///< flown to
+  Eigen::Vector3d wind_W = Eigen::Vector3d::Zero();  ///< estimate of the mean wind, m/s
+  double cross_track_m = 0.0;                        ///< from the current leg, positive: left of it
+  std::int32_t waypoint = 0;                         ///< index of the current target
   double distance_m = 0.0;                           ///< along the plan
   double remaining_m = 0.0;
 
@@ -117,7 +117,7 @@ struct AirReference {
     f({"bank", "rad", "positive with the right wing down"}, self.bank_rad);
     f({"height", "m", "z in header.frame_id"}, self.height_m);
     f({"climb_angle", "rad", "of the path through the air"}, self.climb_angle_rad);
-    f({"wind", "m/s", "mean wind as far as it is known"}, self.wind_W);
+    f({"wind", "m/s", "estimate of the mean wind"}, self.wind_W);
     f({"cross_track", "m", "positive left of the leg"}, self.cross_track_m);
     f({"waypoint"}, self.waypoint);
     f({"distance", "m", "along the plan"}, self.distance_m);

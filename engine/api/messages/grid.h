@@ -1,6 +1,5 @@
 #pragma once
-/// The message that says where on the ground something stands.
-/// Frames and units: engine/api/messages.h.
+/// Occupancy grid message. Frames and units: engine/api/messages.h.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -10,9 +9,9 @@
 
 namespace vinerow {
 
-/// Which squares of the ground are taken: 1 by an obstacle, 0 free. Square (i, j) covers the cell
-/// whose lower left corner is corner_W + cell_m * (i, j). Paper A, section 3.1; made by
-/// worlds/mapping. ROS 2: nav_msgs/msg/OccupancyGrid.
+/// Occupied cells of the ground: 1 occupied by an obstacle, 0 free. Cell (i, j) has its lower left
+/// corner at corner_W + cell_m * (i, j). Paper A, section 3.1; made by worlds/mapping. ROS 2:
+/// nav_msgs/msg/OccupancyGrid.
 struct OccupancyGrid {
   static constexpr const char* kType = "OccupancyGrid";
   static constexpr MessageFrame kFrame = MessageFrame::kWorld;
@@ -26,7 +25,7 @@ struct OccupancyGrid {
     return cells[static_cast<std::size_t>(j) * columns + i] != 0;
   }
   bool empty() const { return columns == 0 || rows == 0; }
-  /// Whether there is a cell for every square: what comes from a file may be damaged.
+  /// True if the number of cells matches rows and columns; data from files may be damaged.
   bool valid() const {
     return columns >= 0 && rows >= 0 &&
            static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rows) == cells.size();
@@ -39,7 +38,7 @@ struct OccupancyGrid {
     f({"cell", "m"}, self.cell_m);
     f({"corner_x", "m", "lower left corner of the first cell"}, self.corner_W.x());
     f({"corner_y", "m"}, self.corner_W.y());
-    f({"cells", "", "1 taken, 0 free; x fastest"}, self.cells);
+    f({"cells", "", "1 occupied, 0 free; x fastest"}, self.cells);
   }
 };
 

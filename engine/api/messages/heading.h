@@ -1,6 +1,6 @@
 #pragma once
-/// What two satellite antennas on one vehicle tell of how it stands.
-/// Frames and units: engine/api/messages.h.
+/// Heading message of two satellite antennas on one vehicle. Frames and units:
+/// engine/api/messages.h.
 
 #include <Eigen/Core>
 
@@ -8,12 +8,12 @@
 
 namespace vinerow {
 
-/// The way from a first antenna to a second one by carrier phase: heading, and the slope along it.
+/// Baseline from a first to a second antenna by carrier phase: heading, and the slope along it.
 struct GnssHeading {
   static constexpr const char* kType = "GnssHeading";
   static constexpr MessageFrame kFrame = MessageFrame::kWorld;
   bool valid = false;           ///< ambiguities between the antennas are resolved
-  std::int32_t satellites = 0;  ///< used, of the antenna that hears fewer
+  std::int32_t satellites = 0;  ///< used, at the antenna that receives fewer
   double length_m = 0.0;        ///< between the antennas as mounted
   Eigen::Vector3d baseline_W = Eigen::Vector3d::Zero();  ///< first to second antenna, m
   Eigen::Vector3d std_m = Eigen::Vector3d::Zero();       ///< 1 sigma east, north, up

@@ -1,5 +1,5 @@
 #pragma once
-/// Messages about motion: pose and twist of a body, of its links, and sets that contain a position.
+/// Motion messages: pose and twist of a body, poses of its links, and sets that contain a position.
 /// Frames and units: engine/api/messages.h.
 
 #include <Eigen/Core>
@@ -12,7 +12,7 @@
 
 namespace vinerow {
 
-/// A symmetric matrix by its diagonal and what is above it (xy, xz, yz).
+/// Symmetric matrix from its diagonal and the elements above it (xy, xz, yz).
 inline Eigen::Matrix3d symmetric_matrix(const Eigen::Vector3d& diagonal,
                                         const Eigen::Vector3d& beside) {
   Eigen::Matrix3d m = diagonal.asDiagonal();
@@ -29,8 +29,8 @@ struct Odometry {
   Pose X_WB;
   Eigen::Vector3d v_WB_B = Eigen::Vector3d::Zero();  ///< velocity of B's origin, m/s, in B
   Eigen::Vector3d w_WB_B = Eigen::Vector3d::Zero();  ///< angular velocity, rad/s, in B
-  /// Of the position's error in W: variances (xx, yy, zz) and covariances (xy, xz, yz), m2; zero
-  /// for truth.
+  /// Covariance of the position error in W: variances (xx, yy, zz) and covariances (xy, xz, yz),
+  /// m2; zero for truth.
   Eigen::Vector3d position_variance_m2 = Eigen::Vector3d::Zero();
   Eigen::Vector3d position_covariance_m2 = Eigen::Vector3d::Zero();
   double yaw_std_rad = 0.0;
@@ -45,7 +45,7 @@ struct Odometry {
     f({"yaw_std", "rad"}, self.yaw_std_rad);
   }
 
-  /// Both as one symmetric matrix.
+  /// Variances and covariances as one symmetric matrix.
   Eigen::Matrix3d position_covariance() const {
     return symmetric_matrix(position_variance_m2, position_covariance_m2);
   }
@@ -55,13 +55,13 @@ struct Odometry {
   }
 };
 
-/// A set that is to contain the true position: (p - c)' P^-1 (p - c) <= 1. ROS 2:
+/// Ellipsoid that should contain the true position: (p - c)' P^-1 (p - c) <= 1. ROS 2:
 /// geometry_msgs/msg/PoseWithCovarianceStamped.
 struct PositionEllipsoid {
   static constexpr const char* kType = "PositionEllipsoid";
   static constexpr MessageFrame kFrame = MessageFrame::kWorld;
   Eigen::Vector3d centre_W = Eigen::Vector3d::Zero();
-  /// P in W: diagonal (xx, yy, zz) and what is beside it (xy, xz, yz), m2.
+  /// P in W: diagonal (xx, yy, zz) and off-diagonal elements (xy, xz, yz), m2.
   Eigen::Vector3d shape_diagonal_m2 = Eigen::Vector3d::Zero();
   Eigen::Vector3d shape_beside_m2 = Eigen::Vector3d::Zero();
 

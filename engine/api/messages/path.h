@@ -1,6 +1,6 @@
 #pragma once
-/// Messages about paths: a plan, how far it may be followed, and how a follower does on it.
-/// Frames and units: engine/api/messages.h.
+/// Path messages: a plan, the distance up to which it may be followed, and the state of a follower
+/// on it. Frames and units: engine/api/messages.h.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace vinerow {
 
-/// Straight pieces in W, two points each: a planner's tree. ROS 2: visualization_msgs/msg/Marker
+/// Line segments in W, two points each: a planner's tree. ROS 2: visualization_msgs/msg/Marker
 /// (LINE_LIST).
 struct LineList {
   static constexpr const char* kType = "LineList";
@@ -21,17 +21,17 @@ struct LineList {
 
   template <class Self, class F>
   static void fields(Self& self, F&& f) {
-    f({"points", "m", "two a piece"}, self.points_W);
+    f({"points", "m", "two per segment"}, self.points_W);
   }
 };
 
-/// What a stretch of path is for. Metrics judge legs and turns apart.
+/// Purpose of a stretch of path. Metrics judge legs and turns apart.
 enum class PathKind : std::uint8_t {
   kLeg = 0,
   kTurn = 1,
   kTransit = 2,
   kVertical = 3,  ///< straight up or down: a take-off, a landing
-  kReturn = 4     ///< the way home after the last leg
+  kReturn = 4     ///< return path after the last leg
 };
 
 inline std::span<const EnumName> enum_names(PathKind) {
@@ -45,13 +45,13 @@ inline std::span<const EnumName> enum_names(PathKind) {
   return kNames;
 }
 
-/// One point of a path; the stretch from this point to the next has `kind`.
+/// Point of a path. `kind` is that of the stretch from this point to the next.
 struct PathPoint {
   static constexpr const char* kType = "PathPoint";
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
   double yaw_rad = 0.0;          ///< direction of travel
   double curvature_per_m = 0.0;  ///< of the stretch that starts here, positive to the left
-  double speed_mps = 0.0;        ///< wanted speed; 0 = the follower's own
+  double speed_mps = 0.0;        ///< desired speed; 0 = the follower's own
   PathKind kind = PathKind::kLeg;
   std::int32_t alley = -1;  ///< index of the alley a leg runs in, -1 elsewhere
 
@@ -67,7 +67,7 @@ struct PathPoint {
   }
 };
 
-/// What a follower is to drive. ROS 2: nav_msgs/msg/Path.
+/// Path for a follower. ROS 2: nav_msgs/msg/Path.
 struct PlannedPath {
   static constexpr const char* kType = "PlannedPath";
   static constexpr MessageFrame kFrame = MessageFrame::kWorld;
@@ -81,23 +81,24 @@ struct PlannedPath {
   }
 };
 
-/// How far a vehicle may go along its plan: what whoever shares the alleys out grants it. Without
-/// one it may go to the end. ROS 2: vinerow_msgs/msg/MovementAuthority.
+/// Movement authority: distance along its plan up to which a vehicle may go, granted by the traffic
+/// control of the alleys. Without one it may go to the end. ROS 2:
+/// vinerow_msgs/msg/MovementAuthority.
 struct MovementAuthority {
   static constexpr const char* kType = "MovementAuthority";
-  double stop_at_m = 0.0;     ///< distance along the plan at which to stand still; +infinity: none
-  std::int32_t alley = -1;    ///< waited for; -1: none
-  std::string holder;         ///< vehicle that has it; "" where nobody is waited for
+  double stop_at_m = 0.0;     ///< distance along the plan at which to stop; +infinity: none
+  std::int32_t alley = -1;    ///< alley that the vehicle waits for; -1: none
+  std::string holder;         ///< vehicle that occupies it; "" if nobody does
 
   template <class Self, class F>
   static void fields(Self& self, F&& f) {
     f({"stop_at", "m", "along the plan; +inf: to its end"}, self.stop_at_m);
-    f({"alley", "", "waited for; -1: none"}, self.alley);
-    f({"holder", "", "who has it"}, self.holder);
+    f({"alley", "", "that the vehicle waits for; -1: none"}, self.alley);
+    f({"holder", "", "vehicle that occupies the alley"}, self.holder);
   }
 };
 
-/// How a follower sees itself on its path (from its estimate, not from truth).
+/// State of a follower on its path, from its estimate, not from the truth.
 struct FollowerState {
   static constexpr const char* kType = "FollowerState";
   double lateral_error_m = 0.0;  ///< positive: left of the path

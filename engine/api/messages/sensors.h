@@ -1,6 +1,5 @@
 #pragma once
-/// Messages of sensors: readings as a vehicle gets them.
-/// Frames and units: engine/api/messages.h.
+/// Sensor messages: readings as a vehicle gets them. Frames and units: engine/api/messages.h.
 
 #include <Eigen/Core>
 #include <array>
@@ -40,22 +39,22 @@ struct GnssFix {
     kFixed = 4        ///< carrier phase, ambiguities resolved
   };
   bool valid = false;
-  Mode mode = Mode::kNone;      ///< kNone too where the receiver's model knows no modes
-  std::int32_t satellites = 0;  ///< used; 0 where the model knows none
+  Mode mode = Mode::kNone;      ///< also kNone if the receiver's model has no modes
+  std::int32_t satellites = 0;  ///< used; 0 if the model does not count them
   double latitude_rad = 0.0;
   double longitude_rad = 0.0;
   double altitude_m = 0.0;                          ///< above the ellipsoid
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();    ///< antenna, m
   Eigen::Vector3d v_W = Eigen::Vector3d::Zero();    ///< m/s
   Eigen::Vector3d std_m = Eigen::Vector3d::Zero();  ///< 1 sigma east, north, up
-  double velocity_std_mps = 0.0;                    ///< 1 sigma of each component; 0: not told
+  double velocity_std_mps = 0.0;                    ///< 1 sigma of each component; 0: unknown
 
   template <class Self, class F>
   static void fields(Self& self, F&& f) {
     f({"valid"}, self.valid);
     f({"mode"}, self.mode);
-    f({"satellites", "", "used; 0: not told"}, self.satellites);
-    f({"velocity_std", "m/s", "of each component; 0: not told"}, self.velocity_std_mps);
+    f({"satellites", "", "used; 0: unknown"}, self.satellites);
+    f({"velocity_std", "m/s", "of each component; 0: unknown"}, self.velocity_std_mps);
     f({"latitude", "rad"}, self.latitude_rad);
     f({"longitude", "rad"}, self.longitude_rad);
     f({"altitude", "m", "above the ellipsoid"}, self.altitude_m);
@@ -84,7 +83,7 @@ struct RangeSample {
   double min_range_m = 0.0;
   double max_range_m = 0.0;
   double half_angle_rad = 0.0;
-  Pose X_WS;  ///< true pose of the sensor at the reading, for pictures and checks
+  Pose X_WS;  ///< true pose of the sensor at the time of the reading, for pictures and checks
 
   template <class Self, class F>
   static void fields(Self& self, F&& f) {
@@ -132,7 +131,7 @@ struct LaserScan {
   double angle_step_rad = 0.0;
   double min_range_m = 0.0;
   double max_range_m = 0.0;
-  std::vector<double> ranges_m;  ///< +infinity where nothing was seen; constant in number
+  std::vector<double> ranges_m;  ///< +infinity if nothing was seen; constant in number
   Pose X_WS;                     ///< true pose of the sensor at the stamp, for pictures and checks
 
   template <class Self, class F>
@@ -146,7 +145,7 @@ struct LaserScan {
   }
 };
 
-/// Velocity through the air, as a pitot tube with vanes tells it. ROS 2:
+/// Velocity through the air, measured by a pitot tube with vanes. ROS 2:
 /// geometry_msgs/msg/Vector3Stamped.
 struct AirData {
   static constexpr const char* kType = "AirData";
@@ -164,8 +163,8 @@ struct CameraShot {
   static constexpr MessageFrame kFrame = MessageFrame::kWorld;
   std::int32_t index = -1;  ///< counted from 0; -1: none yet
   Pose X_WS;                ///< x of S along the optical axis, y to the picture's left, z up in it
-  /// Where the picture's corners meet the ground: upper left, upper right, lower right, lower left,
-  /// m. Only where `on_ground`.
+  /// Points at which the picture's corners meet the ground: upper left, upper right, lower right,
+  /// lower left, m. Valid only if `on_ground`.
   std::array<Eigen::Vector3d, 4> corners_W = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
                                               Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   bool on_ground = false;   ///< every corner meets the ground

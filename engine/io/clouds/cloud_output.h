@@ -1,5 +1,5 @@
 #pragma once
-/// The bytes of a point cloud that is being written.
+/// Output buffer of the point cloud writers.
 
 #include <array>
 #include <bit>
@@ -13,10 +13,10 @@
 
 namespace vinerow::io {
 
-/// A file written from its start, with places overwritten at the end.
+/// File that is written from start to end, then patched at given positions.
 class CloudOutput {
  public:
-  /// @throws ConfigError where the file cannot be made
+  /// @throws ConfigError if the file cannot be created
   explicit CloudOutput(const std::filesystem::path& file);
 
   /// Little-endian.
@@ -31,24 +31,24 @@ class CloudOutput {
     pending_ += text;
     if (text.size() < padded_to) pending_.append(padded_to - text.size(), '\0');
   }
-  /// Writes what was put where that has become much: call it after each point.
+  /// Writes the pending bytes if there are 64 KiB of them or more. Call it after each point.
   void flush_if_long() {
     constexpr std::size_t kLong = 1 << 16;
     if (pending_.size() >= kLong) flush();
   }
-  /// Writes what was put. @throws WriteError where the disk refuses
+  /// Writes the pending bytes. @throws WriteError if the write fails
   void flush();
-  /// Overwrites what lies at a byte from the start, after a flush.
+  /// Overwrites bytes at an offset from the start of the file. @pre flush() was called
   void overwrite_text(std::uint64_t at, std::string_view bytes);
   template <class T>
   void overwrite(std::uint64_t at, T value) {
     const auto bytes = std::bit_cast<std::array<char, sizeof(T)>>(value);
     overwrite_text(at, {bytes.data(), bytes.size()});
   }
-  /// Ends the file, which has its name from here on. @throws WriteError where it is not whole
+  /// Closes the file and gives it its final name. @throws WriteError if it is incomplete
   void close();
 
-  /// @throws ConfigError where a coordinate is not finite
+  /// @throws ConfigError if a coordinate is not finite
   void check_finite(const CloudPoint& point) const;
   /// "point cloud 'file' sentence" as ConfigError.
   [[noreturn]] void fail(const std::string& sentence) const;

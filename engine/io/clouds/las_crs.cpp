@@ -42,7 +42,7 @@ void LasCrs::read(BlockFile& file, int record_id, std::uint64_t bytes) {
 
 void LasCrs::read_keys(std::span<const std::uint8_t> data) {
   // Four 16-bit numbers: version, revision, minor, count of keys; then four for each key: id,
-  // where its value is (0: in the fourth number), count, value.
+  // location of the value (0: the fourth number), count, value.
   const auto at = [&](std::size_t k) { return int{load<std::uint16_t>(data.data() + 2 * k)}; };
   if (data.size() < 8) return;
   const std::size_t keys =

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::array<std::size_t, 11> kPointBytes = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
 
-/// Text of fixed length, without what follows its first NUL.
+/// Text of fixed length up to its first NUL.
 std::string text_of(const std::uint8_t* bytes, std::size_t count) {
   std::string text(reinterpret_cast<const char*>(bytes), count);
   text.resize(std::min(text.find('\0'), text.size()));
@@ -22,13 +22,14 @@ std::string text_of(const std::uint8_t* bytes, std::size_t count) {
 
 [[noreturn]] void fail_compressed(const BlockFile& file) {
   file.fail(
-      "is compressed (LAZ), which is not read; Debian 12 has no program for it, Python's laspy "
+      "is compressed (LAZ), which is not supported; Debian 12 has no program for it, Python's "
+      "laspy "
       "has: "
       "pip install 'laspy[lazrs]', then python3 -c \"import laspy; "
       "laspy.read('in.laz').write('out.las')\"");
 }
 
-/// Smallest header of LAS 1.2, 1.3, 1.4.
+/// Minimum header size of LAS 1.2, 1.3, 1.4.
 std::size_t header_bytes(int minor) {
   return minor == 2 ? 227 : minor == 3 ? 235 : 375;
 }
@@ -40,7 +41,7 @@ struct Records {
   bool extended = false;
 };
 
-/// Goes through (extended) variable length records.
+/// Reads the (extended) variable length records.
 void read_records(BlockFile& file, const Records& records, LasCrs& crs) {
   const std::size_t head_bytes = records.extended ? 60 : 54;
   std::uint64_t at = records.at;
@@ -97,7 +98,7 @@ void read_grid(const BlockFile& file, const std::uint8_t* head, LasHeader& heade
   }
 }
 
-/// Demands that the counted points are there, and no more.
+/// Checks that the file has exactly the counted points.
 void check_count(const BlockFile& file, const LasHeader& header) {
   const std::uint64_t held =
       (header.points_end - std::min(header.points_end, header.points_at)) / header.record_bytes;
@@ -109,10 +110,10 @@ void check_count(const BlockFile& file, const LasHeader& header) {
     file.fail(fmt::format("has more data than its header counts: {} points, it holds {}",
                           header.point_count, held));
   }
-  // A byte too many in the middle shifts every point behind it to where it never was.
+  // A surplus byte in the middle would shift all later points.
   const std::uint64_t rest = header.points_end - header.points_at - held * header.record_bytes;
   if (header.points_end == file.size() && rest > 0) {
-    file.fail(fmt::format("is damaged: behind its {} points are {} bytes, less than one more",
+    file.fail(fmt::format("is damaged: {} points are followed by {} bytes, less than one point",
                           header.point_count, rest));
   }
 }
@@ -182,8 +183,8 @@ LasHeader read_las_header(BlockFile& file) {
   }
   read_records(file, {load<std::uint32_t>(head + 100), own_bytes, header.points_at, false}, crs);
 
-  // What follows the points: waveforms inside the file, then extended records. Either may lie
-  // where a cut file no longer reaches.
+  // The points are followed by waveforms inside the file, then by extended records. In a truncated
+  // file, both offsets can be beyond the end.
   header.points_end = file.size();
   const auto end_before = [&](std::uint64_t at) {
     if (at >= header.points_at) header.points_end = std::min(header.points_end, at);

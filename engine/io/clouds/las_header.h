@@ -1,5 +1,5 @@
 #pragma once
-/// The public header block and the CRS of a LAS file.
+/// Public header block and CRS of a LAS file.
 
 #include <Eigen/Geometry>
 #include <cstdint>
@@ -13,23 +13,24 @@ namespace vinerow::io {
 struct LasHeader {
   int minor = 2;                 ///< of version 1.x
   int point_format = 0;          ///< 0 to 10
-  std::size_t record_bytes = 0;  ///< of a point, with extra bytes
-  std::uint64_t points_at = 0;   ///< byte of the first point
-  std::uint64_t points_end = 0;  ///< byte after what may be points
+  std::size_t record_bytes = 0;  ///< of a point record, extra bytes included
+  std::uint64_t points_at = 0;   ///< offset of the first point
+  std::uint64_t points_end = 0;  ///< offset of the end of the point data
   std::uint64_t point_count = 0;
   Eigen::Vector3d scale = {1, 1, 1};  ///< position = scale * integer + offset
   Eigen::Vector3d offset = {0, 0, 0};
-  std::optional<Eigen::AlignedBox3d> bounds;  ///< nullopt where it cannot be (lower > upper)
+  std::optional<Eigen::AlignedBox3d> bounds;  ///< nullopt if invalid (lower > upper)
   std::string crs;                            ///< as PointCloudInfo::crs
 };
 
-/// Bytes that the specification gives a point of the format 0 to 10.
+/// Size of a point record of format 0 to 10 by the specification, in bytes.
 std::size_t las_point_bytes(int format);
-/// Byte of red in a point of the format; nullopt for formats without colour.
+/// Offset of the red value in a point record; nullopt for formats without colour.
 std::optional<std::size_t> las_colour_at(int format);
 
-/// Reads header and variable length records, and checks that the points it counts are there.
-/// @throws ConfigError naming the file and what is wrong; for LAZ with how to decompress it
+/// Reads the header and the variable length records, and checks that the file has the counted
+/// points.
+/// @throws ConfigError naming the file and the fault; for LAZ also how to decompress it
 LasHeader read_las_header(BlockFile& file);
 
 }  // namespace vinerow::io

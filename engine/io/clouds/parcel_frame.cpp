@@ -9,8 +9,8 @@
 namespace vinerow::io {
 namespace {
 
-/// Coefficients, a column for each column of `values`, of the functions whose values are the
-/// columns of `terms`. One type for both fits: a decomposition is expensive to compile.
+/// Least-squares coefficients of the functions in the columns of `terms`, one column for each
+/// column of `values`. One matrix type for both fits: a decomposition is expensive to compile.
 Eigen::MatrixXd fit_terms(const Eigen::MatrixXd& terms, const Eigen::MatrixXd& values) {
   return terms.householderQr().solve(values);
 }
@@ -19,7 +19,7 @@ Eigen::MatrixXd fit_terms(const Eigen::MatrixXd& terms, const Eigen::MatrixXd& v
 
 ParcelFrame::ParcelFrame(const CloudFrame& exact, const Eigen::AlignedBox3d& box)
     : exact_(&exact), middle_(box.center()), half_(0.5 * box.sizes()) {
-  // A box without width is a point or a line in it: any width does.
+  // For a box without width, any positive half width is suitable.
   const double widest = std::max(half_.head<2>().maxCoeff(), 1e-6);
   for (int k = 0; k < 2; ++k) half_[k] = std::max(half_[k], 1e-3 * widest);
   half_.z() = std::max(half_.z(), 1.0);
@@ -28,7 +28,7 @@ ParcelFrame::ParcelFrame(const CloudFrame& exact, const Eigen::AlignedBox3d& box
     fit();
     is_fitted_ = measured_error_m() <= kError_m;
   } catch (const ConfigError&) {
-    // A corner lies outside of the CRS. Points may not.
+    // A corner cannot be transformed, but the points might: use the exact frame.
   }
 }
 
@@ -43,7 +43,7 @@ Eigen::Vector3d ParcelFrame::at(double u, double v, double w) const {
   return middle_ + half_.cwiseProduct(Eigen::Vector3d(u, v, w));
 }
 
-/// Least squares at the nodes of Chebyshev, which keep the error even up to the box's edges.
+/// Least squares at Chebyshev nodes, for an even error up to the edges of the box.
 void ParcelFrame::fit() {
   constexpr int kNodes = 6;
   Eigen::Matrix<double, kNodes * kNodes, kTerms> terms;
@@ -82,7 +82,7 @@ double ParcelFrame::measured_error_m() const {
 Eigen::Vector3d ParcelFrame::fitted(const Eigen::Vector3d& position) const {
   const Eigen::Vector3d d = position - middle_;
   const Terms terms = terms_of(d.x() / half_.x(), d.y() / half_.y());
-  // Column by column: Eigen's product of such a shape takes four times as long.
+  // Column by column: Eigen's product takes four times as long for this shape.
   Eigen::Vector4d sum = place_.col(0) + d.z() * slope_.col(0);
   for (int k = 1; k < kSlopeTerms; ++k) {
     sum += terms[k] * (place_.col(k) + d.z() * slope_.col(k));

@@ -12,9 +12,9 @@ namespace {
 
 using Lines = std::map<std::string, std::vector<std::string>, std::less<>>;
 
-/// The lines of the header by their first word, up to DATA.
+/// Reads the lines of the header up to DATA, by their first word.
 Lines read_lines(BlockFile& file) {
-  constexpr std::uint64_t kMostLines = 1'000;
+  constexpr std::uint64_t kMaxLines = 1'000;
   constexpr std::size_t kLongestLine = 10'000;
   constexpr std::array<std::string_view, 11> kKnown = {"VERSION",   "FIELDS", "COLUMNS", "SIZE",
                                                        "TYPE",      "COUNT",  "WIDTH",   "HEIGHT",
@@ -22,9 +22,9 @@ Lines read_lines(BlockFile& file) {
   Lines lines;
   std::string_view line;
   while (file.line(&line)) {
-    if (file.line_number() > kMostLines || line.size() > kLongestLine) {
+    if (file.line_number() > kMaxLines || line.size() > kLongestLine) {
       file.fail(fmt::format("has no PCD header: no DATA within {} lines of at most {} bytes",
-                            kMostLines, kLongestLine));
+                            kMaxLines, kLongestLine));
     }
     const std::string key(next_word(&line));
     if (key.empty() || key.starts_with('#')) continue;
@@ -111,10 +111,10 @@ void read_pcd_fields(const BlockFile& file, const Lines& lines, PcdHeader& heade
 void read_pcd_count(const BlockFile& file, const Lines& lines, PcdHeader& header) {
   const std::uint64_t width = number(file, "WIDTH", demand(file, lines, "WIDTH").front());
   const std::uint64_t height = number(file, "HEIGHT", demand(file, lines, "HEIGHT").front());
-  // No file has more bytes than this, so no honest product overflows.
-  constexpr std::uint64_t kMost = std::uint64_t{1} << 31;
-  if (width > kMost || height > kMost) {
-    file.fail(fmt::format("has WIDTH {} and HEIGHT {}, must be at most {}", width, height, kMost));
+  // Chosen: beyond any real cloud; the product of two such numbers fits into 64 bits.
+  constexpr std::uint64_t kMax = std::uint64_t{1} << 31;
+  if (width > kMax || height > kMax) {
+    file.fail(fmt::format("has WIDTH {} and HEIGHT {}, must be at most {}", width, height, kMax));
   }
   header.points = width * height;
   const auto told = lines.find("POINTS");
@@ -133,7 +133,7 @@ PcdHeader read_pcd_header(BlockFile& file) {
   const std::string& data = demand(file, lines, "DATA").front();
   if (data == "binary_compressed") {
     file.fail(
-        "is compressed (DATA binary_compressed), which is not read; decompress it first, "
+        "is compressed (DATA binary_compressed), which is not supported; decompress it first, "
         "with 'pcl_convert_pcd_ascii_binary in.pcd out.pcd 1'");
   }
   if (data != "ascii" && data != "binary") {

@@ -1,5 +1,5 @@
 #pragma once
-/// The header of a PCD file as it is written.
+/// Header of a PCD file.
 
 #include <cstdint>
 #include <string>
@@ -14,7 +14,7 @@ struct PcdField {
   std::string name;
   Scalar type = Scalar::kF32;
   std::size_t count = 1;  ///< values of this field in a point
-  std::size_t at = 0;     ///< byte of the first value in a binary point
+  std::size_t at = 0;     ///< offset of the first value in a binary point
 };
 
 struct PcdHeader {
@@ -24,7 +24,7 @@ struct PcdHeader {
   std::vector<PcdField> fields;
 };
 
-/// Reads up to and with the line DATA. @throws ConfigError naming the file and what is wrong
+/// Reads up to and including the line DATA. @throws ConfigError naming the file and the fault
 PcdHeader read_pcd_header(BlockFile& file);
 
 }  // namespace vinerow::io

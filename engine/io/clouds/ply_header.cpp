@@ -8,10 +8,10 @@
 namespace vinerow::io {
 namespace {
 
-constexpr std::uint64_t kMostLines = 10'000;
-constexpr std::uint64_t kMostBytes = 1 << 20;
-constexpr std::size_t kMostProperties = 1'000;
-constexpr std::size_t kMostComments = 100;
+constexpr std::uint64_t kMaxLines = 10'000;
+constexpr std::uint64_t kMaxBytes = 1 << 20;
+constexpr std::size_t kMaxProperties = 1'000;
+constexpr std::size_t kMaxComments = 100;
 
 Scalar parse_type(const BlockFile& file, std::string_view word) {
   constexpr std::array<std::pair<std::string_view, Scalar>, 16> kTypes = {{
@@ -62,7 +62,7 @@ void read_element(const BlockFile& file, std::string_view line, PlyHeader& heade
                           count, element.name));
   }
   element.count = *number;
-  if (header.elements.size() >= kMostProperties) file.fail("has too many elements");
+  if (header.elements.size() >= kMaxProperties) file.fail("has too many elements");
   header.elements.push_back(std::move(element));
 }
 
@@ -86,8 +86,8 @@ void read_property(const BlockFile& file, std::string_view line, PlyHeader& head
     file.fail(fmt::format("has a property without name in line {}", file.line_number()));
   }
   std::vector<PlyProperty>& properties = header.elements.back().properties;
-  if (properties.size() >= kMostProperties) {
-    file.fail(fmt::format("has more than {} properties in the element '{}'", kMostProperties,
+  if (properties.size() >= kMaxProperties) {
+    file.fail(fmt::format("has more than {} properties in the element '{}'", kMaxProperties,
                           header.elements.back().name));
   }
   properties.push_back(std::move(property));
@@ -116,9 +116,9 @@ PlyHeader read_ply_header(BlockFile& file) {
   std::string_view line;
   file.line(&line);  // "ply"
   while (file.line(&line)) {
-    if (file.line_number() > kMostLines || file.position() > kMostBytes) {
+    if (file.line_number() > kMaxLines || file.position() > kMaxBytes) {
       file.fail(fmt::format("has no PLY header: no end_header within {} lines and {} bytes",
-                            kMostLines, kMostBytes));
+                            kMaxLines, kMaxBytes));
     }
     const std::string_view keyword = next_word(&line);
     if (keyword == "end_header") {
@@ -133,7 +133,7 @@ PlyHeader read_ply_header(BlockFile& file) {
     } else if (keyword == "property") {
       read_property(file, line, header);
     } else if (keyword == "comment") {
-      if (header.comments.size() < kMostComments) header.comments.emplace_back(line);
+      if (header.comments.size() < kMaxComments) header.comments.emplace_back(line);
     } else if (keyword != "obj_info" && !keyword.empty()) {
       file.fail(fmt::format("has the unknown word '{}' in line {} of its header",
                             keyword.substr(0, 40), file.line_number()));

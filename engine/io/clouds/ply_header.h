@@ -1,5 +1,5 @@
 #pragma once
-/// The header of a PLY file as it is written.
+/// Header of a PLY file.
 
 #include <bit>
 #include <cstdint>
@@ -24,17 +24,17 @@ struct PlyElement {
   std::vector<PlyProperty> properties;
 
   bool has_lists() const;
-  std::size_t fixed_bytes() const;  ///< of one instance without its lists, in a binary file
+  std::size_t fixed_bytes() const;  ///< bytes of one instance without its lists, in a binary file
 };
 
 struct PlyHeader {
   bool ascii = false;
-  std::endian order = std::endian::little;  ///< of a binary file
+  std::endian order = std::endian::little;  ///< byte order of a binary file
   std::vector<PlyElement> elements;
   std::vector<std::string> comments;  ///< without the word "comment"; at most 100
 };
 
-/// Reads up to and with end_header. @throws ConfigError naming file, line and what is wrong
+/// Reads up to and including end_header. @throws ConfigError naming file, line and fault
 PlyHeader read_ply_header(BlockFile& file);
 
 }  // namespace vinerow::io

@@ -59,7 +59,7 @@ std::unique_ptr<PointCloudReader> open_point_cloud(BlockFile bytes) {
   if (begin.starts_with("# .PCD") || begin.starts_with("VERSION")) {
     return open_pcd(std::move(bytes));
   }
-  // The extension says what was meant, so the sentence can say what is wrong.
+  // The extension shows the intended format, so the message can name the fault.
   if (extension == ".las" || extension == ".laz") bytes.fail_kind(begin, "LAS file", "LASF");
   if (extension == ".ply") bytes.fail_kind(begin, "PLY file", "ply");
   if (extension == ".pcd") bytes.fail_kind(begin, "PCD file", "# .PCD or VERSION");

@@ -1,12 +1,12 @@
 #pragma once
-/// Point clouds from files, a block of points at a time: PLY, LAS 1.2 to 1.4, PCD, XYZ and CSV.
+/// Block-wise reader of point cloud files: PLY, LAS 1.2 to 1.4, PCD, XYZ and CSV.
 ///
-/// Positions are the file's own numbers as double: metres of a local frame, or coordinates of the
-/// CRS that the file names (PointCloudInfo::crs); point_cloud_frame.h brings them to W. Points are
-/// given in file order, equal ones as often as the file has them.
+/// Positions are the file's own numbers as double: metres in a local frame, or coordinates in the
+/// CRS that the file names (PointCloudInfo::crs). CloudFrame (point_cloud_crs.h) transforms them to
+/// W. Points keep the file's order; duplicates are kept.
 ///
-/// Memory: a reader holds at most kPointCloudMemory bytes, however long the file is, and read()
-/// takes none from the heap.
+/// Memory: a reader holds at most kPointCloudMemory bytes for files of any length, and read() does
+/// not allocate.
 
 #include <Eigen/Geometry>
 #include <array>
@@ -21,33 +21,33 @@ namespace vinerow::io {
 
 class BlockFile;
 
-inline constexpr std::size_t kPointCloudMemory = 4 << 20;  ///< bytes of an open reader, at most
+inline constexpr std::size_t kPointCloudMemory = 4 << 20;  ///< bytes per open reader, maximum
 
-/// One point as a file tells it.
+/// One point of a file.
 struct CloudPoint {
   Eigen::Vector3d position = {0, 0, 0};            ///< finite; in the file's frame and unit
-  std::optional<std::array<std::uint8_t, 3>> rgb;  ///< as on a screen (sRGB)
+  std::optional<std::array<std::uint8_t, 3>> rgb;  ///< sRGB
   std::optional<std::uint8_t> classification;      ///< as in LAS: 2 ground, 3 to 5 vegetation
 };
 
-/// What a file says of itself before its points. Bounds are the file's word and not checked.
+/// Metadata of a point cloud from its header. The bounds are the header's and not checked.
 struct PointCloudInfo {
   std::string format;                         ///< "LAS 1.4", "PLY"
-  std::optional<std::uint64_t> record_count;  ///< of the header, with what read() leaves out
+  std::optional<std::uint64_t> record_count;  ///< from the header, with skipped records
   std::optional<Eigen::AlignedBox3d> bounds;  ///< in the file's frame and unit
   bool has_colour = false;
   bool has_classification = false;
-  std::string crs;  ///< "EPSG:25832", "EPSG:25832+7837" (with heights), WKT, or "" where untold
+  std::string crs;  ///< "EPSG:25832", "EPSG:25832+7837" (with heights), WKT, or "" if unknown
 };
 
-/// What read() has met so far.
+/// Counts of the records read so far.
 struct PointCloudTally {
   std::uint64_t given = 0;
-  std::uint64_t not_finite = 0;  ///< left out: a coordinate is NaN or infinite
-  std::uint64_t withheld = 0;    ///< left out: LAS marks them as deleted
+  std::uint64_t not_finite = 0;  ///< skipped: a coordinate is NaN or infinite
+  std::uint64_t withheld = 0;    ///< skipped: LAS marks them as deleted
 };
 
-/// An open file, read once from its first point to its last.
+/// Reader of an open file; each point is read once, in file order.
 class PointCloudReader {
  public:
   virtual ~PointCloudReader() = default;
@@ -57,15 +57,15 @@ class PointCloudReader {
   const PointCloudInfo& info() const { return info_; }
   const PointCloudTally& tally() const { return tally_; }
 
-  /// Fills `block` from its front. @returns how many points; fewer than block.size() at the end
-  /// alone. @throws ConfigError naming the file: cut off, a text that is no number, more or fewer
-  /// points than its header counts (both numbers are told)
+  /// Fills `block` from its front. @returns the number of points, less than block.size() only at
+  /// the end of the file. @throws ConfigError naming the file: truncated, a text that is not a
+  /// number, or more or fewer points than the header counts (with both numbers)
   std::size_t read(std::span<CloudPoint> block);
 
  protected:
   enum class Next { kPoint, kWithheld, kEnd };
   PointCloudReader() = default;
-  /// The next record, finite or not. Sets every field of `point` where it gives kPoint.
+  /// Reads the next record, finite or not. Sets every field of `point` if it returns kPoint.
   virtual Next next(CloudPoint& point) = 0;
   PointCloudInfo info_;
 
@@ -74,12 +74,12 @@ class PointCloudReader {
   bool ended_ = false;
 };
 
-/// The reader for the file: by its first bytes, or by its extension (.xyz .txt .csv .asc .pts).
-/// @throws ConfigError naming the file: missing, empty, of an unknown format, a header that cannot
-/// be, data shorter or longer than the header counts, compressed (LAZ, binary_compressed PCD: with
-/// how to decompress it)
+/// Opens a file. Its first bytes or its extension (.xyz .txt .csv .asc .pts) select the format.
+/// @throws ConfigError naming the file: missing, empty, unknown format, invalid header, data
+/// shorter or longer than the header states, or compressed (LAZ, binary_compressed PCD; the message
+/// says how to decompress it)
 std::unique_ptr<PointCloudReader> open_point_cloud(const std::filesystem::path& file);
-/// The same of bytes that are open, at their first.
+/// The same for an open file at its first byte.
 std::unique_ptr<PointCloudReader> open_point_cloud(BlockFile bytes);
 
 }  // namespace vinerow::io

@@ -17,14 +17,14 @@
 namespace vinerow::io {
 namespace {
 
-/// Metres of one unit of z.
+/// Unit of z in metres.
 double height_unit_m(const OGRSpatialReference& crs) {
   if (crs.IsCompound() || crs.IsVertical()) return crs.GetTargetLinearUnits("VERT_CS");
   return crs.IsProjected() ? crs.GetLinearUnits() : 1.0;
 }
 
-/// Degrees of longitude and latitude. What PROJ cannot convert it makes infinite, and from WGS84 to
-/// itself it passes on whatever it is given.
+/// True for a valid longitude and latitude in degrees. PROJ returns infinity for positions that it
+/// cannot transform, but passes all numbers through from WGS84 to WGS84.
 bool is_on_earth(double x, double y) {
   return std::abs(x) <= 360.0 && std::abs(y) <= 90.0;
 }
@@ -51,7 +51,7 @@ struct CloudFrame::Impl {
     OGRSpatialReference crs = parse_crs(text);
     height_m = height_unit_m(crs);
     name = crs.GetName() ? crs.GetName() : "unknown";
-    // Heights go their own way, so that no geoid is taken where PROJ happens to have its grid.
+    // Heights are handled separately, so that PROJ does not apply a geoid if it has the grid.
     if (crs.IsCompound()) crs.StripVertical();
     crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
     OGRSpatialReference wgs84;
@@ -59,7 +59,7 @@ struct CloudFrame::Impl {
     wgs84.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
     to_wgs84.reset(OGRCreateCoordinateTransformation(&crs, &wgs84));
     if (!to_wgs84) {
-      throw ConfigError(fmt::format("crs '{}' does not convert to WGS84", name));
+      throw ConfigError(fmt::format("crs '{}' cannot be transformed to WGS84", name));
     }
   }
 
@@ -80,8 +80,8 @@ Eigen::Vector3d CloudFrame::to_local(const Eigen::Vector3d& position) const {
   const QuietGdal quiet;
   double x = position.x(), y = position.y();
   if (!impl_->to_wgs84->Transform(1, &x, &y) || !is_on_earth(x, y)) {
-    throw ConfigError(fmt::format("point ({}, {}, {}) lies outside of the crs '{}'", position.x(),
-                                  position.y(), position.z(), impl_->name));
+    throw ConfigError(fmt::format("point ({}, {}, {}) is outside the area of the crs '{}'",
+                                  position.x(), position.y(), position.z(), impl_->name));
   }
   return impl_->frame.to_local({rad_from_deg(y), rad_from_deg(x), impl_->height_m * position.z()});
 }
@@ -97,7 +97,7 @@ void CloudFrame::to_local(std::span<CloudPoint> points) const {
       x[k] = block[k].position.x();
       y[k] = block[k].position.y();
     }
-    // A point that fails is found again below, where it is named.
+    // The check below finds points that could not be transformed and names them.
     impl_->to_wgs84->Transform(block.size(), x.data(), y.data());
     for (std::size_t k = 0; k < block.size(); ++k) {
       Eigen::Vector3d& position = block[k].position;
@@ -131,7 +131,7 @@ void check_cloud_unit(const std::filesystem::path& file, const std::string& crs,
                          parsed.GetName() ? parsed.GetName() : "unknown");
   }
   throw ConfigError(
-      fmt::format("point cloud '{}' looks as if it were in degrees (x {} to {}, y {} to {}, z {} "
+      fmt::format("point cloud '{}' seems to be in degrees (x {} to {}, y {} to {}, z {} "
                   "to {}), but {}",
                   file.string(), bounds.min().x(), bounds.max().x(), bounds.min().y(),
                   bounds.max().y(), bounds.min().z(), bounds.max().z(), reason));

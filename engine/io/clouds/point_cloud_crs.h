@@ -1,5 +1,5 @@
 #pragma once
-/// The coordinate reference systems of point clouds, and the way from them to W.
+/// Coordinate reference systems of point clouds, and the transformation to W.
 
 #include <cstdint>
 #include <filesystem>
@@ -17,24 +17,24 @@ struct EpsgCode {
   bool is_geographic = false;  ///< latitude and longitude; else projected
 };
 
-/// @param crs  "EPSG:25832". @throws ConfigError for anything but a two-dimensional geographic or a
+/// @param crs  "EPSG:25832". @throws ConfigError unless it is a two-dimensional geographic or
 /// projected system that PROJ knows
 EpsgCode find_epsg_code(const std::string& crs);
 
-/// Brings coordinates of a CRS to W: x is easting or longitude, y northing or latitude (in the
-/// CRS's unit, degrees for geographic ones), whatever the authority's own order is.
+/// Transformation from a CRS to W. x is easting or longitude, y northing or latitude, in the CRS's
+/// unit (degrees for geographic systems), regardless of the authority's axis order.
 ///
-/// Heights: z in the unit of the CRS's vertical part where it has one, else of a projected CRS,
-/// else metres. No geoid is applied: give the origin's altitude in the cloud's height system, as
-/// for rasters (raster.h). Not thread safe.
+/// Heights: z is in the unit of the CRS's vertical part, else of the projected CRS, else in metres.
+/// No geoid is applied: give the origin's altitude in the cloud's height system, as for rasters
+/// (raster.h). Not thread safe.
 class CloudFrame {
  public:
-  /// @param crs  "EPSG:25832", "EPSG:25832+7837", WKT, or what else PROJ reads
+  /// @param crs  "EPSG:25832", "EPSG:25832+7837", WKT, or another form that PROJ reads
   /// @throws ConfigError: `crs` is unknown, or does not convert to WGS84
   CloudFrame(const std::string& crs, const GeoOrigin& origin);
   ~CloudFrame();
 
-  /// @returns m in W. @throws ConfigError naming the coordinates where the CRS has no such place
+  /// @returns m in W. @throws ConfigError naming the coordinates if they cannot be transformed
   Eigen::Vector3d to_local(const Eigen::Vector3d& position) const;
   void to_local(std::span<CloudPoint> points) const;
 
@@ -43,13 +43,13 @@ class CloudFrame {
   std::unique_ptr<Impl> impl_;
 };
 
-/// True where the horizontal numbers can be degrees and make no sense as metres: within +-180 and
-/// +-90, and the cloud at least 20 times as high as it is wide.
+/// True if the horizontal coordinates look like degrees, not metres: they are within +-180 and
+/// +-90, and the cloud is at least 20 times as high as it is wide.
 bool looks_like_degrees(const Eigen::AlignedBox3d& bounds);
 
-/// Refuses a cloud whose coordinates look like degrees, though it has no CRS or a projected one.
-/// @param bounds  of the points, not the header's word. @throws ConfigError naming the file, the
-/// numbers and the way out; unknown `crs`
+/// Rejects a cloud whose coordinates look like degrees although it has no CRS or a projected one.
+/// @param bounds  of the points themselves, not the header's. @throws ConfigError naming the file,
+/// the numbers and the remedy; also if `crs` is unknown
 void check_cloud_unit(const std::filesystem::path& file, const std::string& crs,
                       const Eigen::AlignedBox3d& bounds);
 

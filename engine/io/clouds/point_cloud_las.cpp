@@ -11,7 +11,7 @@
 namespace vinerow::io {
 namespace {
 
-/// How many bits a file's colours are shifted to be bytes: 8, or 0 where all samples are bytes.
+/// Right shift of a file's colours to bytes: 8, or 0 if all samples are at most 255.
 int colour_shift(BlockFile& file, const LasHeader& header, std::size_t colour_at) {
   constexpr std::uint64_t kSamples = 1024;
   const std::uint64_t step = std::max<std::uint64_t>(1, header.point_count / kSamples);
@@ -44,12 +44,12 @@ class LasReader : public PointCloudReader {
   Next next(CloudPoint& point) override {
     if (at_ == header_.point_count) return Next::kEnd;
     const std::uint8_t* record = file_.take(header_.record_bytes);
-    if (record == nullptr) {  // the file became shorter since it was opened
+    if (record == nullptr) {  // the file was truncated after it was opened
       file_.fail(fmt::format("is cut off: its header counts {} points, it holds {}",
                              header_.point_count, at_));
     }
     ++at_;
-    // Formats 0 to 5 keep the flags in the classification's byte, 6 to 10 in the one before it.
+    // Formats 0 to 5 store the flags in the classification byte, 6 to 10 in the byte before it.
     const bool is_wide = header_.point_format >= 6;
     if (is_wide ? (record[15] & 0x04) != 0 : (record[15] & 0x80) != 0) return Next::kWithheld;
     point.classification = is_wide ? record[16] : static_cast<std::uint8_t>(record[15] & 0x1f);

@@ -121,7 +121,7 @@ class PcdReader : public PointCloudReader {
     if (&field != rgb_) return;
     if (field.type == Scalar::kF32) {
       packed_ = std::bit_cast<std::uint32_t>(static_cast<float>(value));
-      // As text, the bits of an opaque colour are no number, and the colour is lost.
+      // As text, the bits of an opaque colour are NaN, and the colour is lost.
       packed_known_ = !std::isnan(value);
     } else {
       packed_known_ = std::abs(value) < 1e10;

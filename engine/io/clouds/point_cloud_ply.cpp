@@ -11,7 +11,7 @@
 namespace vinerow::io {
 namespace {
 
-/// What a property of a vertex is to a point.
+/// Meaning of a vertex property for a point.
 enum class Role { kX, kY, kZ, kRed, kGreen, kBlue, kClass, kNone };
 constexpr std::size_t kRoles = 7;
 
@@ -100,7 +100,7 @@ class PlyReader : public PointCloudReader {
     info_.has_classification = has[6];
   }
 
-  /// Vertices of equal size are counted before the first is read.
+  /// Checks the file's size before the first vertex is read, if vertices have a fixed size.
   void check_size(bool nothing_follows) const {
     const std::uint64_t bytes = vertex_->fixed_bytes();
     const std::uint64_t held = file_.remaining() / bytes;
@@ -120,9 +120,9 @@ class PlyReader : public PointCloudReader {
                            element.count, element.name, held));
   }
 
-  /// Elements before the vertices.
+  /// Skips an element before the vertices.
   void skip(const PlyElement& element) {
-    if (element.properties.empty()) return;  // takes no bytes, however many there are
+    if (element.properties.empty()) return;  // takes no bytes for any count
     if (!header_.ascii && !element.has_lists()) {
       const std::uint64_t bytes = element.fixed_bytes();
       if (file_.remaining() / bytes < element.count) {
@@ -141,7 +141,7 @@ class PlyReader : public PointCloudReader {
     }
   }
 
-  /// A vertex without lists, whose numbers lie at known places.
+  /// Reads a vertex without lists; its numbers are at fixed offsets.
   void read_fixed() {
     const std::uint8_t* bytes = file_.take(fixed_bytes_);
     if (bytes == nullptr) fail_cut_off(at_);
@@ -176,7 +176,7 @@ class PlyReader : public PointCloudReader {
     file_.seek(file_.position() + bytes * static_cast<std::uint64_t>(count));
   }
 
-  /// The next line that is not blank.
+  /// Reads the next line that is not blank.
   bool next_line(std::string_view* line) {
     while (file_.line(line)) {
       std::string_view rest = *line;
@@ -217,7 +217,7 @@ class PlyReader : public PointCloudReader {
     }
     return static_cast<std::uint8_t>(std::lround(values_[k] * (255.0 / most)));
   }
-  /// Other numbers than LAS's classes are no classification.
+  /// Only numbers from 0 to 255 are LAS classes; others are ignored.
   std::optional<std::uint8_t> classification() const {
     const double value = values_[static_cast<std::size_t>(Role::kClass)];
     if (!(value >= 0.0 && value <= 255.0) || value != std::floor(value)) return std::nullopt;
@@ -227,11 +227,11 @@ class PlyReader : public PointCloudReader {
   BlockFile file_;
   PlyHeader header_;
   const PlyElement* vertex_ = nullptr;
-  std::vector<Role> roles_;  // of the vertex's properties
+  std::vector<Role> roles_;  // of the vertex properties
   std::array<Scalar, kRoles> types_{};
   std::array<std::optional<std::size_t>, kRoles> places_{};  // byte in a vertex without lists
-  std::size_t fixed_bytes_ = 0;                              // of it; 0: it has lists
-  std::array<double, kRoles> values_{};                      // of the last vertex, by role
+  std::size_t fixed_bytes_ = 0;          // of such a vertex; 0: vertices have lists
+  std::array<double, kRoles> values_{};  // of the last vertex, by role
   std::uint64_t at_ = 0;
   bool last_ = false;  // no element follows the vertices
 };

@@ -53,9 +53,9 @@ double load(Scalar type, const std::uint8_t* bytes, std::endian order) {
 
 namespace {
 
-/// Plain decimals like -12.345 of at most 15 digits: both the digits and the power of ten are
-/// doubles then, and their quotient is rounded once, to what std::from_chars gives (Clinger, "How
-/// to read floating point numbers accurately", 1990). It takes a third of the time.
+/// Parses plain decimals like -12.345 of at most 15 digits. The digits and the power of ten are
+/// then exact doubles, and their quotient is rounded once, to the same value as std::from_chars
+/// (Clinger, "How to read floating point numbers accurately", 1990). It takes a third of the time.
 std::optional<double> parse_short(std::string_view text) {
   constexpr std::array<double, 16> kPowers = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                               1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};

@@ -65,7 +65,7 @@ class LasWriter : public PointCloudWriter {
         }
       }
       if (++count_ > std::numeric_limits<std::uint32_t>::max()) {
-        output_.fail("cannot hold so many points: LAS 1.2 counts them in 32 bits");
+        output_.fail("cannot hold more points: LAS 1.2 counts them in 32 bits");
       }
       output_.flush_if_long();
     }
@@ -93,17 +93,17 @@ class LasWriter : public PointCloudWriter {
     output_.put(std::array<std::uint8_t, 2>{1, 2});
     output_.put_text("OTHER", 32);
     output_.put_text("Vinerow", 32);
-    output_.put(std::uint32_t{0});  // day and year: not told, so that equal clouds are equal files
+    output_.put(std::uint32_t{0});  // day and year: not set, so that equal clouds give equal files
     output_.put(kHeaderBytes);
     output_.put(
         static_cast<std::uint32_t>(kHeaderBytes + (keys ? kRecordHeadBytes + sizeof *keys : 0)));
     output_.put(std::uint32_t{keys ? 1u : 0u});
     output_.put(static_cast<std::uint8_t>(format));
     output_.put(static_cast<std::uint16_t>(las_point_bytes(format)));
-    output_.put_text("", 6 * 4);  // counts, known at the end
+    output_.put_text("", 6 * 4);  // counts, overwritten at the end
     for (int k = 0; k < 3; ++k) output_.put(options_.las_scale[k]);
     for (int k = 0; k < 3; ++k) output_.put(options_.las_offset[k]);
-    output_.put_text("", 6 * 8);  // bounds, known at the end
+    output_.put_text("", 6 * 8);  // bounds, overwritten at the end
     if (!keys) return;
     output_.put(std::uint16_t{0});
     output_.put_text("LASF_Projection", 16);
@@ -113,7 +113,7 @@ class LasWriter : public PointCloudWriter {
     output_.put(*keys);
   }
 
-  /// @returns the position that a reader will see
+  /// @returns the position as rounded in the file
   Eigen::Vector3d put_position(const Eigen::Vector3d& position) {
     Eigen::Vector3d stored;
     for (int k = 0; k < 3; ++k) {

@@ -6,8 +6,8 @@
 namespace vinerow::io {
 namespace {
 
-/// The header is written at the start and, with the count, again at the end: a comment before the
-/// count takes up the digits that are not needed.
+/// The header is written at the start, and again with the final count at the end. A comment before
+/// the count fills the unused digits, so that the length is constant.
 std::string header_of(std::uint64_t count, const PointCloudWriterOptions& options) {
   constexpr std::size_t kDigits = 20;  // of 2^64 - 1
   const std::string number = fmt::format("{}", count);

@@ -26,7 +26,7 @@ class XyzReader : public PointCloudReader {
       quantity_of_[*columns_.of[k]] = k;
     }
     info_.format = "XYZ";
-    info_.record_count = told_;
+    info_.record_count = reported_;
     info_.has_colour = columns_.has_colour();
     info_.has_classification = columns_.of[6].has_value();
   }
@@ -35,15 +35,15 @@ class XyzReader : public PointCloudReader {
   Next next(CloudPoint& point) override {
     std::string_view line;
     if (!next_line(&line)) {
-      if (told_ && at_ < *told_) {
-        file_.fail(
-            fmt::format("is cut off: its first line counts {} points, it holds {}", *told_, at_));
+      if (reported_ && at_ < *reported_) {
+        file_.fail(fmt::format("is cut off: its first line counts {} points, it holds {}",
+                               *reported_, at_));
       }
       return Next::kEnd;
     }
-    if (told_ && at_ == *told_) {
+    if (reported_ && at_ == *reported_) {
       file_.fail(fmt::format("has more data than its first line counts: {} points, then line {}",
-                             *told_, file_.line_number()));
+                             *reported_, file_.line_number()));
     }
     ++at_;
     read_fields(line);
@@ -60,7 +60,7 @@ class XyzReader : public PointCloudReader {
     return line.starts_with('#') || line.starts_with("//");
   }
 
-  /// The next line with points, from where find_first_point() came to.
+  /// Reads the next line with a point, after find_first_point().
   bool next_line(std::string_view* line) {
     while (file_.line(line)) {
       std::string_view rest = *line;
@@ -70,7 +70,7 @@ class XyzReader : public PointCloudReader {
     return false;
   }
 
-  /// Learns columns and separator, and goes back to where the first point's line begins.
+  /// Determines columns and separator, and moves back to the start of the first point's line.
   void find_first_point() {
     std::string_view line;
     std::optional<XyzColumns> named, commented;
@@ -98,17 +98,17 @@ class XyzReader : public PointCloudReader {
         continue;
       }
       const bool is_alone = !next_field(&fields, separator_);
-      if (is_alone && !told_ && parse_count(*first)) {
-        told_ = parse_count(*first);
+      if (is_alone && !reported_ && parse_count(*first)) {
+        reported_ = parse_count(*first);
         continue;
       }
       break;
     }
-    // A comment that only talks of x, y and z has other words too.
+    // A comment that only mentions x, y and z has further words.
     if (!named && commented && commented->count == count_fields(line, separator_)) {
       named = commented;
     }
-    columns_ = named ? *named : usual_columns(line, separator_, told_.has_value());
+    columns_ = named ? *named : usual_columns(line, separator_, reported_.has_value());
     const std::uint64_t lines = file_.line_number() - 1;
     file_.seek_line(begin, lines);
   }
@@ -144,7 +144,7 @@ class XyzReader : public PointCloudReader {
   XyzColumns columns_;
   char separator_ = ' ';
   std::vector<std::optional<std::size_t>> quantity_of_;  // of each column, up to the last needed
-  std::optional<std::uint64_t> told_;                    // by the first line of a PTS file
+  std::optional<std::uint64_t> reported_;                // by the first line of a PTS file
   std::array<double, 7> values_{};
   std::uint64_t at_ = 0;
 };

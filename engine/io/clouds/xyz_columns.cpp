@@ -48,7 +48,7 @@ std::optional<std::string_view> next_field(std::optional<std::string_view>* line
   }
   const std::size_t end = (*line)->find(separator);
   const std::string_view field = trimmed((*line)->substr(0, end));
-  // What follows the last separator is a field only where there is something.
+  // Text after the last separator is a field only if it is not empty.
   const bool is_last = end == std::string_view::npos;
   const std::string_view rest = is_last ? std::string_view() : (*line)->substr(end + 1);
   *line = is_last || trimmed(rest).empty() ? std::nullopt : std::optional(rest);

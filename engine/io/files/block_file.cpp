@@ -27,7 +27,7 @@ BlockFile::BlockFile(const std::filesystem::path& file, FileKind kind) : file_(f
     throw ConfigError(fmt::format("{} '{}' does not exist{}", name_of_kind(kind), file.string(),
                                   nearest_file_hint(file)));
   }
-  if (!std::filesystem::is_regular_file(file, error)) fail("is no file");
+  if (!std::filesystem::is_regular_file(file, error)) fail("is not a file");
   size_ = std::filesystem::file_size(file, error);
   stream_ = std::make_unique<std::ifstream>(file, std::ios::binary);
   if (!*stream_ || error) fail("cannot be read");
@@ -42,12 +42,12 @@ BlockFile::BlockFile(const std::filesystem::path& name, std::string bytes)
   make_buffer();
 }
 
-/// A small file needs a small one: with room for a byte more, its end is met when it is filled.
+/// Small files get a small buffer. One extra byte makes the first fill reach the end of the file.
 void BlockFile::make_buffer() {
   buffer_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(kBytes, size_ + 1)));
 }
 
-/// Moves the rest to the front and reads on, until `wanted` bytes are there.
+/// Moves the remaining bytes to the front and reads until `wanted` bytes are available.
 bool BlockFile::fill(std::size_t wanted) {
   if (end_ - begin_ >= wanted) return true;
   std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
@@ -103,7 +103,7 @@ void BlockFile::seek(std::uint64_t position) {
     return;
   }
   begin_ = end_ = 0;
-  // A place that no file has stays at the end, where take() finds nothing.
+  // A position beyond the end becomes the end, where take() returns nullptr.
   read_ = std::min(position, size_);
   stream_->clear();
   stream_->seekg(static_cast<std::streamoff>(read_));
@@ -115,7 +115,7 @@ void BlockFile::seek_line(std::uint64_t position, std::uint64_t lines_before) {
 }
 
 void BlockFile::fail(const std::string& sentence) const {
-  // What a broken file holds is shown, not sent to the terminal.
+  // Control characters of a broken file are escaped, so that they do not reach the terminal.
   std::string shown;
   for (const char c : sentence) {
     const auto byte = static_cast<unsigned char>(c);
@@ -125,7 +125,7 @@ void BlockFile::fail(const std::string& sentence) const {
 }
 
 void BlockFile::fail_kind(const std::string& begin, const char* kind, const char* magic) const {
-  fail(fmt::format("is no {}: it begins with '{}', must begin with {}", kind, begin.substr(0, 4),
+  fail(fmt::format("is not a {}: it begins with '{}', must begin with {}", kind, begin.substr(0, 4),
                    magic));
 }
 

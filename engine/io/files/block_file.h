@@ -1,5 +1,5 @@
 #pragma once
-/// A file of any length through a buffer of fixed size.
+/// Sequential reader of files of any length, with a buffer of fixed size.
 
 #include <algorithm>
 #include <cstdint>
@@ -12,18 +12,18 @@
 
 namespace vinerow::io {
 
-/// What a file is called in messages.
+/// Kind of file, for messages.
 enum class FileKind { kPointCloud, kMesh };
 
-/// Bytes or lines of a point cloud's or mesh's file, in order. What take() and line() give is valid
-/// until the next call. No heap after construction.
+/// Bytes or lines of a point cloud or mesh file, in order. Results of take() and line() are valid
+/// until the next call. No allocation after construction.
 class BlockFile {
  public:
-  static constexpr std::size_t kBytes = 1 << 18;  ///< of the buffer: the longest take() and line()
+  static constexpr std::size_t kBytes = 1 << 18;  ///< of the buffer, limit of take() and line()
 
-  /// @throws ConfigError naming the file: missing, no regular file, empty
+  /// @throws ConfigError naming the file: missing, not a regular file, empty
   explicit BlockFile(const std::filesystem::path& file, FileKind kind = FileKind::kPointCloud);
-  /// Bytes in memory as if they were a file of that name. @throws ConfigError: no bytes
+  /// Reads from memory instead, as a file of that name. @throws ConfigError if there are no bytes
   BlockFile(const std::filesystem::path& name, std::string bytes);
 
   const std::filesystem::path& name() const { return file_; }
@@ -32,22 +32,22 @@ class BlockFile {
   std::uint64_t position() const { return read_ - (end_ - begin_); }
   std::uint64_t remaining() const { return size_ - std::min(size_, position()); }
 
-  /// The first bytes from here, at most `count`, left where they are.
+  /// The next bytes, at most `count`, without consuming them.
   std::string peek(std::size_t count);
-  /// The next `count` bytes, at most kBytes; nullptr where the file has fewer.
+  /// The next `count` bytes, at most kBytes; nullptr if fewer are left.
   const std::uint8_t* take(std::size_t count);
-  /// The next line without its end (\n or \r\n); false at the end of the file.
-  /// @throws ConfigError where the line is longer than kBytes
+  /// Reads the next line without its end (LF or CR LF); false at the end of the file.
+  /// @throws ConfigError if the line is longer than kBytes
   bool line(std::string_view* text);
   std::uint64_t line_number() const { return line_number_; }  ///< of the last line(), from 1
-  /// Goes to a byte from the start; beyond the end, take() gives nullptr.
+  /// Moves to an offset from the start; beyond the end, take() returns nullptr.
   void seek(std::uint64_t position);
-  /// Goes back to where a line begins, with so many lines before it.
+  /// Moves back to the start of a line that has `lines_before` lines before it.
   void seek_line(std::uint64_t position, std::uint64_t lines_before);
 
   /// "point cloud 'file' sentence" or "mesh file 'file' sentence" as ConfigError.
   [[noreturn]] void fail(const std::string& sentence) const;
-  /// "... is no LAS file: it begins with 'abc', must begin with LASF".
+  /// "... is not a LAS file: it begins with 'abc', must begin with LASF".
   [[noreturn]] void fail_kind(const std::string& begin, const char* kind, const char* magic) const;
 
  private:

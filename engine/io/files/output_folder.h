@@ -1,15 +1,15 @@
 #pragma once
-/// Folders that output goes to.
+/// Creation of output folders.
 
 #include <filesystem>
 
 namespace vinerow::io {
 
-/// Makes a folder and those above it where they are not there.
+/// Creates a folder and its missing parents.
 /// @throws ConfigError "folder '/proc/x' cannot be made: No such file or directory"
 void make_folder(const std::filesystem::path& folder);
 
-/// The same for the folder that a file is to stand in.
+/// The same for the parent folder of a file.
 void make_folder_of(const std::filesystem::path& file);
 
 }  // namespace vinerow::io

@@ -1,15 +1,15 @@
 #pragma once
-/// Where in the user's files something was said.
+/// Positions in the user's files, for messages.
 
 #include <string>
 
 namespace vinerow::io {
 
-/// A place in a file, or in an option of the command line.
+/// Position in a file, or an option of the command line.
 struct SourceMark {
   std::string file;
   int line = 0;              ///< 1-based; 0 = not from a file (--set, default)
-  std::string text() const;  ///< "file.yaml:12", or only the file where there is no line
+  std::string text() const;  ///< "file.yaml:12", or only the file if there is no line
 };
 
 }  // namespace vinerow::io

@@ -102,7 +102,8 @@ double parse_yaml_number(std::string_view text) {
   double value = 0.0;
   const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
   if (result.ec == std::errc::result_out_of_range) {
-    // from_chars does not tell overflow from underflow; the exponent's sign or the whole part does.
+    // from_chars does not distinguish overflow from underflow; the exponent's sign or the whole
+    // part does.
     const std::size_t e = text.find_first_of("eE");
     const bool tiny =
         e != std::string_view::npos

@@ -9,7 +9,7 @@
 namespace vinerow::io {
 namespace {
 
-/// Words that other YAML readers (1.1) take for booleans or nulls.
+/// Words that YAML 1.1 readers interpret as booleans or nulls.
 constexpr std::array<std::string_view, 10> kReservedWords = {"true", "false", "null", "yes", "no",
                                                              "on",   "off",   "y",    "n",   "nan"};
 
@@ -82,7 +82,7 @@ bool fits_one_line(const YamlNode& node) {
 
 void emit_block(const YamlNode& node, int indent, std::string& out);
 
-/// What stands after "key:" or "-": in the same line, or as a block below.
+/// Prints the value after "key:" or "-": in the same line, or as a block below.
 void emit_value(const YamlNode& node, int indent, std::string& out) {
   if (fits_one_line(node)) {
     out += " " + in_one_line(node) + "\n";
@@ -103,7 +103,7 @@ void emit_block(const YamlNode& node, int indent, std::string& out) {
       out += spaces + "- " + in_one_line(item) + "\n";
       continue;
     }
-    // A block starts in the line of its dash: "- metric: ...".
+    // A block starts on the line of its dash: "- metric: ...".
     std::string block;
     emit_block(item, indent + 2, block);
     block[static_cast<std::size_t>(indent)] = '-';

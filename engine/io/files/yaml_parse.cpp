@@ -14,11 +14,11 @@
 namespace vinerow::io {
 namespace {
 
-/// Aliases copy what they name; this stops a file of a few lines from becoming gigabytes.
+/// Aliases copy their values: without a limit, a file of a few lines could expand to gigabytes.
 constexpr int kMaxNodes = 200'000;
 constexpr std::uintmax_t kMaxFileBytes = 16u << 20;
 
-/// Builds the tree from the parser's events, which have marks and show every key, duplicates too.
+/// Builder of the tree from the parser's events, which have marks and include duplicate keys.
 class TreeBuilder : public YAML::EventHandler {
  public:
   TreeBuilder(std::string file_name, std::filesystem::path folder)
@@ -26,7 +26,7 @@ class TreeBuilder : public YAML::EventHandler {
 
   YamlNode take_root() { return std::move(root_); }
 
-  /// Line where the innermost list or mapping begins that has not ended; 0: there is none.
+  /// Start line of the innermost open list or mapping; 0 if no list or mapping is open.
   int open_line() const { return open_.empty() ? 0 : open_.back().node.mark.line; }
 
   void OnDocumentStart(const YAML::Mark&) override {}
@@ -38,7 +38,7 @@ class TreeBuilder : public YAML::EventHandler {
 
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     const auto found = anchors_.find(anchor);
-    if (found == anchors_.end()) fail(mark, "an alias stands inside the value that it names");
+    if (found == anchors_.end()) fail(mark, "an alias is inside the value that it refers to");
     count_nodes(found->second, mark);
     finish(found->second, 0);
   }
@@ -126,7 +126,7 @@ class TreeBuilder : public YAML::EventHandler {
 
   void take_key(Open& parent, const YamlNode& node) {
     if (!node.is_scalar() || node.text.empty()) {
-      fail_at(node.mark, fmt::format("{} stands where a key is expected", shown(node)));
+      fail_at(node.mark, fmt::format("{} is in the place of a key", shown(node)));
     }
     if (!node.quoted && node.text == "<<") {
       fail_at(node.mark, "merge keys ('<<') are not supported; use 'include: file.yaml'");
@@ -148,7 +148,7 @@ class TreeBuilder : public YAML::EventHandler {
   int node_count_ = 0;
 };
 
-/// Faults that the YAML parser words badly or lets pass.
+/// Checks for faults that the YAML parser accepts or describes badly.
 void check_characters(const std::string& text, const std::string& file_name) {
   int line = 1;
   bool in_indentation = true;
@@ -173,17 +173,17 @@ void check_characters(const std::string& text, const std::string& file_name) {
   }
 }
 
-/// The parser's words for what people leave out most often, in theirs.
+/// Plain messages for the most common syntax errors.
 std::string explain_yaml_fault(const YAML::Exception& fault, int open_line) {
   const auto not_closed = [&](const char* opening, const char* closing) {
     return fmt::format("the '{}' of line {} is not closed by '{}'", opening, open_line, closing);
   };
   if (open_line > 0 && fault.msg == YAML::ErrorMsg::END_OF_MAP_FLOW) return not_closed("{", "}");
   if (open_line > 0 && fault.msg == YAML::ErrorMsg::END_OF_SEQ_FLOW) return not_closed("[", "]");
-  if (fault.msg == YAML::ErrorMsg::FLOW_END) return "a '}' or ']' closes nothing";
+  if (fault.msg == YAML::ErrorMsg::FLOW_END) return "a '}' or ']' without its opening bracket";
   if (fault.msg == YAML::ErrorMsg::EOF_IN_SCALAR) return "a quotation mark is not closed";
   if (fault.msg == YAML::ErrorMsg::MAP_VALUE) {
-    return "a ':' stands where none can be: is a text with ': ' not in quotes?";
+    return "a ':' is not allowed here: is a text with ': ' not in quotes?";
   }
   if (fault.msg == YAML::ErrorMsg::END_OF_MAP) {
     return "a key is expected here: is this line indented as those above it?";

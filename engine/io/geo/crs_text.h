@@ -1,5 +1,5 @@
 #pragma once
-/// Coordinate reference systems as people write them.
+/// Parser of coordinate reference systems from user input.
 
 #include <ogr_spatialref.h>
 
@@ -7,11 +7,12 @@
 
 namespace vinerow::io {
 
-/// @param text  "EPSG:25832", the code alone, WKT, or what else PROJ reads; no file and no address
+/// @param text  "EPSG:25832", the code alone, WKT, or another form that PROJ reads, except files
+/// and URLs
 /// @throws ConfigError "crs = 'x' is not a coordinate reference system, must be like EPSG:32632"
 OGRSpatialReference parse_crs(const std::string& text);
 
-/// Longitude and latitude in degrees, in this order.
+/// WGS84 with longitude and latitude in degrees, in this order.
 OGRSpatialReference make_wgs84();
 
 }  // namespace vinerow::io

@@ -1,5 +1,5 @@
 #pragma once
-/// GDAL's objects, given back when their owner goes.
+/// Owning pointers for GDAL objects.
 
 #include <gdal_priv.h>
 #include <ogr_spatialref.h>

@@ -31,7 +31,7 @@ std::string in_lower_case(std::string text) {
   return text;
 }
 
-/// The features of one layer.
+/// Reader of the features of one layer.
 class LayerReader {
  public:
   LayerReader(const std::filesystem::path& file, OGRLayer& layer, std::vector<GeoFeature>& features)
@@ -67,14 +67,14 @@ class LayerReader {
   Geodetic convert(double x, double y, double z) const {
     if (!to_wgs84_) {
       fail(
-          "its layer has no coordinate reference system; a shapefile says it in the .prj file "
-          "beside it");
+          "its layer has no coordinate reference system; a shapefile needs a .prj file with "
+          "it in the same folder");
     }
     double longitude_deg = x, latitude_deg = y;
     const bool is_good = std::isfinite(x) && std::isfinite(y) &&
                          to_wgs84_->Transform(1, &longitude_deg, &latitude_deg) != 0;
     if (!is_good || !(std::abs(longitude_deg) <= 180.0) || !(std::abs(latitude_deg) <= 90.0)) {
-      fail(fmt::format("the coordinate ({}, {}) is no place on Earth", x, y));
+      fail(fmt::format("the coordinate ({}, {}) is not a valid position", x, y));
     }
     return {rad_from_deg(latitude_deg), rad_from_deg(longitude_deg), std::isfinite(z) ? z : 0.0};
   }
@@ -147,10 +147,10 @@ std::vector<GeoFeature> read_by_gdal(const std::filesystem::path& file) {
   const Dataset dataset(static_cast<GDALDataset*>(
       GDALOpenEx(file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, drivers, nullptr, nullptr)));
   if (!dataset) {
-    throw ConfigError(fmt::format("file '{}' cannot be read: it is no {}", file.string(),
+    throw ConfigError(fmt::format("file '{}' cannot be read: it is not a {}", file.string(),
                                   lower_extension(file) == ".shp"    ? "shapefile"
                                   : lower_extension(file) == ".gpkg" ? "GeoPackage"
-                                                                     : "KML"));
+                                                                     : "KML file"));
   }
   std::vector<GeoFeature> features;
   for (OGRLayer* layer : dataset->GetLayers()) LayerReader(file, *layer, features).read();

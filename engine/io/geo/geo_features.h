@@ -1,6 +1,5 @@
 #pragma once
-/// Features of a survey from any of the files they come in: GeoJSON, KML and KMZ, shapefiles,
-/// GeoPackages.
+/// Reader of survey features from GeoJSON, KML, KMZ, shapefiles and GeoPackages.
 
 #include <filesystem>
 #include <string>
@@ -10,14 +9,14 @@
 
 namespace vinerow::io {
 
-/// Reads by the file's ending: .kml, .kmz, .shp and .gpkg by GDAL, from their own coordinate
-/// reference system to WGS84 and with the names of their properties in lower case; everything else
-/// as GeoJSON. All layers count, in order.
+/// Reads all layers of a file, in order. The extension selects the format: GDAL reads .kml, .kmz,
+/// .shp and .gpkg, transforms them from their own coordinate reference system to WGS84, and
+/// property names become lower case. All other files are read as GeoJSON.
 /// @throws ConfigError naming the file (and feature): missing, broken, no coordinate reference
-/// system, coordinates that do not convert; as read_geojson
+/// system, coordinates that cannot be transformed; and as read_geojson
 std::vector<GeoFeature> read_features(const std::filesystem::path& file);
 
-/// "GeoJSON file 'a.json'" or "file 'a.kml'", for sentences.
+/// "GeoJSON file 'a.json'" or "file 'a.kml'", for messages.
 std::string name_of_feature_file(const std::filesystem::path& file);
 
 }  // namespace vinerow::io

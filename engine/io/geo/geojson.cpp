@@ -33,7 +33,8 @@ struct Place {
   std::string text() const { return fmt::format("'{}', feature {}", file.string(), index); }
 };
 
-/// What is nested deeper than any GeoJSON would exhaust the stack of those who walk through it.
+/// Rejects JSON nested deeper than any GeoJSON, which would exhaust the stack of recursive
+/// functions.
 void check_depth(const std::string& text, const std::filesystem::path& file) {
   constexpr int kDeepest = 100;
   int depth = 0;
@@ -52,15 +53,15 @@ void check_depth(const std::string& text, const std::filesystem::path& file) {
   }
 }
 
-/// A value as errors show it, cut after 60 characters.
+/// A value as shown in errors, cut after 60 characters.
 std::string shown(const json& value) {
-  constexpr std::size_t kMost = 60;
+  constexpr std::size_t kMax = 60;
   const std::string text = value.dump(-1, ' ', true, json::error_handler_t::replace);
-  return text.size() <= kMost ? text : text.substr(0, kMost) + "...";
+  return text.size() <= kMax ? text : text.substr(0, kMax) + "...";
 }
 
-/// The transformation that the `crs` member of GeoJSON from before RFC 7946 asks for; none where it
-/// is absent or means WGS84.
+/// Transformation for the `crs` member of GeoJSON from before RFC 7946; null if it is absent or
+/// means WGS84.
 Transformation read_crs_member(const json& root, const std::filesystem::path& file) {
   if (!root.is_object() || !root.contains("crs") || root["crs"].is_null()) return nullptr;
   const json& crs = root["crs"];
@@ -87,8 +88,8 @@ Transformation read_crs_member(const json& root, const std::filesystem::path& fi
   if (from.IsGeographic() && from.IsSameGeogCS(&wgs84)) return nullptr;
   Transformation result(OGRCreateCoordinateTransformation(&from, &wgs84));
   if (!result) {
-    throw ConfigError(
-        fmt::format("GeoJSON file '{}': no conversion from '{}' to WGS84", file.string(), name));
+    throw ConfigError(fmt::format("GeoJSON file '{}': no transformation from '{}' to WGS84",
+                                  file.string(), name));
   }
   return result;
 }
@@ -120,7 +121,7 @@ Geodetic read_position(const json& position, const Place& place, bool& has_altit
       !std::isfinite(altitude_m)) {
     if (place.to_wgs84 != nullptr) {
       throw ConfigError(
-          fmt::format("{}: coordinate {} does not convert from the file's crs to WGS84",
+          fmt::format("{}: coordinate {} cannot be transformed from the file's crs to WGS84",
                       place.text(), shown(position)));
     }
     throw ConfigError(
@@ -231,7 +232,7 @@ std::string lower(std::string text) {
   return text;
 }
 
-/// Surveys say what a point is in `type`, `feature_type` or in its name ("ROW01POLE01").
+/// Surveys state the kind of a point in `type`, `feature_type` or its name ("ROW01POLE01").
 std::string words_of(const GeoFeature& feature) {
   std::string words;
   for (const char* key : {"type", "feature_type", "name", "Point"}) {
@@ -240,7 +241,7 @@ std::string words_of(const GeoFeature& feature) {
   return words;
 }
 
-/// The number of the row that a point belongs to, "" where it has none.
+/// Row number of a point, "" if it is missing.
 std::string row_of(const GeoFeature& feature) {
   for (const char* key : {"row", "row_id", "row_number", "row_nr", "Row", "ROW"}) {
     const std::string row = feature.property(key);
@@ -249,8 +250,8 @@ std::string row_of(const GeoFeature& feature) {
   return "";
 }
 
-/// Rows from points that tell their row's number, as end poles do: those of one number in a line,
-/// from one of the two that are farthest apart to the other.
+/// Rows from points with row numbers, such as end poles: points of one number form a line between
+/// the two that are farthest apart.
 std::vector<GeoFeature> rows_of_points(const std::vector<GeoFeature>& features,
                                        const std::filesystem::path& file) {
   const auto is_pole = [](const GeoFeature& feature) {
@@ -278,7 +279,7 @@ std::vector<GeoFeature> rows_of_points(const std::vector<GeoFeature>& features,
           fmt::format("'{}', feature {}: row '{}' has one point, it needs two: its end poles",
                       file.string(), of_row.front()->index, name));
     }
-    // On a plane in which a radian of longitude is as short as it is there.
+    // Local plane: longitude is scaled by the cosine of the latitude.
     const double shrink = std::cos(of_row.front()->points.front().latitude_rad);
     const auto place = [&](const GeoFeature* feature) {
       const Geodetic& p = feature->points.front();
@@ -289,7 +290,7 @@ std::vector<GeoFeature> rows_of_points(const std::vector<GeoFeature>& features,
         return (place(a) - place(from)).norm() < (place(b) - place(from)).norm();
       });
     };
-    // Of points along a line the farthest from any is an end.
+    // Among points on a line, the farthest from any point is an end.
     const GeoFeature* first = farthest_from(of_row.front());
     const Eigen::Vector2d along = place(farthest_from(first)) - place(first);
     std::vector<const GeoFeature*> sorted = of_row;

@@ -17,7 +17,7 @@ namespace {
   throw ConfigError(fmt::format("'{}' {}", file.string(), sentence));
 }
 
-/// Empty where `text` is.
+/// Parses a CRS; empty if `text` is empty.
 OGRSpatialReference reference_of(const std::string& text) {
   OGRSpatialReference crs;
   if (!text.empty() && crs.SetFromUserInput(text.c_str()) != OGRERR_NONE) {
@@ -29,7 +29,8 @@ OGRSpatialReference reference_of(const std::string& text) {
   return crs;
 }
 
-/// GeoPackages carry the time of their making; ours must be the same bytes tomorrow.
+/// Scope with a fixed date: GeoPackages contain their creation time, but equal layers must give
+/// equal bytes.
 class FixedDate {
  public:
   FixedDate() { CPLSetThreadLocalConfigOption("OGR_CURRENT_DATE", "2000-01-01T00:00:00.000Z"); }
@@ -115,14 +116,14 @@ void write_crs_raster(const CrsRaster& raster, const std::filesystem::path& file
   band->SetNoDataValue(CrsRaster::kNoHeight);
   band->SetUnitType("m");
   band->SetDescription(raster.description.c_str());
-  // GDAL only reads what it writes.
+  // GDAL does not modify the values.
   auto* values = const_cast<float*>(raster.values.data());
   if (band->RasterIO(GF_Write, 0, 0, raster.columns, raster.rows, values, raster.columns,
                      raster.rows, GDT_Float32, 0, 0) != CE_None) {
     fail_gis(file, "cannot be written completely");
   }
   CPLErrorReset();
-  dataset.reset();  // writes what is left
+  dataset.reset();  // flushes the file
   if (CPLGetLastErrorType() >= CE_Failure) fail_gis(file, "cannot be written completely");
 }
 

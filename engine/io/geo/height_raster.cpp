@@ -21,9 +21,10 @@ struct Options {
   ~Options() { CSLDestroy(list); }
 };
 
-/// Easting and northing are W's x and y.
+/// CRS whose easting and northing are W's x and y.
 OGRSpatialReference crs_about(const GeoOrigin& origin) {
-  // A length grows with the altitude; the ellipsoid's mean radius of curvature at this latitude.
+  // The scale grows with the altitude, relative to the ellipsoid's mean radius of curvature at this
+  // latitude.
   constexpr double kSemiMajor_m = 6378137.0, kFlattening = 1.0 / 298.257223563;  // WGS84
   constexpr double kEccentricity2 = kFlattening * (2.0 - kFlattening);
   const double sine = std::sin(origin.latitude_rad);
@@ -43,7 +44,7 @@ OGRSpatialReference crs_about(const GeoOrigin& origin) {
   throw ConfigError(fmt::format("raster '{}' {}", file.string(), sentence));
 }
 
-/// @pre errno is of the call that failed, where the library left it
+/// @pre errno is that of the failed call, if the library kept it
 [[noreturn]] void fail_to_store(const std::filesystem::path& file,
                                 const std::filesystem::path& unfinished) {
   const int error_number = errno != 0 ? errno : EIO;
@@ -66,9 +67,9 @@ void write_height_raster(const HeightField& field, const std::optional<GeoOrigin
   Options options;
   options.list = CSLSetNameValue(options.list, "COMPRESS", "DEFLATE");
   options.list = CSLSetNameValue(options.list, "PREDICTOR", "3");
-  // What QGIS and GDAL would put into a file .aux.xml beside it goes into the file itself.
+  // Metadata is stored in the file itself, not in a separate .aux.xml file.
   options.list = CSLSetNameValue(options.list, "PROFILE", "GDALGeoTIFF");
-  // Whole or not at all, as every other file; GDAL writes by itself.
+  // Written atomically via a temporary file, since GDAL writes the file itself.
   const std::filesystem::path unfinished = temporary_name(file);
   Dataset dataset(driver == nullptr ? nullptr
                                     : driver->Create(unfinished.c_str(), field.columns, field.rows,
@@ -104,7 +105,7 @@ void write_height_raster(const HeightField& field, const std::optional<GeoOrigin
   }
   CPLErrorReset();
   errno = 0;
-  dataset.reset();  // writes what is left
+  dataset.reset();  // flushes the file
   if (CPLGetLastErrorType() >= CE_Failure) fail_to_store(file, unfinished);
   std::error_code failed;
   std::filesystem::rename(unfinished, file, failed);
@@ -128,7 +129,7 @@ HeightField read_height_raster(const std::filesystem::path& file) {
     fail(file, fmt::format("has {} x {} pixels, needs at least 2 x 2", field.columns, field.rows));
   }
   double g[6];
-  if (dataset->GetGeoTransform(g) != CE_None) fail(file, "does not say where it lies");
+  if (dataset->GetGeoTransform(g) != CE_None) fail(file, "has no georeference");
   if (g[2] != 0.0 || g[4] != 0.0 || !(g[1] > 0.0) || !(std::abs(g[1] + g[5]) < 1e-9 * g[1])) {
     fail(file, "must have square pixels with north up");
   }

@@ -27,12 +27,12 @@ struct LocalToCrs::Impl {
     const OGRSpatialReference wgs84 = make_wgs84();
     from_wgs84.reset(OGRCreateCoordinateTransformation(&wgs84, &crs));
     if (!from_wgs84) {
-      throw ConfigError(fmt::format("WGS84 does not convert to the crs '{}'", name));
+      throw ConfigError(fmt::format("WGS84 cannot be transformed to the crs '{}'", name));
     }
   }
 
   LocalFrame frame;
-  double height_m = 1.0;  ///< metres of one unit of z
+  double height_m = 1.0;  ///< unit of z in metres
   std::string name;
   Transformation from_wgs84;
 };
@@ -50,8 +50,9 @@ Eigen::Vector3d LocalToCrs::from_local(const Eigen::Vector3d& p_W) const {
   double x = deg_from_rad(place.longitude_rad), y = deg_from_rad(place.latitude_rad);
   const double longitude = x, latitude = y;
   if (!impl_->from_wgs84->Transform(1, &x, &y) || !std::isfinite(x) || !std::isfinite(y)) {
-    throw ConfigError(fmt::format("the place {:.6f} N, {:.6f} E lies outside of the crs '{}'",
-                                  latitude, longitude, impl_->name));
+    throw ConfigError(
+        fmt::format("the position {:.6f} N, {:.6f} E is outside the area of the crs '{}'", latitude,
+                    longitude, impl_->name));
   }
   return {x, y, place.altitude_m / impl_->height_m};
 }

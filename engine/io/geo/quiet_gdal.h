@@ -1,11 +1,11 @@
 #pragma once
-/// Keeps GDAL off stderr.
+/// Scope without GDAL messages on stderr.
 
 #include <cpl_error.h>
 
 namespace vinerow::io {
 
-/// GDAL prints its errors on stderr; ours say them in one sentence.
+/// Silences GDAL during its lifetime: callers report GDAL's errors as one-sentence exceptions.
 class QuietGdal {
  public:
   QuietGdal() { CPLPushErrorHandler(CPLQuietErrorHandler); }

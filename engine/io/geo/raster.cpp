@@ -21,14 +21,14 @@ namespace {
 OGRSpatialReference make_crs(const std::string& wkt) {
   OGRSpatialReference crs;
   crs.importFromWkt(wkt.c_str());
-  // x = east or longitude, y = north or latitude, whatever the authority's own order is.
+  // x = easting or longitude, y = northing or latitude, regardless of the authority's axis order.
   crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   return crs;
 }
 
 }  // namespace
 
-/// From WGS84 (longitude, latitude in degrees) to the raster's CRS.
+/// Transformation from WGS84 (longitude, latitude in degrees) to the raster's CRS.
 class ToRaster {
  public:
   explicit ToRaster(const ElevationRaster& raster) : raster_(raster) {
@@ -36,7 +36,7 @@ class ToRaster {
     const OGRSpatialReference target = make_crs(raster.crs_wkt);
     transformation_.reset(OGRCreateCoordinateTransformation(&wgs84, &target));
     if (!transformation_) {
-      throw ConfigError(fmt::format("raster '{}': no conversion from WGS84 to '{}'",
+      throw ConfigError(fmt::format("raster '{}': no transformation from WGS84 to '{}'",
                                     raster.file.string(), raster.crs_name));
     }
     const double* g = raster.geo_transform;
@@ -52,7 +52,7 @@ class ToRaster {
     const double dx = x - raster_.geo_transform[0], dy = y - raster_.geo_transform[3];
     const double column = inverse_[0] * dx + inverse_[1] * dy - 0.5;
     const double row = inverse_[2] * dx + inverse_[3] * dy - 0.5;
-    // Half a pixel at the rim has no neighbour: the rim's own height continues there.
+    // The outer half of a border pixel has no neighbour: its height is extrapolated as constant.
     if (!(column >= -0.5 && row >= -0.5 && column <= raster_.columns - 0.5 &&
           row <= raster_.rows - 0.5)) {
       return kNone;
@@ -137,15 +137,15 @@ ElevationRaster read_elevation(const std::filesystem::path& file, const std::str
   if (dataset->GetGeoTransform(raster.geo_transform) != CE_None ||
       g[1] * g[5] - g[2] * g[4] == 0.0) {
     throw ConfigError(
-        fmt::format("raster '{}' does not say where it lies (no geotransform)", file.string()));
+        fmt::format("raster '{}' has no georeference (no geotransform)", file.string()));
   }
 
-  constexpr double kMostPixels = 250e6;  // a gigabyte
-  if (static_cast<double>(raster.columns) * raster.rows > kMostPixels) {
+  constexpr double kMaxPixels = 250e6;  // a gigabyte
+  if (static_cast<double>(raster.columns) * raster.rows > kMaxPixels) {
     throw ConfigError(fmt::format(
-        "raster '{}' has {} x {} pixels, must have at most {:g} million: cut out what is needed "
+        "raster '{}' has {} x {} pixels, must have at most {:g} million: cut out the needed area "
         "with 'gdal_translate -projwin'",
-        file.string(), raster.columns, raster.rows, kMostPixels / 1e6));
+        file.string(), raster.columns, raster.rows, kMaxPixels / 1e6));
   }
   GDALRasterBand* band = dataset->GetRasterBand(1);
   raster.heights_m.resize(static_cast<std::size_t>(raster.columns) * raster.rows);
@@ -202,7 +202,7 @@ HeightField resample_elevation(const ElevationRaster& raster, const GeoOrigin& o
     for (int i = 0; i < field.columns; ++i) {
       const Eigen::Vector3d p_W(field.corner_W.x() + i * field.cell_m,
                                 field.corner_W.y() + j * field.cell_m, 0.0);
-      // altitude_m of this point is what W's tangent plane has there.
+      // altitude_m of this point is the altitude of W's tangent plane.
       const Geodetic point = frame.to_geodetic(p_W);
       const double height = to_raster.height_m(point.latitude_rad, point.longitude_rad);
       if (!std::isfinite(height)) {
@@ -211,8 +211,8 @@ HeightField resample_elevation(const ElevationRaster& raster, const GeoOrigin& o
       constexpr double kHighest_m = 20e3;
       if (std::abs(height) > kHighest_m) {
         throw ConfigError(fmt::format(
-            "raster '{}' has a height of {:g} m at latitude {:.6f} deg, longitude {:.6f} deg: does "
-            "it mean \"no data\" there without saying so?",
+            "raster '{}' has a height of {:g} m at latitude {:.6f} deg, longitude {:.6f} deg: is "
+            "this an undeclared \"no data\" value?",
             raster.file.string(), height, deg_from_rad(point.latitude_rad),
             deg_from_rad(point.longitude_rad)));
       }

@@ -1,5 +1,5 @@
 #pragma once
-/// Elevation models from GeoTIFF and other rasters that GDAL reads, resampled to W's height field.
+/// Reader of elevation models (GeoTIFF and other GDAL rasters), resampled to a height field in W.
 
 #include <filesystem>
 #include <memory>
@@ -12,27 +12,27 @@
 
 namespace vinerow::io {
 
-/// A raster of heights as the file holds it: row 0 is the file's first (usually northern) row.
+/// Heights as in the file: row 0 is the file's first (usually northern) row.
 struct ElevationRaster {
   int columns = 0;
   int rows = 0;
-  std::vector<float> heights_m;  ///< rows * columns, x fastest; NaN where the file says "no data"
+  std::vector<float> heights_m;  ///< rows * columns, x fastest; NaN for "no data"
   /// Affine map from pixel to CRS: x = g[0] + column g[1] + row g[2], y = g[3] + column g[4] + row
   /// g[5]; (0, 0) is the outer corner of the first pixel, its centre is at (0.5, 0.5).
   double geo_transform[6] = {0, 1, 0, 0, 0, -1};
   std::string crs_wkt;   ///< coordinate reference system
-  std::string crs_name;  ///< "CH1903 / LV03", for people
+  std::string crs_name;  ///< "CH1903 / LV03", for messages
   std::filesystem::path file;
 };
 
 /// Reads band 1.
-/// @param crs  "EPSG:21781": used instead of the file's own CRS; "" takes the file's
+/// @param crs  "EPSG:21781": replaces the file's own CRS; "" uses the file's
 /// @throws ConfigError naming the file: missing, not a raster, without georeference, without CRS
 /// ("... has no
 ///         coordinate reference system; give it by 'crs: EPSG:<code>'"), unknown `crs`
 ElevationRaster read_elevation(const std::filesystem::path& file, const std::string& crs = "");
 
-/// Area and resolution of the wanted height field.
+/// Area and resolution of the requested height field.
 struct FieldExtent {
   Eigen::Vector2d corner_W = {0, 0};  ///< south-west
   double width_m = 0.0;               ///< > 0
@@ -40,21 +40,21 @@ struct FieldExtent {
   double cell_m = 0.5;                ///< > 0
 };
 
-/// Resamples the raster bilinearly between pixel centres. Each sample's position goes W -> WGS84 ->
-/// raster CRS.
+/// Resamples the raster bilinearly between pixel centres. Sample positions are transformed W ->
+/// WGS84 -> raster CRS.
 ///
-/// Heights are taken as heights above W's origin altitude: h_W = h_raster - origin.altitude_m,
-/// minus the ground's fall below the tangent plane. No geoid is applied: give the origin's altitude
-/// in the raster's height system.
-/// @throws ConfigError where the extent leaves the raster or meets "no data", naming the place and
-/// the raster's bounds
+/// Heights are relative to the origin's altitude: h_W = h_raster - origin.altitude_m, minus the
+/// ellipsoid's drop below the tangent plane. No geoid is applied: give the origin's altitude in the
+/// raster's height system.
+/// @throws ConfigError if the extent leaves the raster or contains "no data", naming the position
+/// and the raster's bounds
 HeightField resample_elevation(const ElevationRaster& raster, const GeoOrigin& origin,
                                const FieldExtent& extent);
 
 /// Bilinear height at WGS84 positions, m in the raster's height system.
 class ElevationLookup {
  public:
-  /// @throws ConfigError where WGS84 does not convert to the raster's CRS
+  /// @throws ConfigError if WGS84 cannot be transformed to the raster's CRS
   explicit ElevationLookup(ElevationRaster raster);
   ~ElevationLookup();
   /// nullopt outside the raster and at "no data".

@@ -16,9 +16,9 @@
 namespace vinerow::io {
 namespace {
 
-constexpr std::int64_t kMostPixels = 100'000'000;
+constexpr std::int64_t kMaxPixels = 100'000'000;
 
-/// Bytes as an error shows them: 'P6', '\x89PNG'.
+/// Bytes as shown in errors: 'P6', '\x89PNG'.
 std::string readable(const std::string& bytes) {
   std::string text;
   for (const char c : bytes) {
@@ -28,7 +28,7 @@ std::string readable(const std::string& bytes) {
   return "'" + text + "'";
 }
 
-/// Walks through the bytes of a file.
+/// Reader of the bytes of a PGM file.
 class PgmReader {
  public:
   explicit PgmReader(const std::filesystem::path& file) : file_(file) {
@@ -44,7 +44,7 @@ class PgmReader {
   std::string magic() {
     const std::string kind = bytes_.substr(0, 2);
     if (kind != "P5" && kind != "P2") {
-      fail(fmt::format("is no PGM image: it begins with {}, must begin with P5 or P2",
+      fail(fmt::format("is not a PGM image: it begins with {}, must begin with P5 or P2",
                        readable(kind)));
     }
     at_ = 2;
@@ -120,22 +120,22 @@ void read_binary(PgmReader& reader, GrayImage& image) {
 }  // namespace
 
 GrayImage read_pgm(const std::filesystem::path& file) {
-  constexpr int kMostPerSide = 1'000'000;
+  constexpr int kMaxPerSide = 1'000'000;
   PgmReader reader(file);
   const std::string kind = reader.magic();
   GrayImage image;
-  image.width = static_cast<int>(reader.number("width", 1, kMostPerSide));
-  image.height = static_cast<int>(reader.number("height", 1, kMostPerSide));
+  image.width = static_cast<int>(reader.number("width", 1, kMaxPerSide));
+  image.height = static_cast<int>(reader.number("height", 1, kMaxPerSide));
   const std::int64_t pixels = std::int64_t{image.width} * image.height;
-  if (pixels > kMostPixels) {
+  if (pixels > kMaxPixels) {
     reader.fail(fmt::format("has {} x {} pixels, must be at most {} million", image.width,
-                            image.height, kMostPixels / 1'000'000));
+                            image.height, kMaxPixels / 1'000'000));
   }
   image.maximum = static_cast<int>(reader.number("maximum", 1, 65535));
   if (kind == "P5") {
     read_binary(reader, image);
   } else {
-    // A pixel is a digit and a blank at least: the file's size bounds what is reserved.
+    // A pixel takes at least a digit and a blank, so the file's size bounds the reserved memory.
     if (2 * pixels - 1 > reader.size()) {
       reader.fail(fmt::format("is cut off: {} x {} pixels do not fit into its {} bytes",
                               image.width, image.height, reader.size()));

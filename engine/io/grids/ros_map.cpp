@@ -61,7 +61,7 @@ Eigen::Vector2d read_origin(const YamlNode& node) {
   }
   if (number_of(node.items[2], "origin's yaw") != 0.0) {
     fail_at(node.items[2].mark,
-            fmt::format("origin's yaw = {} rad, must be 0: turned maps are not read",
+            fmt::format("origin's yaw = {} rad, must be 0: rotated maps are not supported",
                         shown(node.items[2])));
   }
   return {number_of(node.items[0], "origin's x"), number_of(node.items[1], "origin's y")};
@@ -111,7 +111,7 @@ RosMap load_ros_map(const std::filesystem::path& yaml_file) {
   grid.cells.resize(image.values.size());
   std::int64_t unknown = 0;
   for (int j = 0; j < grid.rows; ++j) {
-    // The picture's first row is the northern one, the grid's the southern one.
+    // The picture's first row is in the north, the grid's in the south.
     const std::size_t from = static_cast<std::size_t>(grid.rows - 1 - j) * image.width;
     for (int i = 0; i < grid.columns; ++i) {
       const int value = image.values[from + i];
@@ -123,7 +123,7 @@ RosMap load_ros_map(const std::filesystem::path& yaml_file) {
   }
   if (unknown > 0) {
     result.notes.push_back(
-        fmt::format("ROS map '{}': {} of {} cells are unknown and count as taken",
+        fmt::format("ROS map '{}': {} of {} cells are unknown and count as occupied",
                     yaml_file.string(), unknown, grid.cells.size()));
   }
   return result;

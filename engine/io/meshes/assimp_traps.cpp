@@ -5,10 +5,10 @@
 
 namespace Assimp {
 
-/// Stands before assimp's own function of this name, which prints and aborts. ReadFile turns the
+/// Replaces assimp's own function of this name, which prints and aborts. ReadFile turns the
 /// exception into its error text.
 [[noreturn]] void aiAssertViolation(const char* condition, const char* /*file*/, int /*line*/) {
-  throw std::runtime_error(std::string("its contents break a rule of the format (") + condition +
+  throw std::runtime_error(std::string("its contents violate a rule of the format (") + condition +
                            ")");
 }
 

@@ -1,7 +1,7 @@
 #pragma once
-/// A trap of assimp 5.2 and how load_mesh steps round it.
+/// Workaround for assertions in assimp 5.2.
 ///
-/// Debian's build has assertions on: some broken files would abort the process. assimp_traps.cpp
-/// defines the function that assimp calls then, so that it throws and ReadFile returns with an
-/// error text. PLY, whose reader in assimp writes and reads beyond its buffers, is read by
-/// mesh_ply.h instead.
+/// Debian's build has assertions enabled: some broken files would abort the process.
+/// assimp_traps.cpp defines the function that assimp calls for a failed assertion. It throws, so
+/// that ReadFile returns with an error text. assimp's PLY reader writes and reads beyond its
+/// buffers; mesh_ply.h reads PLY instead.

@@ -19,10 +19,10 @@
 namespace vinerow::io {
 namespace {
 
-constexpr std::uint64_t kMostNodes = 1'000'000;
+constexpr std::uint64_t kMaxNodes = 1'000'000;
 constexpr int kDeepestNode = 200;
-constexpr std::uint64_t kMostInputs = 100;    // numbers of one corner: position, normal, ...
-constexpr std::uint64_t kMostStride = 1'000;  // numbers of one entry of a source
+constexpr std::uint64_t kMaxInputs = 100;    // numbers of one corner: position, normal, ...
+constexpr std::uint64_t kMaxStride = 1'000;  // numbers of one entry of a source
 
 class ColladaCheck {
  public:
@@ -40,12 +40,12 @@ class ColladaCheck {
     throw ConfigError(fmt::format("mesh file '{}' is broken: {}", file_.string(), sentence));
   }
 
-  /// Depth is tinyxml2's to limit.
+  /// tinyxml2 limits the depth of the recursion.
   void look_at(const tinyxml2::XMLElement& element) {
     const std::string name = element.Name();
     check_number(element, "count", bytes_, ", the file's bytes");
-    check_number(element, "stride", kMostStride, "");
-    check_number(element, "offset", name == "input" ? kMostInputs : bytes_, "");
+    check_number(element, "stride", kMaxStride, "");
+    check_number(element, "offset", name == "input" ? kMaxInputs : bytes_, "");
     if (name == "p" || name == "v" || name == "vcount" || name == "h") check_indices(element);
     if (name == "float_array") check_floats(element);
     if (name == "float_array" || name == "Name_array" || name == "IDREF_array") {
@@ -63,7 +63,7 @@ class ColladaCheck {
     }
   }
 
-  /// Every word of the element's own text.
+  /// Calls back for every word of the element's own text.
   template <class Look>
   static void for_each_word(const tinyxml2::XMLElement& element, const Look& look) {
     for (const auto* node = element.FirstChild(); node != nullptr; node = node->NextSibling()) {
@@ -82,7 +82,7 @@ class ColladaCheck {
     }
   }
 
-  /// assimp reads on without end behind a word that is no number.
+  /// assimp would read on endlessly after a word that is not a number.
   void check_indices(const tinyxml2::XMLElement& element) const {
     for_each_word(element, [&](std::string_view word) {
       const auto number = parse_count(word);
@@ -107,13 +107,13 @@ class ColladaCheck {
                      element.GetLineNum(), count, promised));
   }
 
-  /// assimp looks up entries of an accessor in its array without asking how long that is.
+  /// assimp looks up entries of an accessor in its array without a bounds check.
   void check_accessor(const tinyxml2::XMLElement& accessor) const {
     const char* source = accessor.Attribute("source");
     const std::uint64_t count = count_of(accessor, "count", 0);
     if (source == nullptr || count == 0) return;
     const auto found = arrays_.find(source[0] == '#' ? source + 1 : source);
-    if (found == arrays_.end()) return;  // assimp says so where it is needed
+    if (found == arrays_.end()) return;  // assimp reports this if it needs the array
     const tinyxml2::XMLElement& array = *found->second;
     if (is_in_mesh(accessor) && std::strcmp(array.Name(), "float_array") != 0) {
       fail(fmt::format("the <accessor> of line {} takes a mesh's numbers from the <{}> of line {}",
@@ -157,7 +157,7 @@ class ColladaCheck {
                      why));
   }
 
-  /// Nodes below this one, itself too, with all that instances bring.
+  /// Number of nodes in this subtree, including this node and all instanced nodes.
   std::uint64_t count_nodes(const tinyxml2::XMLElement& node, const std::string& name, int depth) {
     if (depth > kDeepestNode) {
       fail(fmt::format("its nodes are nested deeper than {}", kDeepestNode));
@@ -177,8 +177,8 @@ class ColladaCheck {
         const auto instanced = nodes_.find(wanted);
         if (instanced != nodes_.end()) count += count_nodes(*instanced->second, wanted, depth + 1);
       }
-      if (count > kMostNodes) {
-        fail(fmt::format("its nodes instance each other more than {} times", kMostNodes));
+      if (count > kMaxNodes) {
+        fail(fmt::format("its nodes instance each other more than {} times", kMaxNodes));
       }
     }
     counts_[&node] = count;
@@ -202,11 +202,11 @@ void check_collada(const std::filesystem::path& file) {
   tinyxml2::XMLDocument document;
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS ||
       document.RootElement() == nullptr) {
-    throw ConfigError(fmt::format("mesh file '{}' cannot be read: it is no XML (line {})",
+    throw ConfigError(fmt::format("mesh file '{}' cannot be read: it is not XML (line {})",
                                   file.string(), document.ErrorLineNum()));
   }
-  // assimp takes the first <COLLADA> of the document's elements, so that what stands before it
-  // would be all that is checked.
+  // assimp uses the first <COLLADA> among the top-level elements. If another element preceded it,
+  // this check would cover only that element.
   const tinyxml2::XMLElement& root = *document.RootElement();
   if (std::strcmp(root.Name(), "COLLADA") != 0) {
     throw ConfigError(
@@ -216,8 +216,8 @@ void check_collada(const std::filesystem::path& file) {
   }
   if (const auto* second = root.NextSiblingElement()) {
     throw ConfigError(fmt::format(
-        "mesh file '{}' cannot be read: <{}> (line {}) stands beside "
-        "<COLLADA>, a document has one outermost element",
+        "mesh file '{}' cannot be read: <{}> (line {}) is next to "
+        "<COLLADA>, but a document has one outermost element",
         file.string(), std::string(second->Name()).substr(0, 40), second->GetLineNum()));
   }
   ColladaCheck(file, text.size()).check(root);

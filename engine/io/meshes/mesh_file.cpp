@@ -41,7 +41,7 @@ void check_readable(const std::filesystem::path& file, const std::string& extens
 Eigen::Matrix3d calc_file_to_metres(const std::filesystem::path& file, const std::string& extension,
                                     const MeshFileOptions& options) {
   char up = 'Z';
-  double file_unit_m = 1.0;  // already in assimp's node transforms
+  double file_unit_m = 1.0;  // included in assimp's node transforms
   if (extension == ".dae") {
     const ColladaAsset asset = read_collada_asset(file);
     up = asset.up_axis;
@@ -64,7 +64,7 @@ double linear_from_srgb(double value) {
   return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
 }
 
-/// glTF's factors are linear; the other formats hold what a screen shows.
+/// glTF's factors are linear; the other formats store sRGB.
 Eigen::Vector3f linear_colour(const Eigen::Vector3f& colour, bool file_is_linear) {
   if (file_is_linear) return colour;
   const Eigen::Vector3d rgb = colour.cast<double>();
@@ -95,7 +95,7 @@ Material convert_material(const aiMaterial& source, const std::filesystem::path&
   if (source.Get(AI_MATKEY_ROUGHNESS_FACTOR, roughness) == aiReturn_SUCCESS) {
     material.roughness = roughness;
   }
-  // Every texture the material names is looked for, the base colour alone is used.
+  // All textures of the material are looked up, but only the base colour is used.
   for (int type = aiTextureType_DIFFUSE; type <= AI_TEXTURE_TYPE_MAX; ++type) {
     const auto texture_type = static_cast<aiTextureType>(type);
     for (unsigned i = 0; i < source.GetTextureCount(texture_type); ++i) {
@@ -162,7 +162,7 @@ TriangleMesh convert_mesh(const aiMesh& source, bool file_is_linear) {
   return mesh;
 }
 
-/// From the file's axes and unit to the result's; triangles without area are left out.
+/// Transforms a mesh to the result's axes and unit, and removes degenerate triangles.
 void place_mesh(TriangleMesh& mesh, const Eigen::Matrix4d& transform, const std::string& name,
                 const std::filesystem::path& file) {
   const Eigen::Matrix3d linear = transform.topLeftCorner<3, 3>();
@@ -187,10 +187,10 @@ void place_mesh(TriangleMesh& mesh, const Eigen::Matrix4d& transform, const std:
       n = usable ? Eigen::Vector3f((turned / length).cast<float>()) : Eigen::Vector3f::UnitZ();
     }
   }
-  if (determinant < 0.0) {  // a mirror turns faces inside out
+  if (determinant < 0.0) {  // a reflection inverts the faces
     for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
   }
-  // Triangles without area have no normal and trouble contact and rays.
+  // Degenerate triangles have no normal and disturb contacts and rays.
   std::erase_if(mesh.triangles, [&](const std::array<std::uint32_t, 3>& t) {
     const Eigen::Vector3f& a = mesh.vertices[t[0]];
     const Eigen::Vector3f& b = mesh.vertices[t[1]];
@@ -281,14 +281,14 @@ MeshFile load_mesh(const std::filesystem::path& file, const MeshFileOptions& opt
   if (options.join_vertices) steps |= aiProcess_JoinIdenticalVertices;
   const aiScene* scene = importer.ReadFile(file.string(), steps);
   if (scene == nullptr) {
-    // assimp has no error text for a file that holds nothing it could use.
+    // assimp has no error text for a file without usable content.
     const std::string reason = importer.GetErrorString();
-    // Points and lines alone: assimp's words for what is said below.
+    // Only points and lines: assimp's text for the case of no triangles below.
     if (reason.find("No meshes") != std::string::npos) {
       throw ConfigError(fmt::format("mesh file '{}' has no triangles", file.string()));
     }
     throw ConfigError(fmt::format("mesh file '{}' cannot be read: {}", file.string(),
-                                  reason.empty() ? "it holds no geometry" : reason));
+                                  reason.empty() ? "it has no geometry" : reason));
   }
 
   const bool file_is_linear = extension == ".gltf" || extension == ".glb";

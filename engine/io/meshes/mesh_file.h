@@ -1,10 +1,10 @@
 #pragma once
-/// Triangle meshes from files: OBJ, STL, COLLADA (DAE), glTF/GLB, PLY and what else assimp reads.
+/// Reader of triangle meshes: OBJ, STL, COLLADA (DAE), glTF/GLB, PLY and other formats of assimp.
 ///
-/// Result frame: z up, metres. Axes and unit come from the file where the format says them
-/// (COLLADA: `up_axis` and `unit`; glTF: y up, metres); OBJ, STL and PLY say nothing and are taken
-/// as z up, metres, unless the caller knows better. A rotation from y up to z up maps (x, y, z) to
-/// (x, -z, y).
+/// Result frame: z up, metres. Axes and unit come from the file if the format defines them
+/// (COLLADA: `up_axis` and `unit`; glTF: y up, metres). OBJ, STL and PLY do not; they are read as z
+/// up, metres, unless the options differ. The rotation from y up to z up is
+/// (x, y, z) -> (x, -z, y).
 
 #include <filesystem>
 #include <memory>
@@ -16,17 +16,17 @@
 namespace vinerow::io {
 
 enum class UpAxis {
-  kAuto,  ///< what the file says, else z
-  kY,     ///< the file's numbers have y up, whatever it says
-  kZ,     ///< the file's numbers have z up, whatever it says (URDF's reading of every mesh)
+  kAuto,  ///< as in the file, else z
+  kY,     ///< y up, regardless of the file
+  kZ,     ///< z up, regardless of the file (as URDF reads every mesh)
 };
 
 struct MeshFileOptions {
   UpAxis up_axis = UpAxis::kAuto;
-  double unit_m = 0.0;  ///< metres per unit of the file; 0 = what the file says, else 1
+  double unit_m = 0.0;  ///< metres per unit of the file; 0 = as in the file, else 1
   Eigen::Vector3d scale = {1.0, 1.0, 1.0};  ///< applied last, in the result frame; != 0
   bool join_vertices =
-      true;  ///< share equal vertices; off keeps the file's vertices and their order
+      true;  ///< merge equal vertices; false keeps the file's vertices and their order
 };
 
 /// One mesh of one material.
@@ -37,9 +37,8 @@ struct MeshPart {
 };
 
 struct MeshFile {
-  std::vector<MeshPart> parts;  ///< in file order, never empty
-  std::vector<std::string>
-      notes;  ///< textures and libraries that the file names and that are not there, each by name
+  std::vector<MeshPart> parts;     ///< in file order, never empty
+  std::vector<std::string> notes;  ///< missing textures and libraries that the file names
 
   Eigen::AlignedBox3d bounds() const;  ///< of all parts, m
 };
@@ -49,8 +48,8 @@ struct MeshFile {
 ///         reason), has no triangles, or has a coordinate that is not finite.
 MeshFile load_mesh(const std::filesystem::path& file, const MeshFileOptions& options = {});
 
-/// All parts as one mesh, for collision. Colours and texture coordinates are dropped unless every
-/// part has them.
+/// Joins all parts into one mesh, for collision. Colours and texture coordinates are dropped unless
+/// every part has them.
 TriangleMesh merge_parts(const MeshFile& file);
 
 }  // namespace vinerow::io

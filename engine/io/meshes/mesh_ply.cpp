@@ -20,12 +20,12 @@
 namespace vinerow::io {
 namespace {
 
-/// Cutting up a polygon takes time with the square of its corners and worse.
-constexpr std::size_t kMostCorners = 1'000;
-/// Indices are of 32 bits.
-constexpr std::uint64_t kMostVertices = std::numeric_limits<std::uint32_t>::max();
+/// Triangulating a polygon takes at least quadratic time in its corners.
+constexpr std::size_t kMaxCorners = 1'000;
+/// Indices have 32 bits.
+constexpr std::uint64_t kMaxVertices = std::numeric_limits<std::uint32_t>::max();
 
-/// The instances of a PLY file's elements, one after another.
+/// Sequential reader of the rows of a PLY file's elements.
 class PlyRows {
  public:
   explicit PlyRows(const std::filesystem::path& path)
@@ -39,9 +39,9 @@ class PlyRows {
     lists.resize(element.properties.size());
   }
 
-  /// How many rows the rest of the file can hold at most: what may be reserved.
-  std::size_t most_rows() const {
-    // A number of text takes a digit and what parts it from the next.
+  /// Maximum number of rows in the rest of the file, as a bound for reserved memory.
+  std::size_t max_rows() const {
+    // In text, a number takes at least a digit and a separator.
     std::uint64_t bytes = 0;
     for (const PlyProperty& p : element_->properties) {
       bytes += header.ascii ? 2 : size_of(p.list_count_type.value_or(p.type));
@@ -50,9 +50,9 @@ class PlyRows {
         std::min(element_->count, file.remaining() / std::max<std::uint64_t>(bytes, 1) + 1));
   }
 
-  /// The next row into `numbers` and `lists`. @returns false behind the last
+  /// Reads the next row into `numbers` and `lists`. @returns false after the last
   bool next() {
-    // An element without properties takes no bytes, however many there are.
+    // An element without properties takes no bytes for any count.
     if (row_ == element_->count || element_->properties.empty()) return false;
     if (header.ascii) {
       read_text();
@@ -63,7 +63,7 @@ class PlyRows {
     return true;
   }
 
-  /// Behind the last element.
+  /// Checks that nothing follows the last element.
   void expect_end() {
     std::string_view line;
     if (header.ascii ? next_line(&line) : file.remaining() > 0) {
@@ -75,12 +75,12 @@ class PlyRows {
 
   BlockFile file;
   const PlyHeader header;
-  std::vector<double> numbers;             ///< by property; of lists 0
-  std::vector<std::vector<double>> lists;  ///< by property; of numbers empty
+  std::vector<double> numbers;             ///< by property; 0 for lists
+  std::vector<std::vector<double>> lists;  ///< by property; empty for numbers
 
  private:
   [[noreturn]] void fail_cut_off() const {
-    file.fail(fmt::format("is cut off: element {} {} of {} is not whole", element_->name, row_ + 1,
+    file.fail(fmt::format("is cut off: element {} {} of {} is incomplete", element_->name, row_ + 1,
                           element_->count));
   }
 
@@ -141,7 +141,7 @@ class PlyRows {
                           property.name, count, element_->name, row_ + 1));
   }
 
-  /// The next line that is not blank.
+  /// Reads the next line that is not blank.
   bool next_line(std::string_view* line) {
     while (file.line(line)) {
       std::string_view rest = *line;
@@ -154,7 +154,7 @@ class PlyRows {
   std::uint64_t row_ = 0;
 };
 
-/// The place of a property by any of its names; must it be a list?
+/// Index of a property by any of its names, if it is a list or a number as requested.
 std::optional<std::size_t> find(const PlyElement& element,
                                 std::initializer_list<std::string_view> names, bool is_list) {
   for (std::size_t k = 0; k < element.properties.size(); ++k) {
@@ -165,7 +165,7 @@ std::optional<std::size_t> find(const PlyElement& element,
   return std::nullopt;
 }
 
-/// Several properties of which all or none count.
+/// Indices of several properties, or nullopt unless all exist.
 template <std::size_t N>
 std::optional<std::array<std::size_t, N>> find_all(const PlyElement& element,
                                                    const std::array<std::string_view, N>& names) {
@@ -198,7 +198,7 @@ class PlyMeshReader {
     }
     rows_.expect_end();
     if (!has_vertices_) rows_.file.fail("has no element 'vertex'");
-    // Faces may stand before the vertices: they are looked up when both are there.
+    // Faces may precede the vertices, so they are resolved after all elements are read.
     for (const Face& face : faces_) add_face(face);
     for (const std::string& comment : rows_.header.comments) {
       std::string_view rest = comment;
@@ -212,12 +212,12 @@ class PlyMeshReader {
   }
 
  private:
-  /// Corners begin .. begin + count of corners_ and, with has_uv, of corner_uvs_.
+  /// Face with the corners [begin, begin + count) of corners_ and, if has_uv, of corner_uvs_.
   struct Face {
     std::size_t begin = 0, uv_begin = 0;
     std::uint32_t count = 0;
     bool has_uv = false;
-    std::uint64_t number = 0;  // in the file, from 1
+    std::uint64_t number = 0;  // number in the file, from 1
     const char* element = "face";
   };
 
@@ -246,9 +246,9 @@ class PlyMeshReader {
       }
     }
     TriangleMesh& mesh = result_.mesh;
-    const std::size_t most = rows_.most_rows();
-    if (most > kMostVertices) {
-      rows_.file.fail(fmt::format("has more than {} vertices", kMostVertices));
+    const std::size_t most = rows_.max_rows();
+    if (most > kMaxVertices) {
+      rows_.file.fail(fmt::format("has more than {} vertices", kMaxVertices));
     }
     mesh.vertices.reserve(most);
     if (normal) mesh.normals.reserve(most);
@@ -283,13 +283,13 @@ class PlyMeshReader {
   void read_faces(const PlyElement& element) {
     const std::size_t at = indices_of(element);
     const auto uv_at = find(element, {"texcoord"}, true);
-    faces_.reserve(faces_.size() + rows_.most_rows());
+    faces_.reserve(faces_.size() + rows_.max_rows());
     while (rows_.next()) {
       const std::vector<double>& corners = rows_.lists[at];
       if (corners.size() < 3) continue;  // points and lines
-      if (corners.size() > kMostCorners) {
-        rows_.file.fail(fmt::format("has a face of {} corners, face {}; it may have {}",
-                                    corners.size(), rows_.row(), kMostCorners));
+      if (corners.size() > kMaxCorners) {
+        rows_.file.fail(fmt::format("has a face of {} corners, face {}; at most {} are allowed",
+                                    corners.size(), rows_.row(), kMaxCorners));
       }
       Face face;
       face.begin = corners_.size();
@@ -308,7 +308,7 @@ class PlyMeshReader {
     }
   }
 
-  /// Of a strip a b c d e the triangles are abc, cbd, cde: every other one is turned round.
+  /// A strip a b c d e has the triangles abc, cbd, cde: every second one has the opposite order.
   void read_strips(const PlyElement& element) {
     const std::size_t at = indices_of(element);
     while (rows_.next()) {
@@ -353,7 +353,7 @@ class PlyMeshReader {
     return *file_vertices_;
   }
 
-  /// The vertex with a corner's own texture coordinates: itself, or a copy of it.
+  /// The vertex itself, or a copy of it with the corner's texture coordinates.
   std::uint32_t vertex_with(std::uint32_t vertex, const Eigen::Vector2f& uv) {
     TriangleMesh& mesh = result_.mesh;
     if (own_uvs_.empty()) {
@@ -371,8 +371,8 @@ class PlyMeshReader {
     const auto [found, is_new] =
         copies_.try_emplace(key, static_cast<std::uint32_t>(mesh.vertices.size()));
     if (is_new) {
-      if (mesh.vertices.size() >= kMostVertices) {
-        rows_.file.fail(fmt::format("has more than {} vertices", kMostVertices));
+      if (mesh.vertices.size() >= kMaxVertices) {
+        rows_.file.fail(fmt::format("has more than {} vertices", kMaxVertices));
       }
       const auto repeat = [&](auto& list) {
         const auto value = list[vertex];
@@ -389,12 +389,12 @@ class PlyMeshReader {
   PlyRows rows_;
   PlyMesh result_;
   bool has_vertices_ = false;
-  std::optional<std::size_t> file_vertices_;  // before copies were made
+  std::optional<std::size_t> file_vertices_;  // number in the file, without copies
   std::vector<Face> faces_;
   std::vector<double> corners_;  // as written
   std::vector<Eigen::Vector2f> corner_uvs_;
   std::vector<std::uint32_t> polygon_;
-  std::vector<bool> own_uvs_;  // by vertex: its coordinates are taken
+  std::vector<bool> own_uvs_;  // by vertex: its texture coordinates are set
   std::map<std::array<std::uint32_t, 3>, std::uint32_t> copies_;
 };
 

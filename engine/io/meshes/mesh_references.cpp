@@ -7,7 +7,7 @@
 namespace vinerow::io {
 namespace {
 
-/// COLLADA's <asset> stands at the top; geometry may be hundreds of megabytes.
+/// COLLADA's <asset> is at the top of the file; geometry may have hundreds of megabytes.
 std::string read_beginning(const std::filesystem::path& file) {
   std::string text(64 * 1024, '\0');
   std::ifstream stream(file, std::ios::binary);

@@ -1,5 +1,5 @@
 #pragma once
-/// What mesh files say outside their triangles: axes and unit of COLLADA, files they refer to.
+/// References of mesh files to other files, and axes and unit of COLLADA files.
 
 #include <filesystem>
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace vinerow::io {
 
-/// The <asset> element of a COLLADA file.
+/// Contents of the <asset> element of a COLLADA file.
 struct ColladaAsset {
   char up_axis = 'Y';  ///< 'X', 'Y' or 'Z'; the format's default is Y
   double unit_m = 1.0;
@@ -16,11 +16,11 @@ struct ColladaAsset {
 
 ColladaAsset read_collada_asset(const std::filesystem::path& file);
 
-/// The `mtllib` files an OBJ file names, as written.
+/// The `mtllib` files that an OBJ file names, as written.
 std::vector<std::string> read_material_libraries(const std::filesystem::path& obj_file);
 
 /// Finds a file that a mesh file names: relative to the mesh file's folder, percent-decoded,
-/// `file://` removed, back slashes turned. @returns the absolute path, or nullopt where there is no
+/// without `file://`, back slashes replaced. @returns the absolute path, or nullopt if there is no
 /// such file
 std::optional<std::filesystem::path> find_reference(const std::filesystem::path& mesh_file,
                                                     const std::string& reference);

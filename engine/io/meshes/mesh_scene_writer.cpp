@@ -16,11 +16,11 @@ namespace {
 static_assert(std::endian::native == std::endian::little,
               "the glTF writer copies memory as little-endian");
 
-// Of the specification: types of components, of primitives, of buffer views.
+// Constants of the specification: types of components, primitives and buffer views.
 constexpr int kFloat = 5126, kUint16 = 5123, kUint32 = 5125, kTriangles = 4;
 constexpr int kVertices = 34962, kIndices = 34963;
 
-/// A mesh without triangles has no place in a glTF file, whose accessors are never empty.
+/// Removes meshes without triangles: accessors of a glTF file must not be empty.
 std::vector<NamedMesh> checked(std::span<const NamedMesh> meshes,
                                const std::filesystem::path& file) {
   std::vector<NamedMesh> result;
@@ -35,8 +35,7 @@ std::vector<NamedMesh> checked(std::span<const NamedMesh> meshes,
     if (!named.mesh->triangles.empty()) result.push_back(named);
   }
   if (result.empty()) {
-    throw ConfigError(
-        fmt::format("mesh file '{}': there is no mesh with triangles to write", file.string()));
+    throw ConfigError(fmt::format("mesh file '{}': no mesh has triangles to write", file.string()));
   }
   return result;
 }
@@ -84,7 +83,7 @@ void write_glb(std::span<const NamedMesh> meshes, const std::filesystem::path& f
   root["asset"] = {{"version", "2.0"}, {"generator", "Vinerow"}};
   root["scene"] = 0;
   root["scenes"] = json::array({{{"nodes", {0}}}});
-  // Around x by -90 degrees: z up becomes y up.
+  // Rotation about x by -90 degrees: z up becomes y up.
   constexpr double kHalf = 0.70710678118654752;
   root["nodes"] = json::array({{{"name", "z_up"}, {"rotation", {-kHalf, 0.0, 0.0, kHalf}}}});
   root["materials"] = json::array(
@@ -119,7 +118,7 @@ void write_glb(std::span<const NamedMesh> meshes, const std::filesystem::path& f
                          {"type", "VEC3"},
                          {"min", {low.x(), low.y(), low.z()}},
                          {"max", {high.x(), high.y(), high.z()}}});
-    // The highest number of 16 bits means a new strip and is no index.
+    // The largest 16-bit number means primitive restart and is not a valid index.
     const bool fits = mesh.vertices.size() <= std::numeric_limits<std::uint16_t>::max();
     begin = data.size();
     for (const auto& t : mesh.triangles) {

@@ -1,6 +1,6 @@
 #pragma once
-/// Several named meshes in one file, for other programs: Wavefront OBJ, binary glTF 2.0, and as one
-/// mesh for write_ply().
+/// Writers of several named meshes to one file, for other programs: Wavefront OBJ, binary glTF 2.0,
+/// and one joined mesh for write_ply().
 ///
 /// Source: Khronos Group, "glTF 2.0 Specification", 2021 (ISO/IEC 12113:2022), 3.6 and 4.4.
 
@@ -18,23 +18,24 @@ struct NamedMesh {
   const TriangleMesh* mesh = nullptr;  ///< m, z up
 };
 
-/// Text: one object per mesh, `o name`, vertices to 0.1 mm, no materials. OBJ says nothing about
-/// axes: these are z up, as the map is; Blender and MeshLab ask for them or show them as they are.
+/// Writes text: one object per mesh, `o name`, vertices to 0.1 mm, no materials. OBJ does not
+/// define axes: the file has z up, like the map. Blender and MeshLab ask for the axes or show the
+/// numbers as they are.
 /// @throws ConfigError as write_glb
 void write_obj(std::span<const NamedMesh> meshes, const std::filesystem::path& file);
 
-/// One node per mesh below a root node that turns z up to glTF's y up, (x, y, z) to (x, z, -y): the
-/// data stay as they are. Vertices as float, indices as 16 bits where they fit, no normals (viewers
-/// then shade the faces flat), one material for all.
-/// @throws ConfigError naming the file: no mesh with triangles, a coordinate that is not finite, or
-/// it cannot be written completely
+/// Writes one node per mesh below a root node that rotates z up to glTF's y up, (x, y, z) to (x, z,
+/// -y); the vertex data keep z up. Vertices are float, indices have 16 bits if they fit, there are
+/// no normals (viewers then use flat shading), and all meshes share one material.
+/// @throws ConfigError naming the file: no mesh has triangles, a coordinate is not finite, or the
+/// file cannot be written completely
 void write_glb(std::span<const NamedMesh> meshes, const std::filesystem::path& file,
                const Material& material);
 
-/// Leaves in the sun.
+/// Material of sunlit leaves.
 Material canopy_material();
 
-/// All vertices and triangles in order, without normals, colours and texture coordinates.
+/// Joins all vertices and triangles in order, without normals, colours and texture coordinates.
 TriangleMesh join_meshes(std::span<const NamedMesh> meshes);
 
 }  // namespace vinerow::io

@@ -1,6 +1,6 @@
 #pragma once
-/// Writes triangle meshes as binary PLY, every bit kept: what load_mesh(join_vertices = false)
-/// reads back is equal.
+/// Lossless writer of triangle meshes as binary PLY: load_mesh(join_vertices = false) reads back an
+/// equal mesh.
 
 #include <filesystem>
 #include <string>
@@ -9,14 +9,14 @@
 
 namespace vinerow::io {
 
-/// Little-endian PLY 1.0: vertices as float x y z, with nx ny nz, s t and red green blue where the
-/// mesh has them (one entry per vertex or none), faces as uchar 3 + 3 int. Colours stay linear,
-/// which load_mesh assumes of PLY colours that are not bytes. A comment holds the digest of the
+/// Writes little-endian PLY 1.0: vertices as float x y z, with nx ny nz, s t and red green blue if
+/// the mesh has them (one entry per vertex or none), faces as uchar 3 + 3 int. Colours stay linear,
+/// which load_mesh assumes for PLY colours that are not bytes. A comment holds the digest of the
 /// rest of the file.
-/// @throws ConfigError naming the file where it cannot be written completely
+/// @throws ConfigError naming the file if it cannot be written completely
 void write_ply(const TriangleMesh& mesh, const std::filesystem::path& file);
 
-/// True for a file of write_ply with every byte as it was written.
+/// True for an unmodified file of write_ply.
 bool is_intact_ply(const std::filesystem::path& file);
 
 }  // namespace vinerow::io

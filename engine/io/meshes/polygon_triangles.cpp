@@ -15,7 +15,7 @@ double cross(const Vector2d& a, const Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// The corners in the plane across the mean normal (Newell's), counter-clockwise.
+/// Corners projected to the plane normal to the mean normal (Newell's method), counter-clockwise.
 std::vector<Vector2d> flatten(const std::vector<Eigen::Vector3f>& vertices,
                               std::span<const std::uint32_t> polygon) {
   Vector3d normal = Vector3d::Zero();
@@ -25,7 +25,7 @@ std::vector<Vector2d> flatten(const std::vector<Eigen::Vector3f>& vertices,
     const Vector3d b = vertices[polygon[(k + 1) % polygon.size()]].cast<double>() - origin;
     normal += a.cross(b);
   }
-  // The axis that lies flattest in the plane keeps the projection well conditioned.
+  // The axis closest to the plane keeps the projection well conditioned.
   int axis = 0;
   normal.cwiseAbs().minCoeff(&axis);
   const Vector3d x = normal.cross(Vector3d::Unit(axis)).normalized();

@@ -22,7 +22,7 @@ std::string place_of_feature(const std::filesystem::path& file, const GeoFeature
   return fmt::format("mission '{}', feature {}", file.string(), feature.index);
 }
 
-/// Nothing where the feature does not have the property.
+/// Value of a property; nullopt if it is missing.
 std::optional<double> property_number(const std::filesystem::path& file, const GeoFeature& feature,
                                       const std::string& name) {
   const std::string text = feature.property(name);
@@ -36,7 +36,7 @@ std::optional<double> property_number(const std::filesystem::path& file, const G
                                 name, text.substr(0, 40)));
 }
 
-/// Nothing where the feature does not have the property.
+/// Value of a property; nullopt if it is missing.
 std::optional<bool> property_switch(const std::filesystem::path& file, const GeoFeature& feature,
                                     const std::string& name) {
   const std::string text = feature.property(name);
@@ -59,14 +59,14 @@ class Route {
                                     place_of_feature(mission_.file, feature), kind.substr(0, 40)));
     }
     FencePolygon fence{kind == "inclusion", feature.points};
-    // The ring ends where it began.
+    // The last point of the ring repeats the first.
     if (fence.points.size() > 3) fence.points.pop_back();
     for (Geodetic& point : fence.points) point.altitude_m = 0.0;
     mission_.fence_polygons.push_back(std::move(fence));
   }
 
-  /// A line from end to end, or a point.
-  void add_way(const GeoFeature& feature) {
+  /// Adds a line from start to end, or a point.
+  void add_path(const GeoFeature& feature) {
     const std::optional<double> speed_mps = property_number(mission_.file, feature, "speed_mps");
     if (speed_mps && !(*speed_mps > 0.0)) {
       throw ConfigError(fmt::format("{}: speed_mps = {}, must be > 0",
@@ -87,7 +87,7 @@ class Route {
       item.params[6] = is_above_sea ? point.altitude_m : height_m.value_or(0.0);
       add(item);
       if (!is_first) continue;
-      // These hold from the place before them on.
+      // These take effect from the preceding position.
       if (speed_mps) add_command(kSpeedCommand, number, 1.0, *speed_mps);
       if (sprays) add_command(kSprayerCommand, number, 1.0, 0.0);
       is_first = false;
@@ -115,7 +115,7 @@ class Route {
   MissionFile mission_;
 };
 
-/// By `order` or `number` where all have it.
+/// Sorts by `order` or `number` if all have it.
 void sort_points(const std::filesystem::path& file, std::vector<GeoFeature>& points) {
   for (const char* name : {"order", "number"}) {
     const bool all_have = std::all_of(points.begin(), points.end(), [&](const GeoFeature& point) {
@@ -148,10 +148,10 @@ MissionFile read_gis_mission(const std::filesystem::path& file) {
     }
   }
   if (lines.empty() && points.empty()) {
-    throw ConfigError(fmt::format("mission '{}' has no line and no point to go to", file.string()));
+    throw ConfigError(fmt::format("mission '{}' has neither lines nor points", file.string()));
   }
   sort_points(file, points);
-  for (const GeoFeature& way : lines.empty() ? points : lines) route.add_way(way);
+  for (const GeoFeature& way : lines.empty() ? points : lines) route.add_path(way);
   MissionFile mission = route.take();
   mission.format = "lines and points of a map";
   return mission;

@@ -1,23 +1,25 @@
 #pragma once
-/// Missions drawn in a geographic information system: lines to follow in the order of the file, or
-/// points to visit, with fences as polygons.
+/// Reader of missions drawn in a GIS program: lines to follow in file order, or points to visit,
+/// with fences as polygons.
 
 #include "engine/io/missions/mission_file.h"
 
 namespace vinerow::io {
 
-/// Whether read_mission() takes a file for one of these: .gpkg, .kml, .kmz, .shp, .geojson.
+/// True if read_mission() reads the file as such a mission: .gpkg, .kml, .kmz, .shp, .geojson.
 bool is_gis_mission(const std::filesystem::path& file);
 
-/// Lines become waypoints from end to end, one line after the other; where there is no line, the
-/// points do, in the order of their property `order` or `number` where all have it, else of the
-/// file. Properties of a line or point:
+/// Lines become waypoints from start to end, one line after the other. If there is no line, points
+/// become waypoints, ordered by their property `order` or `number` if all have it, else in file
+/// order. Properties of a line or point:
 ///   speed_mps   sets the speed from there on (MAV_CMD 178)
-///   sprayer     of a line, true or false: works along it, and not behind it (MAV_CMD 216)
+///   sprayer     of a line, true or false: on along the line, off after it (MAV_CMD 216)
 ///   height_m    above home; without it the third coordinate, above mean sea level, else 0 above
 ///               home
-/// Polygons with the property fence = inclusion or exclusion are fences; others do not count.
-/// @throws ConfigError as read_features(); no line or point, a property that is no such value
+/// Polygons with the property fence = inclusion or exclusion are fences; other polygons are
+/// ignored.
+/// @throws ConfigError as read_features(); also if there is no line or point, or a property has an
+/// invalid value
 MissionFile read_gis_mission(const std::filesystem::path& file);
 
 }  // namespace vinerow::io

@@ -89,7 +89,7 @@ bool find_mav_altitude(int frame, MavAltitude& altitude) {
     case 5:  // GLOBAL_INT
       altitude = MavAltitude::kMeanSeaLevel;
       return true;
-    case 2:  // MISSION: the item has no place
+    case 2:  // MISSION: the item has no position
       altitude = MavAltitude::kNone;
       return true;
     case 3:  // GLOBAL_RELATIVE_ALT

@@ -1,6 +1,5 @@
 #pragma once
-/// The mission commands and frames of MAVLink that are known here, with what they mean for a
-/// flight.
+/// Supported mission commands and frames of MAVLink, with their effect on a flight.
 ///
 /// Source: MAVLink, common.xml, enums MAV_CMD and MAV_FRAME (numbers and names).
 
@@ -8,17 +7,17 @@
 
 namespace vinerow::io {
 
-/// What becomes of a mission command when its mission is flown.
+/// Effect of a mission command on the flight.
 enum class MavAction {
   kWaypoint,  ///< fly there
-  kLoiter,    ///< fly there; the circles are left out
+  kLoiter,    ///< fly there; the circles are ignored
   kReturn,    ///< fly home
   kLand,      ///< fly there and land
   kTakeOff,
-  kSpeed,          ///< sets the speed of what follows
-  kTrigger,        ///< camera trigger by distance: on where parameter 1 > 0
-  kNoMotion,       ///< camera, gimbal, relays and the like: the flight is the same without
-  kCannotBeFlown,  ///< changes the flight in a way that is not supported
+  kSpeed,          ///< sets the speed of the following items
+  kTrigger,        ///< camera trigger by distance: on if parameter 1 > 0
+  kNoMotion,       ///< camera, gimbal, relays and similar: no effect on the flight
+  kCannotBeFlown,  ///< affects the flight in an unsupported way
 };
 
 struct MavCommand {
@@ -27,14 +26,15 @@ struct MavCommand {
   MavAction action = MavAction::kNoMotion;
 };
 
-/// @returns null where the number is not known
+/// @returns null if the number is unknown
 const MavCommand* find_mav_command(int number);
-/// "16 NAV_WAYPOINT", or the bare number where it is not known.
+/// "16 NAV_WAYPOINT", or only the number if it is unknown.
 std::string describe_mav_command(int number);
 
-/// What an item's altitude is measured from.
+/// Reference of an item's altitude.
 enum class MavAltitude { kMeanSeaLevel, kHome, kTerrain, kNone };
-/// MAV_FRAME. @returns false where the frame is not one of 0, 2, 3, 5, 6, 10, 11
+/// Altitude reference of a MAV_FRAME. @returns false if the frame is not one of 0, 2, 3, 5, 6, 10,
+/// 11
 bool find_mav_altitude(int frame, MavAltitude& altitude);
 
 }  // namespace vinerow::io

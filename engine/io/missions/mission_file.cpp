@@ -35,7 +35,7 @@ void check_mission_item(const MissionItem& item, const std::filesystem::path& fi
   if (!find_mav_altitude(item.frame, altitude)) {
     throw ConfigError(fmt::format(
         "{} ({}): frame {} is not known; known are 0 and 5 (above mean sea level), 3 and 6 (above "
-        "home), 10 and 11 (above the terrain) and 2 (no place)",
+        "home), 10 and 11 (above the terrain) and 2 (no position)",
         where, command->name, item.frame));
   }
   for (std::size_t i = 0; i < item.params.size(); ++i) {
@@ -47,9 +47,9 @@ void check_mission_item(const MissionItem& item, const std::filesystem::path& fi
   using enum MavAction;
   const bool flies_there = command->action == kWaypoint || command->action == kLoiter;
   if (flies_there && (altitude == MavAltitude::kNone || !has_place(item))) {
-    throw ConfigError(fmt::format("{} ({}): it has no place (latitude {}, longitude {}, frame {})",
-                                  where, command->name, item.params[4], item.params[5],
-                                  item.frame));
+    throw ConfigError(
+        fmt::format("{} ({}): it has no position (latitude {}, longitude {}, frame {})", where,
+                    command->name, item.params[4], item.params[5], item.frame));
   }
   const bool climbs = flies_there || command->action == kTakeOff;
   if (climbs && !std::isfinite(item.params[6])) {

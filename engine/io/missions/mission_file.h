@@ -1,6 +1,6 @@
 #pragma once
-/// Missions of ground stations, QGroundControl's `.plan` and the text format `QGC WPL 110`, and
-/// those drawn in a geographic information system (gis_mission.h).
+/// Mission files: QGroundControl's `.plan`, the text format `QGC WPL 110`, and missions drawn in a
+/// GIS program (gis_mission.h).
 
 #include <array>
 #include <filesystem>
@@ -16,11 +16,12 @@ namespace vinerow::io {
 struct MissionItem {
   int command = 16;  ///< MAV_CMD, see mav_command.h
   int frame = 3;     ///< MAV_FRAME
-  /// As the file has them, in the command's own units; NaN for JSON's null ("keep", "default").
-  /// 4 and 5 are latitude and longitude in degrees, 6 the altitude in m, of items with a place.
+  /// Parameters as in the file, in the command's own units; NaN for JSON's null ("keep",
+  /// "default"). For items with a position, params[4] and params[5] are latitude and longitude in
+  /// degrees and params[6] is the altitude in m.
   std::array<double, 7> params = {0, 0, 0, 0, 0, 0, 0};
   bool auto_continue = true;
-  int number = 0;  ///< of the item in its file, from 1; items of a survey have the survey's
+  int number = 0;  ///< of the item in its file, from 1; items of a survey have the survey's number
 };
 
 struct FencePolygon {
@@ -39,21 +40,21 @@ struct MissionFile {
   std::string format;  ///< "QGroundControl plan", "QGC WPL 110", "lines and points of a map"
   std::vector<MissionItem> items;
   std::optional<Geodetic> planned_home;    ///< altitude above mean sea level
-  std::optional<double> cruise_speed_mps;  ///< of vehicles with wings
+  std::optional<double> cruise_speed_mps;  ///< of fixed-wing vehicles
   std::optional<double> hover_speed_mps;
-  bool rotorcraft = false;  ///< what a plan that is written is for
+  bool rotorcraft = false;  ///< vehicle type of a plan to be written
   std::vector<FencePolygon> fence_polygons;
   std::vector<FenceCircle> fence_circles;
   std::vector<Geodetic> rally_points;
 };
 
-/// Reads any of the formats, told apart by ending and content.
-/// @throws ConfigError in one sentence, with the file, the item's number and what is known: missing
-/// file, neither format, versions other than `.plan` 1, mission 2, survey 5, fences 2; missing
-/// parts; unknown commands and frames; complex items other than surveys; numbers that are none
+/// Reads any of the formats; extension and content select it.
+/// @throws ConfigError in one sentence, with the file, the item's number and the allowed values:
+/// missing file, unknown format, versions other than `.plan` 1, mission 2, survey 5, fences 2;
+/// missing parts; unknown commands and frames; complex items other than surveys; invalid numbers
 MissionFile read_mission(const std::filesystem::path& file);
 
-/// Whether an item's parameters 4 and 5 say a place: both finite, not both zero.
+/// True if an item has a position: params[4] and params[5] are finite and not both zero.
 bool has_place(const MissionItem& item);
 /// @pre has_place()
 Geodetic place_of(const MissionItem& item);

@@ -1,5 +1,5 @@
 #pragma once
-/// Checks that both mission formats share, and their words.
+/// Checks and error messages shared by the mission formats.
 
 #include <string>
 
@@ -10,7 +10,7 @@ namespace vinerow::io {
 /// "mission 'a.plan', item 3"
 std::string mission_place(const std::filesystem::path& file, int number);
 
-/// @throws ConfigError for an unknown command or frame, and for a place that is none
+/// @throws ConfigError for an unknown command or frame, and for an invalid position
 void check_mission_item(const MissionItem& item, const std::filesystem::path& file);
 
 }  // namespace vinerow::io

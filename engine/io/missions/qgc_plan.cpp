@@ -17,7 +17,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Reads members with the file, and the place in it, for the sentences.
+/// Reader of JSON members, with the file and the place in it for error messages.
 class Reader {
  public:
   Reader(const json& object, std::string place) : object_(object), place_(std::move(place)) {
@@ -85,8 +85,9 @@ class Reader {
     }
     const double latitude_deg = value[0], longitude_deg = value[1];
     if (!(std::abs(latitude_deg) <= 90.0) || !(std::abs(longitude_deg) <= 180.0)) {
-      fail(fmt::format("{} is no place: latitude must be within +-90 deg, longitude within +-180",
-                       value.dump()));
+      fail(fmt::format(
+          "{} is not a valid position: latitude must be within +-90 deg, longitude within +-180",
+          value.dump()));
     }
     return {rad_from_deg(latitude_deg), rad_from_deg(longitude_deg),
             with_altitude ? value[2].get<double>() : 0.0};
@@ -196,7 +197,7 @@ MissionFile parse_qgc_plan(const std::string& text, const std::filesystem::path&
   const Reader reader(root, fmt::format("mission '{}'", file.string()));
   if (!reader.has("fileType") || !reader.member("fileType").is_string() ||
       reader.text("fileType") != "Plan") {
-    reader.fail("it is JSON, but its 'fileType' is not 'Plan': no plan of QGroundControl");
+    reader.fail("it is JSON, but its 'fileType' is not 'Plan': it is not a QGroundControl plan");
   }
   reader.require_version(1);
   MissionFile mission;

@@ -21,7 +21,7 @@ constexpr const char* kFieldNames[] = {"index",       "current",     "frame",   
                                        "latitude",    "longitude",   "altitude",    "autocontinue"};
 constexpr std::size_t kFieldCount = 12;
 
-/// Twelve numbers of a line; NaN is allowed where a parameter is meant.
+/// Twelve numbers of a line; NaN is allowed for parameters.
 std::array<double, kFieldCount> read_wpl_fields(const std::string& line, const std::string& where) {
   std::istringstream stream(line);
   std::array<double, kFieldCount> fields{};
@@ -29,7 +29,7 @@ std::array<double, kFieldCount> read_wpl_fields(const std::string& line, const s
   std::size_t count = 0;
   for (; stream >> word; ++count) {
     if (count >= kFieldCount) continue;
-    // Leading + is common in such files and no part of from_chars.
+    // A leading + is common in such files, but from_chars does not accept it.
     const char* begin = word.data() + (word.front() == '+' ? 1 : 0);
     const char* end = word.data() + word.size();
     const auto [at, error] = std::from_chars(begin, end, fields[count]);
@@ -105,7 +105,7 @@ std::string format_qgc_wpl(const MissionFile& mission) {
   const auto add = [&](const MissionItem& item) {
     text += fmt::format("{}\t{}\t{}\t{}", index, index == 0 ? 1 : 0, item.frame, item.command);
     for (std::size_t i = 0; i < item.params.size(); ++i) {
-      // The text format has no "keep": autopilots take 0 as that.
+      // The text format has no value for "keep"; autopilots interpret 0 as that.
       const double value = std::isfinite(item.params[i]) ? item.params[i] : 0.0;
       const bool is_place = i == 4 || i == 5;
       text += is_place ? fmt::format("\t{:.9f}", value) : fmt::format("\t{:.6g}", value);

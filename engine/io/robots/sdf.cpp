@@ -31,7 +31,7 @@ std::vector<double> read_numbers(const XMLElement& element, std::size_t count,
                                  const std::filesystem::path& file) {
   std::vector<double> numbers;
   std::istringstream stream(element.GetText() ? element.GetText() : "");
-  // operator>> does not read "nan": such text stops the reading and is refused below.
+  // operator>> does not read "nan": reading stops there, and the check below rejects the text.
   for (double number; stream >> number;) numbers.push_back(number);
   bool finite = stream.eof() && numbers.size() == count;
   for (const double number : numbers) finite = finite && std::isfinite(number);
@@ -43,7 +43,7 @@ std::vector<double> read_numbers(const XMLElement& element, std::size_t count,
   return numbers;
 }
 
-/// Child <pose>, identity where absent or empty.
+/// Child <pose>; identity if absent or empty.
 Pose read_pose(const XMLElement& parent, const std::filesystem::path& file) {
   Pose pose;
   const XMLElement* element = parent.FirstChildElement("pose");
@@ -66,7 +66,8 @@ std::pair<std::string, std::string> split_scheme(const std::string& uri) {
   return {uri.substr(0, colon), uri.substr(colon + 3)};
 }
 
-/// Of "model" and "package": the first folder of such a URI is a model's name, not a folder.
+/// True for "model" and "package": the first component of such a URI is a model's name, not a
+/// folder.
 bool names_a_model(const std::string& scheme) {
   return scheme == "model" || scheme == "package";
 }
@@ -79,12 +80,13 @@ std::string model_of(const std::string& uri) {
   return rest.substr(rest.find_last_of('/') + 1);
 }
 
-/// Where a mesh may lie. The first that exists is taken.
+/// Possible paths of a mesh. The first existing one is used.
 std::vector<std::filesystem::path> candidates(const std::string& uri,
                                               const std::filesystem::path& folder,
                                               const std::vector<std::filesystem::path>& search) {
   const auto [scheme, rest] = split_scheme(uri);
-  // A path of its own: absolute, or beside the file that names it, which is what Gazebo writes.
+  // A plain path: absolute, or relative to the folder of the file that names it, as Gazebo writes
+  // it.
   if (!names_a_model(scheme)) return {folder / rest};
   // Copies of models are often renamed: their own folder comes first.
   const std::size_t slash = rest.find('/');
@@ -105,7 +107,7 @@ std::filesystem::path find_mesh(const std::string& uri, const std::filesystem::p
   return places.front();
 }
 
-/// Where a model's text stands and where its meshes may lie.
+/// Locations of a model's file and meshes.
 struct ModelSource {
   const std::filesystem::path& file;
   std::filesystem::path folder;
@@ -136,8 +138,8 @@ void read_geometries(const XMLElement& link, const char* kind, const Pose& X_ML,
   }
 }
 
-/// What the links of a model show, or collide with where they show nothing. @param X_M  of the
-/// model in what it is placed in
+/// Visuals of a model's links, or collisions if there are no visuals. @param X_M  pose of the model
+/// in its parent
 SdfModel read_links(const XMLElement& model, const Pose& X_M, const ModelSource& source) {
   SdfModel result;
   for (const char* kind : {"visual", "collision"}) {
@@ -150,7 +152,7 @@ SdfModel read_links(const XMLElement& model, const Pose& X_M, const ModelSource&
   return result;
 }
 
-/// Poses of models as the world was saved: they stand above those of the models themselves.
+/// Poses of models in the saved state of the world; they override those of the models.
 std::map<std::string, Pose> read_saved_poses(const XMLElement& world,
                                              const std::filesystem::path& file) {
   std::map<std::string, Pose> poses;
@@ -186,7 +188,7 @@ std::optional<SdfOrigin> read_place_on_earth(const XMLElement& world, const std:
   origin.longitude_rad = rad_from_deg(child_number(*element, "longitude_deg", 180.0, file));
   origin.altitude_m = child_number(*element, "elevation", 1e4, file);
   origin.heading_rad = rad_from_deg(child_number(*element, "heading_deg", 360.0, file));
-  // Gazebo writes zeros where nobody said a place.
+  // Gazebo writes zeros if no position was given.
   if (origin.latitude_rad == 0.0 && origin.longitude_rad == 0.0) return std::nullopt;
   return origin;
 }
@@ -228,7 +230,7 @@ SdfWorld read_sdf_world(const std::filesystem::path& file,
     include.X_WM = known != saved.end() ? known->second : read_pose(*element, file);
     result.includes.push_back(std::move(include));
   }
-  // The world of the file may be turned against east and north.
+  // The file's axes may be rotated against east and north.
   if (result.origin) {
     Pose X_W;
     X_W.q = quaternion_from_rpy({0.0, 0.0, result.origin->heading_rad});

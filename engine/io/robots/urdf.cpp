@@ -20,7 +20,7 @@ namespace {
 
 using Packages = std::map<std::string, std::filesystem::path>;
 
-/// Keeps the parser's complaints instead of printing them.
+/// Output handler that keeps the parser's messages instead of printing them.
 class ComplaintCatcher final : public console_bridge::OutputHandler {
  public:
   ComplaintCatcher() : before_(console_bridge::getOutputHandler()) {
@@ -58,13 +58,14 @@ std::string replace_optenv(const std::string& text, std::vector<std::string>& no
     const std::string inside = text.substr(open + kOpen.size(), close - open - kOpen.size());
     const std::size_t space = inside.find(' ');
     const std::string value = space == std::string::npos ? "" : inside.substr(space + 1);
-    notes.push_back(fmt::format("$(optenv {}) was taken as '{}'", inside.substr(0, space), value));
+    notes.push_back(
+        fmt::format("$(optenv {}) was replaced by '{}'", inside.substr(0, space), value));
     result += text.substr(at, open - at) + value;
     at = close + 1;
   }
 }
 
-/// Whether <xacro:include> or its like is left, which a URDF reader would pass over.
+/// True if there are xacro elements, such as <xacro:include>, which a URDF reader would ignore.
 bool has_xacro_element(const tinyxml2::XMLElement& element) {
   for (const auto* child = element.FirstChildElement(); child != nullptr;
        child = child->NextSiblingElement()) {
@@ -75,7 +76,7 @@ bool has_xacro_element(const tinyxml2::XMLElement& element) {
   return false;
 }
 
-/// Whether the text is well-formed XML that only xacro turns into a URDF.
+/// True if the text is well-formed XML that needs xacro to become a URDF.
 bool is_xacro(const std::string& text) {
   tinyxml2::XMLDocument document;
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) return false;
@@ -84,7 +85,7 @@ bool is_xacro(const std::string& text) {
   return text.find("${") != std::string::npos || has_xacro_element(*root);
 }
 
-/// @throws ConfigError where xacro is not installed or refuses the file, with its reason
+/// @throws ConfigError if xacro is not installed or rejects the file, with its reason
 std::string expand_xacro(const std::filesystem::path& file, std::vector<std::string>& notes) {
   if (!has_program("xacro")) {
     throw ConfigError(fmt::format(
@@ -92,18 +93,18 @@ std::string expand_xacro(const std::filesystem::path& file, std::vector<std::str
         "{0} > robot.urdf",
         file.string()));
   }
-  // An absolute path is never taken for an option.
+  // An absolute path cannot be mistaken for an option.
   const ProgramOutput expanded = run_program({"xacro", std::filesystem::absolute(file).string()});
   if (!expanded.succeeded) {
-    throw ConfigError(fmt::format("{}: xacro does not expand it: {}", file.string(),
+    throw ConfigError(fmt::format("{}: xacro cannot expand it: {}", file.string(),
                                   expanded.complaint.substr(0, 300)));
   }
   notes.push_back("expanded by xacro");
   return expanded.output;
 }
 
-/// liburdfdom 3 takes its complaints, which quote values and names, for formats of printf: a '%' in
-/// them reads and writes memory that is not theirs. Names of files are not quoted that way.
+/// liburdfdom 3 passes its messages, which quote values and names, as printf formats: a '%' in them
+/// would read and write foreign memory. Names of files are not quoted that way.
 void check_percent(const tinyxml2::XMLElement& element, const std::string& file) {
   for (const auto* attribute = element.FirstAttribute(); attribute != nullptr;
        attribute = attribute->Next()) {
@@ -111,7 +112,7 @@ void check_percent(const tinyxml2::XMLElement& element, const std::string& file)
     if (value.find('%') == std::string_view::npos) continue;
     if (std::string_view(attribute->Name()) == "filename") continue;
     throw ConfigError(fmt::format(
-        "{}:{}: {}=\"{}\" of <{}>: a '%' may stand in names of files only", file,
+        "{}:{}: {}=\"{}\" of <{}>: a '%' is allowed in names of files only", file,
         attribute->GetLineNum(), attribute->Name(), value.substr(0, 60), element.Name()));
   }
   for (const auto* child = element.FirstChildElement(); child != nullptr;
@@ -120,8 +121,8 @@ void check_percent(const tinyxml2::XMLElement& element, const std::string& file)
   }
 }
 
-/// Checks the XML, and drops a material that is defined again under the same name: liburdfdom
-/// refuses the whole file for it. @returns the text to parse
+/// Checks the XML, and removes a second definition of a material, for which liburdfdom would reject
+/// the whole file. @returns the text to parse
 std::string check_xml(const std::string& text, const std::string& file,
                       std::vector<std::string>& notes) {
   tinyxml2::XMLDocument document;
@@ -144,7 +145,8 @@ std::string check_xml(const std::string& text, const std::string& file,
     tinyxml2::XMLElement* next = material->NextSiblingElement("material");
     const char* name = material->Attribute("name");
     if (name != nullptr && !materials.insert(name).second) {
-      notes.push_back(fmt::format("material '{}' is defined again; the first one counts", name));
+      notes.push_back(
+          fmt::format("material '{}' is defined again; the first definition is used", name));
       document.DeleteNode(material);
     }
     material = next;

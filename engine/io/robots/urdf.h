@@ -1,11 +1,10 @@
 #pragma once
-/// Robots from URDF files, as plain data. Parsed by liburdfdom; lengths in metres, angles in
-/// radians.
+/// Reader of URDF robots as plain data, based on liburdfdom. Lengths in metres, angles in radians.
 ///
-/// A xacro source is expanded first, by the program `xacro` where that is installed. Beyond plain
-/// URDF: `$(optenv NAME default)` left behind by xacro is replaced by its default (the
-/// environment is not asked: a run must not depend on it). `package://name/rest` is looked up in
-/// `packages`, else in the nearest folder above the file that is called `name`.
+/// A xacro source is expanded first by the program `xacro`, if installed. Beyond plain URDF, a
+/// remaining `$(optenv NAME default)` is replaced by its default; the environment is ignored, since
+/// a run must not depend on it. `package://name/rest` is looked up in `packages`, else in the
+/// nearest parent folder named `name`.
 
 #include <Eigen/Core>
 #include <filesystem>
@@ -29,7 +28,7 @@ struct UrdfShape {
   double length_m = 0.0;                             ///< cylinder, along z of S
   std::filesystem::path mesh_file;                   ///< absolute, exists
   Eigen::Vector3d mesh_scale = Eigen::Vector3d::Ones();
-  std::optional<Eigen::Vector3f> colour;  ///< of the material, sRGB 0..1, where one is given
+  std::optional<Eigen::Vector3f> colour;  ///< of the material, sRGB 0..1, if given
 };
 
 struct UrdfLink {
@@ -42,7 +41,7 @@ struct UrdfLink {
   int parent_joint = -1;  ///< index into UrdfModel::joints; -1: the root
 };
 
-/// Of a joint's position and speed: rad and rad/s, m and m/s of what slides.
+/// Limits of a joint's position and speed: rad and rad/s, or m and m/s for sliding joints.
 struct UrdfLimits {
   double lower = 0.0;
   double upper = 0.0;
@@ -66,13 +65,13 @@ struct UrdfModel {
   std::filesystem::path file;
   std::vector<UrdfLink> links;     ///< parents before children; [0] is the root
   std::vector<UrdfJoint> joints;   ///< joint i leads to links[i + 1]
-  std::vector<std::string> notes;  ///< what was replaced or left out
+  std::vector<std::string> notes;  ///< replaced or ignored elements
 };
 
 /// @param packages  folder of each `package://` name
 /// @throws ConfigError in one sentence: the file does not exist, is not well-formed XML (with the
-///         line), is not a URDF (with the parser's reason), names a mesh that is not there, or is
-///         a xacro source that cannot be expanded
+///         line), is not a URDF (with the parser's reason), names a missing mesh, or is a xacro
+///         source that cannot be expanded
 UrdfModel load_urdf(const std::filesystem::path& file,
                     const std::map<std::string, std::filesystem::path>& packages = {});
 

@@ -131,7 +131,7 @@ struct Bench {
   }
   controllers::DwaLaw law() const {
     return controllers::DwaLaw(params, controllers::DiscOutline::three_circles(0.56, 0.5),
-                               controllers::RoomFinder(known, unknown));
+                               controllers::FreeSpaceFinder(known, unknown));
   }
   controllers::DistanceField known;
   controllers::PointField unknown;
@@ -223,7 +223,7 @@ TEST(DwaLaw, SingleCircleDoesNotFitACanopyOfSeventyCentimetres) {
     Course course = make_alley(half_m);
     course.known.pop_back();
     const controllers::DistanceField known(make_map(course).occupancy);
-    const controllers::RoomFinder rooms(known, nothing);
+    const controllers::FreeSpaceFinder rooms(known, nothing);
     const controllers::Pose2 middle{{10.0, 0.0}, 0.0};
     EXPECT_NEAR(rooms.measure(controllers::DiscOutline::circumscribed(hull), middle).known_m,
                 single_m, 1e-3);
@@ -245,8 +245,9 @@ TEST(DwaRoom, SeesPointsInsideAndOutsideThePolygon) {
     const Eigen::Vector2d point(random.uniform(-1.6, 1.6), random.uniform(-1.2, 1.2));
     controllers::PointField field;
     field.build({0, 0}, {&point, 1});
-    const double room_m =
-        controllers::RoomFinder(no_map, field).measure(polygon, controllers::Pose2{}).unknown_m;
+    const double room_m = controllers::FreeSpaceFinder(no_map, field)
+                              .measure(polygon, controllers::Pose2{})
+                              .unknown_m;
     // A tiny square about the point against the polygon.
     const double true_m = distance_between(
         outline, make_box(point.x() - 1e-6, point.x() + 1e-6, point.y() - 1e-6, point.y() + 1e-6));

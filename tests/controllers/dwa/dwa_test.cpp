@@ -215,7 +215,7 @@ TEST(Dwa, RefusesWithOneSentence) {
             "more than margin_m = 0.05 m");
   EXPECT_EQ(refusal({{"step_s", 0.01}}, same),
             "rover.guidance (dwa): rollouts of 1.6 s (horizon_s, or stopping from 1.6 m/s) need "
-            "160 steps of step_s = 0.01 s, at most 64 are kept");
+            "160 steps of step_s = 0.01 s, at most 64 are possible");
   EXPECT_EQ(refusal({{"mode", std::string("pur")}}, same).find("mode"), 0u);
   EXPECT_NE(refusal({{"horizon_s", 0.0}}, same).find("horizon_s = 0 s, must be > 0"),
             std::string::npos);

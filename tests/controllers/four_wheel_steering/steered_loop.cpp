@@ -26,7 +26,7 @@ PlannedPath make_omega(double radius_m, double spacing_m, double length_m, doubl
   const Eigen::Vector2d t = controllers::direction(heading_rad), side = spacing_m * left_of(t);
   const controllers::Pose2 out{length_m * t, heading_rad},
       back{length_m * t + side, heading_rad + kPi};
-  std::vector<controllers::PathPiece> pieces = {
+  std::vector<controllers::PathSegment> pieces = {
       controllers::make_straight({0, 0}, out.p, PathKind::kLeg, 0, 0.0)};
   controllers::append_dubins(out, controllers::calc_dubins(out, back, radius_m), PathKind::kTurn,
                              0.0, pieces);

@@ -149,7 +149,8 @@ TEST(QuadrotorMpcRecovery, KeepsTheLastWrenchWhileTheEstimateIsNoNumber) {
   run_checked(loop, 3.0);
   EXPECT_LT(loop.error().norm(), 1e-3);
   ASSERT_EQ(loop.events().size(), 2u);
-  EXPECT_EQ(loop.events()[0], "no optimal inputs (QP: invalid input): the last good ones are used");
+  EXPECT_EQ(loop.events()[0],
+            "no optimal inputs (QP: invalid input): the last valid ones are used");
   EXPECT_EQ(loop.events()[1], "optimal inputs again");
 }
 

@@ -97,7 +97,7 @@ SweptVerdict check_swept(const PlannedPath& path, const Polygon& outline_B,
     for (int s = 0; s <= parts; ++s) {
       const double at_m = length_m * s / parts;
       const controllers::Pose2 pose = controllers::advance(start, at_m, at_m * k);
-      verdict.least_m = std::min(verdict.least_m, distance_to_cells(outline_B, pose, grid));
+      verdict.min_m = std::min(verdict.min_m, distance_to_cells(outline_B, pose, grid));
     }
     const controllers::Pose2 end = controllers::advance(start, length_m, length_m * k);
     if (verdict.fault.empty() && ((end.p - b.p_W.head<2>()).norm() > kMeets_m ||

@@ -18,7 +18,7 @@ double distance_to_cells(const std::vector<Eigen::Vector2d>& outline_B,
                          double reach_m = 0.5);
 
 struct SweptVerdict {
-  double least_m = 1e9;  ///< distance to anything taken, over the whole plan
+  double min_m = 1e9;  ///< distance to anything taken, over the whole plan
   double sharpest_per_m = 0.0;
   double length_m = 0.0;  ///< of the arcs between the points
   std::string fault;      ///< the first point where the plan is not one smooth curve

@@ -133,7 +133,7 @@ TEST(RowFlight, GoesHomeAboveGroundAndCanopies) {
     const auto plan = bench.plan(1.25, -6.0);
     ASSERT_TRUE(plan.ok()) << plan.reason();
     const Vec exit = block_point(bench.setup, 2.5 * alleys - 1.25, 118.0);
-    double least_m = 1e9, highest_m = 0.0;
+    double min_m = 1e9, highest_m = 0.0;
     bool over_rows = false;
     for (const PlanSample& sample : sample_plan(*plan, 0.1)) {
       const Vec p = sample.p_W.head<2>();
@@ -143,14 +143,14 @@ TEST(RowFlight, GoesHomeAboveGroundAndCanopies) {
       over_rows = over_rows || over;
       double below_m = bench.hill.at(p);
       if (over) below_m = std::max(below_m, bench.hill.at({row_x, p.y()})) + 2.0;
-      least_m = std::min(least_m, sample.p_W.z() - below_m);
+      min_m = std::min(min_m, sample.p_W.z() - below_m);
       if (!over) highest_m = std::max(highest_m, sample.p_W.z() - below_m);
     }
-    RecordProperty("least_mm", static_cast<int>(1e3 * least_m));
-    EXPECT_GE(least_m, 3.0 - 0.01) << alleys;
+    RecordProperty("least_mm", static_cast<int>(1e3 * min_m));
+    EXPECT_GE(min_m, 3.0 - 0.01) << alleys;
     EXPECT_LE(highest_m, 3.0 + 2.0 + 0.6) << alleys;  // not a chord high above the ground
     EXPECT_TRUE(over_rows);
-    EXPECT_NEAR(bench.number("return_clearance_m"), least_m, 0.02);
+    EXPECT_NEAR(bench.number("return_clearance_m"), min_m, 0.02);
   }
 }
 
@@ -181,7 +181,7 @@ TEST(RowFlight, UsesTheGridPlannersTurns) {
   const SweptVerdict verdict =
       check_swept(rows, bench.vehicle.footprint_B, bench.map.occupancy, 0.1);
   EXPECT_EQ(verdict.fault, "");
-  EXPECT_NEAR(verdict.least_m, bench.number("clearance_m"), bench.setup.cell_m);
+  EXPECT_NEAR(verdict.min_m, bench.number("clearance_m"), bench.setup.cell_m);
   EXPECT_LE(verdict.sharpest_per_m, 1.0 / kRadius_m + 1e-9);
 }
 
@@ -273,13 +273,13 @@ TEST(RowFlight, TellsWhyThereIsNoPlan) {
   narrow.values = {{"first_iterations", std::int64_t{200}}};
   const std::string no_room = failure_of(narrow, 1.25, -1.0);
   EXPECT_THAT(no_room, HasSubstr("the turn from alley 0 to alley 1 needs"));
-  EXPECT_THAT(no_room, HasSubstr("more room at the turning radius of 1.77 m"));
+  EXPECT_THAT(no_room, HasSubstr("more clearance at the turning radius of 1.77 m"));
   FlightBench closed({.alleys = 2, .row_length_m = 20.0, .canopy_m = 1.6});
   closed.values = {{"turns", std::string("dubins")}};
   EXPECT_THAT(
       failure_of(closed, 1.25, -3.0),
-      HasSubstr("path into a row: the way passes (1.25, -0.75), 1.35 m from the centre line of "
-                "row 0, whose canopy is 1.60 m wide and is to be kept clear by 0.55 m"));
+      HasSubstr("path into a row: the path passes (1.25, -0.75), 1.35 m from the centre line of "
+                "row 0, whose canopy is 1.60 m wide and needs a clearance of 0.55 m"));
   FlightBench arcs({.alleys = 2, .row_length_m = 20.0});
   arcs.values = {{"turns", std::string("three_point_arc")}};
   EXPECT_THAT(failure_of(arcs, 1.25, -1.0),
@@ -311,12 +311,12 @@ TEST(RowFlight, RefusesWhatCannotBeFlown) {
   FlightBench bench({.alleys = 1, .row_length_m = 20.0});
   bench.values = {{"height_m", 0.15}};
   EXPECT_EQ(refusal_of(bench),
-            "drone.planner (row_flight): height_m = 0.15 m is not above the 0.20 m at which the "
-            "centre of mass of vehicle type 'quadrotor' stands");
+            "drone.planner (row_flight): height_m = 0.15 m is not above 0.20 m, the height of "
+            "the centre of mass of vehicle type 'quadrotor' on the ground");
   bench.values = {{"return_height_m", 1.2}};
   EXPECT_EQ(refusal_of(bench),
             "drone.planner (row_flight): return_height_m = 1.20 m is not above height_m = 1.50 m, "
-            "the climb at the end of the last row leads nowhere");
+            "so there is no climb at the end of the last row");
   bench.values = {{"alleys", std::vector<double>{1.0}}};
   EXPECT_THAT(refusal_of(bench), HasSubstr("alleys holds 1, must be whole numbers from 0 to 0"));
   bench.values = {};

@@ -24,10 +24,10 @@ constexpr double kBlend_m = 0.8;
 /// 10 m straight along x, half a turn to the left, 10 m back.
 controllers::CurveRun make_hairpin() {
   const controllers::Pose2 start;
-  const controllers::PathPiece out{start, 10.0, 0.0, PathKind::kLeg, 0, 0.0};
-  const controllers::PathPiece arc{out.end(), kPi * kRadius_m, 1.0 / kRadius_m, PathKind::kTurn, -1,
-                                   0.0};
-  const controllers::PathPiece back{arc.end(), 10.0, 0.0, PathKind::kLeg, 1, 0.0};
+  const controllers::PathSegment out{start, 10.0, 0.0, PathKind::kLeg, 0, 0.0};
+  const controllers::PathSegment arc{
+      out.end(), kPi * kRadius_m, 1.0 / kRadius_m, PathKind::kTurn, -1, 0.0};
+  const controllers::PathSegment back{arc.end(), 10.0, 0.0, PathKind::kLeg, 1, 0.0};
   const std::vector<controllers::CurveRun> runs =
       controllers::make_curve_runs(controllers::make_planned_path({out, arc, back}, 0.25), 0.3);
   EXPECT_EQ(runs.size(), 1u);
@@ -92,7 +92,7 @@ TEST(TimeLaw, AFlightOfYearsIsRefusedBeforeItIsSampled) {
 }
 
 TEST(TimeLaw, FliesAStraightAsFastAsItMay) {
-  const controllers::PathPiece straight{controllers::Pose2{}, 100.0, 0.0, PathKind::kLeg, 0, 0.0};
+  const controllers::PathSegment straight{controllers::Pose2{}, 100.0, 0.0, PathKind::kLeg, 0, 0.0};
   const auto runs =
       controllers::make_curve_runs(controllers::make_planned_path({straight}, 0.5), 0.3);
   const controllers::SmoothRun run(runs.front(), kBlend_m);

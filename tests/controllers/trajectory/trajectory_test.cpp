@@ -402,19 +402,19 @@ PlannedPath make_corner() {
 TEST(Trajectory, FliesGroundPlansInTheAirAndStopsAtCorners) {
   GuideBench bench({{"height_m", 2.0}});
   bench.give_plan(make_corner());
-  double least_mps = 1e9, at_corner_m = 1e9, highest_m = 0.0;
+  double min_mps = 1e9, at_corner_m = 1e9, highest_m = 0.0;
   Vec3 end = Vec3::Zero();
   bench.fly({0, 0, 1.2}, 200.0, 1.2, [&](double, const ReferenceTrajectory& reference) {
     const TrajectoryPoint& at = reference.points[0];
     highest_m = std::max(highest_m, at.p_W.z());
     if (reference.phase == Phase::kRow && at.p_W.x() > 14.0 && at.p_W.y() < 1.0) {
-      least_mps = std::min(least_mps, at.v_W.norm());
+      min_mps = std::min(min_mps, at.v_W.norm());
       at_corner_m = std::min(at_corner_m, (at.p_W - Vec3(15, 0, 3)).norm());
     }
     end = at.p_W;
   });
   EXPECT_NEAR(highest_m, 3.0, 1e-9);
-  EXPECT_NEAR(least_mps, 0.0, 1e-9);
+  EXPECT_NEAR(min_mps, 0.0, 1e-9);
   EXPECT_NEAR(at_corner_m, 0.0, 1e-9);
   EXPECT_NEAR((end - Vec3(15, 10, 1.2)).norm(), 0.0, 1e-6);
 }
@@ -424,18 +424,18 @@ TEST(Trajectory, RoundsGentleBendsWithoutStopping) {
   plan.points[2].p_W = Vec3(15 + 10 * std::cos(0.2), 10 * std::sin(0.2), 1);
   GuideBench bench;
   bench.give_plan(plan);
-  double least_mps = 1e9, across = 0.0;
+  double min_mps = 1e9, across = 0.0;
   bench.fly({5, 0, 1.2}, 200.0, 1.2, [&](double, const ReferenceTrajectory& reference) {
     const TrajectoryPoint& at = reference.points[0];
     if (at.p_W.x() < 12.0 || at.p_W.x() > 18.0) return;
-    least_mps = std::min(least_mps, at.v_W.norm());
+    min_mps = std::min(min_mps, at.v_W.norm());
     across = std::max(across, std::abs(at.v_W.x() * at.a_W.y() - at.v_W.y() * at.a_W.x()) /
                                   std::max(at.v_W.norm(), 1e-9));
   });
   // The bend becomes a triangle of curvature, 0.8 m by 0.4 m: the yaw acceleration limits.
   const double limited_mps = std::sqrt(2.5 * 0.8 * 0.4 / 0.2);
-  EXPECT_LE(least_mps, limited_mps);
-  EXPECT_GT(least_mps, 0.95 * limited_mps);
+  EXPECT_LE(min_mps, limited_mps);
+  EXPECT_GT(min_mps, 0.95 * limited_mps);
   EXPECT_LE(across, 1.5);
 }
 
@@ -496,15 +496,16 @@ TEST(Trajectory, TellsWhatIsWrongWithItsParameters) {
   EXPECT_EQ(refusal_of({{"row_speed_mps", 12.0}}),
             "drone.guidance (trajectory): row_speed_mps = 12.00 m/s is more than the 10.00 m/s "
             "that vehicle type 'quadrotor' can fly");
-  EXPECT_EQ(refusal_of({{"hover_s", 5.0}}),
-            "drone.guidance (trajectory): hover_yaw_deg and hover_s say how to hold a place: give "
-            "hover_m");
+  EXPECT_EQ(
+      refusal_of({{"hover_s", 5.0}}),
+      "drone.guidance (trajectory): hover_yaw_deg and hover_s describe how to hold a place: add "
+      "hover_m");
   EXPECT_EQ(refusal_of({{"hover_m", std::vector<double>{0.0, 0.0, 0.1}}}),
             "drone.guidance (trajectory): hover_m holds a height of 0.10 m, which is not above the "
-            "0.20 m at which the centre of mass of vehicle type 'quadrotor' stands");
+            "0.20 m at which the centre of mass of vehicle type 'quadrotor' is on the ground");
   EXPECT_EQ(refusal_of({{"height_m", 0.1}}),
             "drone.guidance (trajectory): height_m = 0.10 m is not above the 0.20 m at which the "
-            "centre of mass of vehicle type 'quadrotor' stands");
+            "centre of mass of vehicle type 'quadrotor' is on the ground");
   EXPECT_THAT(refusal_of({{"acceleration_mps2", 0.0}}), HasSubstr("must be >= 0.001 m/s2"));
   VehicleDescription rover = make_four_wheel_description();
   EXPECT_EQ(refusal_of({}, rover),

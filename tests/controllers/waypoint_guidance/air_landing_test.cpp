@@ -34,8 +34,8 @@ TEST(AirLanding, WarnsOfGroundThatNobodyTold) {
   const Event guess = land({{"land_at_m", far}});
   EXPECT_EQ(guess.level, Event::Level::kWarning);
   EXPECT_THAT(guess.text,
-              ::testing::HasSubstr("; takes the ground there to be at z = 0.0 m as at the start, "
-                                   "500 m away: land_height_m tells it"));
+              ::testing::HasSubstr("; assumes the ground there to be at z = 0.0 m as at the start, "
+                                   "500 m away: land_height_m sets it"));
 }
 
 TEST(AirLanding, IsSilentWhereTheGroundIsKnown) {
@@ -129,7 +129,7 @@ TEST(AirLanding, KeepsItsCirclesAboveAHillAndWarnsWhereItCannot) {
     bench.give_plan(make_waypoints({{0, 0, 60}, {100, 0, 60}}));
     bench.fly(40.0);
     EXPECT_TRUE(bench.has_event("lands at (0.0, 0.0)"));
-    EXPECT_EQ(bench.has_event("m on its circles: approach_height_m"), rise > 0.5) << rise;
+    EXPECT_EQ(bench.has_event("m of the ground: change approach_height_m"), rise > 0.5) << rise;
   }
 }
 

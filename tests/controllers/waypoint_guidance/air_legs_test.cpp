@@ -169,16 +169,16 @@ TEST(HeadingGenerator, SettlesOnTheHeadingAndIsMirrored) {
   controllers::HeadingGenerator left(make_limits()), right(make_limits());
   left.start(0.3, 0.1);
   right.start(-0.3, -0.1);
-  double most_rad = 0.0;
+  double max_rad = 0.0;
   for (int i = 0; i < 400; ++i) {
     left.advance(0.05, 3.3, 0.01, 12.0);
     right.advance(0.05, -3.3, -0.01, 12.0);
     ASSERT_EQ(left.heading_rad(), -right.heading_rad());
     ASSERT_EQ(left.bank_left_rad(), -right.bank_left_rad());
-    most_rad = std::max(most_rad, left.heading_rad());
+    max_rad = std::max(max_rad, left.heading_rad());
   }
   EXPECT_NEAR(left.heading_rad(), 3.3 + 0.01 / 1.2, 1e-6);
-  EXPECT_LT(most_rad, 3.3 + rad_from_deg(4.0));
+  EXPECT_LT(max_rad, 3.3 + rad_from_deg(4.0));
 }
 
 TEST(HeadingGenerator, PredictionEndsWhereTheTurnEnds) {
@@ -208,8 +208,8 @@ TEST(HeadingGenerator, PredictionEndsWhereTheTurnEnds) {
 controllers::FlightLegsOptions make_options() {
   controllers::FlightLegsOptions options;
   options.turn = make_limits();
-  options.least_airspeed_mps = 9.3;
-  options.most_airspeed_mps = 20.0;
+  options.min_airspeed_mps = 9.3;
+  options.max_airspeed_mps = 20.0;
   return options;
 }
 
@@ -251,7 +251,7 @@ TEST(FlightLegs, WarnOfLanesNearerThanTheTurnsTake) {
   EXPECT_THAT(controllers::make_flight_legs(make_lanes(4, 200, 42.0, 50), make_options())->warnings,
               ElementsAre());
   EXPECT_THAT(controllers::make_flight_legs(make_lanes(4, 200, 40.0, 50), make_options())->warnings,
-              ElementsAre("waypoint 2 is 40.0 m after the one before it and the turns there take "
+              ElementsAre("waypoint 2 is 40.0 m after its predecessor and the turns there take "
                           "41.9 m (radius 21.0 m at 12.0 m/s and 35 deg of bank), and 2 more are "
                           "too near: overshoots there"));
 }
@@ -264,7 +264,7 @@ TEST(FlightLegs, WarnOfSlopesAndSpeedsThatAreNotFlown) {
   EXPECT_THAT(controllers::make_flight_legs(plan, options)->warnings,
               ElementsAre("the plan wants 25.0 m/s, which is not in the range 9.3 to 20.0 m/s that "
                           "can be flown with the turns' bank: flies the nearest",
-                          "the way to waypoint 1 climbs 16.7 deg and the guidance climbs at most "
+                          "the path to waypoint 1 climbs 16.7 deg and the guidance climbs at most "
                           "10.0 deg: the height lags there"));
 }
 

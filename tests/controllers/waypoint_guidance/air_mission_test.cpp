@@ -82,7 +82,7 @@ TEST(AirMission, CirclesWhereTheWayIsTooShortToClimb) {
   AirBench bench({{"end", std::string("stop")}}, on_launcher());
   bench.give_plan(make_waypoints({{200, 60, 150}, {200, 500, 150}}));
   Phases phases;
-  double circled_rad = 0.0, yaw_rad = 0.0, least_m = 1e9;
+  double circled_rad = 0.0, yaw_rad = 0.0, min_m = 1e9;
   bench.fly(300.0, [&](double, const Odometry& seen, const AirReference& reference) {
     phases.add(reference.phase);
     const double now_rad = yaw_from_quaternion(seen.X_WB.q);
@@ -90,12 +90,12 @@ TEST(AirMission, CirclesWhereTheWayIsTooShortToClimb) {
     yaw_rad = now_rad;
     EXPECT_LE(reference.climb_angle_rad, rad_from_deg(10.0) + 1e-9);
     if (reference.waypoint == 1) {
-      least_m = std::min(least_m, seen.X_WB.p.z());
+      min_m = std::min(min_m, seen.X_WB.p.z());
     }
   });
   // 130 m at 10 deg are 737 m, of which 200 m lie on the way: more than two circles of 31.5 m.
   EXPECT_GT(circled_rad, 4.0 * kPi);
-  EXPECT_GT(least_m, 148.0);
+  EXPECT_GT(min_m, 148.0);
   EXPECT_EQ(phases.seen[2], AirPhase::kLoiter);
   EXPECT_EQ(phases.seen.back(), AirPhase::kDone);
 }
@@ -303,7 +303,7 @@ TEST(AirMission, FailsWhereItLandsTooFarOff) {
   EXPECT_EQ(fly(50.0), "");
   const std::string failure = fly(0.01);
   EXPECT_TRUE(failure.starts_with("landed at (")) << failure;
-  EXPECT_TRUE(failure.ends_with("m from where it should, at most 0.01 m (land_tolerance_m)"))
+  EXPECT_TRUE(failure.ends_with("m from the planned touchdown, at most 0.01 m (land_tolerance_m)"))
       << failure;
 }
 
@@ -432,7 +432,7 @@ TEST(AirMission, RefusesParametersThatCannotBeFlown) {
                      "loiter_radius_m = 15.0 m is less than the 21.0 m of a turn at 12.0 m/s and "
                      "35.0 deg of bank");
   expect_refused({{"end", std::string("stop")}, {"land_course_deg", 90.0}},
-                 who + "land_course_deg says how to land, but end is 'stop'");
+                 who + "land_course_deg describes a landing, but end is 'stop'");
   expect_refused({{"approach_speed_mps", 8.0}},
                  who +
                      "approach_speed_mps = 8.00 m/s is not above the 8.40 m/s at which vehicle "

@@ -173,11 +173,11 @@ TEST(VehicleCheck, SaysWhatIsWrongWithAnyVehicle) {
   EXPECT_EQ(fault(rover, [](V& v) { v.actuators[3].name = v.actuators[2].name; }),
             "two actuators are called 'wheel_left_speed_radps'");
   EXPECT_EQ(fault(rover, [](V& v) { v.actuators[2].min = 9.0; }),
-            "actuator 'wheel_left_speed_radps' goes from 9 to 8");
+            "actuator 'wheel_left_speed_radps' has min = 9, must be finite and < max = 8");
   EXPECT_EQ(fault(rover, [](V& v) { v.wheeled.reset(), v.steered.reset(); }),
-            "none of wheeled, rotorcraft and fixed_wing is told");
+            "none of wheeled, rotorcraft and fixed_wing is given");
   EXPECT_EQ(fault(make_drone(), [&](V& v) { v.steered = make_rover().steered; }),
-            "steered is told without wheeled");
+            "steered is given without wheeled");
 }
 
 TEST(VehicleCheck, SaysWhatIsWrongWithWheelsAndAxles) {
@@ -188,7 +188,7 @@ TEST(VehicleCheck, SaysWhatIsWrongWithWheelsAndAxles) {
   EXPECT_EQ(fault(rover, [](V& v) { v.wheeled->effective_track_m = -1.0; }),
             "wheeled.effective_track_m = -1, must be >= 0");
   EXPECT_EQ(fault(rover, [](V& v) { v.wheeled->track_m = 1.2; }),
-            "the outline of 1.9 x 1 m does not hold the wheels, 1.5 m apart along and 1.2 m "
+            "the outline of 1.9 x 1 m does not contain the wheels, 1.5 m apart along and 1.2 m "
             "across");
   EXPECT_EQ(fault(rover, [](V& v) { v.height_above_ground_m = 0.1; }),
             "the collision box reaches 0.1 m into level ground");
@@ -197,7 +197,7 @@ TEST(VehicleCheck, SaysWhatIsWrongWithWheelsAndAxles) {
   EXPECT_EQ(fault(rover, [](V& v) { v.steered->rear_axle_m = 0.5; }),
             "steered's axles are 1.25 m apart, wheeled.wheel_base_m = 1.5");
   EXPECT_EQ(fault(rover, [](V& v) { v.actuators[0].name = "tiller_rad"; }),
-            "steered is told, but there is no actuator 'axle_front_steer_rad'");
+            "steered is given, but there is no actuator 'axle_front_steer_rad'");
 }
 
 TEST(VehicleCheck, SaysWhatIsWrongWithASteeredFrontAxle) {
@@ -209,14 +209,14 @@ TEST(VehicleCheck, SaysWhatIsWrongWithASteeredFrontAxle) {
   EXPECT_EQ(find_fault(car).value_or("none"), "none");
   EXPECT_TRUE(car.steers_by_axles());
   EXPECT_EQ(fault(car, [](V& v) { v.wheeled.reset(), v.rotorcraft = make_drone().rotorcraft; }),
-            "ackermann is told without wheeled");
+            "ackermann is given without wheeled");
   EXPECT_EQ(fault(car, [](V& v) { v.steered = make_rover().steered; }),
-            "ackermann and steered are both told");
+            "ackermann and steered are both given");
   EXPECT_EQ(fault(car, [](V& v) { v.ackermann->rear_axle_m = 1.5; }),
             "ackermann.rear_axle_m = 1.5 puts the front axle behind B's origin; "
             "wheeled.wheel_base_m = 1.5");
   EXPECT_EQ(fault(car, [](V& v) { v.actuators[0].name = "tiller_rad"; }),
-            "ackermann is told, but there is no actuator 'axle_front_steer_rad'");
+            "ackermann is given, but there is no actuator 'axle_front_steer_rad'");
 }
 
 TEST(VehicleCheck, SaysWhatIsWrongWithRotors) {
@@ -234,7 +234,7 @@ TEST(VehicleCheck, SaysWhatIsWrongWithRotors) {
             "rotorcraft.rotors[0] reaches 0.432843 m from B's z axis, rotorcraft.tip_radius_m = "
             "0.3");
   EXPECT_EQ(fault(drone, [](V& v) { v.actuators.pop_back(); }),
-            "rotorcraft is told, but there is no actuator 'rotor_2_speed_radps'");
+            "rotorcraft is given, but there is no actuator 'rotor_2_speed_radps'");
 }
 
 TEST(VehicleCheck, SaysWhatIsWrongWithWings) {
@@ -254,7 +254,7 @@ TEST(VehicleCheck, SaysWhatIsWrongWithWings) {
                   }),
             "fixed_wing.start_height_m = inf, must be > 0");
   EXPECT_EQ(fault(plane, [](V& v) { v.actuators[0].name = "power"; }),
-            "fixed_wing is told, but there is no actuator 'throttle'");
+            "fixed_wing is given, but there is no actuator 'throttle'");
 }
 
 }  // namespace

@@ -83,7 +83,7 @@ TEST_F(WholeFileTest, WhatDoesNotFitLeavesTheFileOfBefore) {
     const std::string error =
         error_of<WriteError>([&] { write_whole_file(file(), std::string(100'000, 'x')); });
     _exit(error == "'" + file().string() +
-                       "' cannot be written: it would be larger than files may be here (ulimit -f)"
+                       "' cannot be written: the file would exceed the size limit (ulimit -f)"
               ? 0
               : 1);
   }

@@ -192,17 +192,16 @@ TEST_F(WingBench, TicksOutsideTheLimitsAreCountedOnce) {
 }
 
 TEST_F(WingBench, ResultsAreNamedBeforeTheFirstTick) {
-  const auto check = [&](Make make, const PartSpec& spec,
-                         const std::vector<MetricNumber>& numbers) {
+  const auto check = [&](Make make, const PartSpec& spec, const std::vector<ResultSpec>& numbers) {
     start(make, spec);
     const auto results = metric_->results();
     EXPECT_EQ(results.size(), numbers.size());
-    for (const MetricNumber& number : numbers) {
+    for (const ResultSpec& number : numbers) {
       EXPECT_TRUE(results.contains(number.name)) << number.name;
     }
   };
-  check(make_air_tracking, air_tracking_spec(), air_tracking_numbers());
-  check(make_survey_coverage, survey_coverage_spec(), coverage_numbers());
+  check(make_air_tracking, air_tracking_spec(), air_tracking_results());
+  check(make_survey_coverage, survey_coverage_spec(), coverage_results());
 }
 
 TEST_F(WingBench, WithoutWingsThereAreNoSuchResults) {

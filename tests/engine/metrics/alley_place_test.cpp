@@ -169,8 +169,8 @@ TEST(AlleyPlace, OfAPlanTheLegsCount) {
 TEST(AlleyPlace, NamesItsResultsAndAllocatesNothing) {
   Bench bench(true);
   const Results results = bench.results();
-  EXPECT_EQ(results.size(), alley_place_numbers().size());
-  for (const MetricNumber& number : alley_place_numbers()) {
+  EXPECT_EQ(results.size(), alley_place_results().size());
+  for (const ResultSpec& number : alley_place_results()) {
     EXPECT_EQ(results.count(number.name), 1u);
   }
   bench.at(-9.0, kMiddle0_m);

@@ -345,8 +345,8 @@ TEST_F(FlightBench, OnTheGroundThereIsNoFlightAndInTheAirNoSlip) {
 TEST_F(FlightBench, NamesItsResultsBeforeTheFirstTick) {
   start(make_flight);
   const Results results = metric_->results();
-  EXPECT_EQ(results.size(), flight_numbers().size());
-  for (const MetricNumber& number : flight_numbers()) {
+  EXPECT_EQ(results.size(), flight_results().size());
+  for (const ResultSpec& number : flight_results()) {
     EXPECT_EQ(results.count(number.name), 1u) << number.name;
   }
 }

@@ -247,10 +247,10 @@ TEST(Coverage, NoPicturesCoverNothing) {
   EXPECT_EQ(number(map, "covered_share"), 0.0);
   EXPECT_EQ(number(map, "overlap_covered_share"), 0.0);
   EXPECT_TRUE(std::isnan(number(map, "gsd_mean_m")));
-  for (const MetricNumber& number : coverage_numbers()) {
+  for (const ResultSpec& number : coverage_results()) {
     EXPECT_TRUE(map.numbers.contains(number.name)) << number.name;
   }
-  EXPECT_EQ(map.numbers.size(), coverage_numbers().size());
+  EXPECT_EQ(map.numbers.size(), coverage_results().size());
 }
 
 void refuse(const CoverageOptions& options, const std::string& sentence) {

@@ -363,18 +363,18 @@ TEST(FreeMotion, SpringKeepsItsEnergy) {
   PhysicsWorld world(settings, model);
   BodySpec spec = test::make_sphere(0.1, 1.0, {0.1, 0, 0});
   const BodyId body = world.add_body(spec);
-  double least_m = 1.0, most_m = 0.0;  // amplitude, from energy
+  double min_m = 1.0, max_m = 0.0;  // amplitude, from energy
   for (int k = 0; k < 100'000; ++k) {
     world.add_central_force_W(body, {-400.0 * world.state(body).X_WB.p.x(), 0, 0});
     world.step(settings.step);
     const BodyState s = world.state(body);
     const double amplitude = std::hypot(s.X_WB.p.x(), s.v_WB_W.x() / 20.0);
-    least_m = std::min(least_m, amplitude);
-    most_m = std::max(most_m, amplitude);
+    min_m = std::min(min_m, amplitude);
+    max_m = std::max(max_m, amplitude);
   }
   // The velocity read between steps is first order in the acceleration's change: +-w dt / 2 = 1 %.
-  EXPECT_GT(least_m, 0.0985);
-  EXPECT_LT(most_m, 0.1015);
+  EXPECT_GT(min_m, 0.0985);
+  EXPECT_LT(max_m, 0.1015);
 }
 
 TEST(FreeMotion, PrincipalAxesOfAFullMatrixGiveItBack) {

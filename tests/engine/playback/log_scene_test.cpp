@@ -96,7 +96,7 @@ TEST(LogScene, TheGroundIsTheTerrainsAndFinerAroundTheRows) {
   const auto scene = world_scene(slope());
   const SceneTriangles& ground = part(scene, "ground");
   EXPECT_LT(ground.points.size(), 14'000u);
-  double area_m2 = 0.0, least_m2 = 1e9;
+  double area_m2 = 0.0, min_m2 = 1e9;
   Eigen::AlignedBox3d box;
   for (const Vector3d& p : ground.points) {
     box.extend(p);
@@ -109,13 +109,13 @@ TEST(LogScene, TheGroundIsTheTerrainsAndFinerAroundTheRows) {
         (ground.points[ground.indices[i + 1]] - a).cross(ground.points[ground.indices[i + 2]] - a);
     EXPECT_GT(n.z(), 0.0) << "seen from above";
     area_m2 += 0.5 * n.z();
-    least_m2 = std::min(least_m2, 0.5 * n.z());
+    min_m2 = std::min(min_m2, 0.5 * n.z());
   }
   EXPECT_EQ(box.min().x(), -200);
   EXPECT_EQ(box.max().y(), 100);
   EXPECT_GE(area_m2, 400.0 * 200.0) << "no hole";
   EXPECT_LE(area_m2, 400.0 * 200.0 + 70.0 * 31.0 + 2 * 400.0) << "no more than a seam twice";
-  EXPECT_LE(least_m2, 0.51) << "half a cell of 1 m near the row";
+  EXPECT_LE(min_m2, 0.51) << "half a cell of 1 m near the row";
 }
 
 TEST(LogScene, ARowIsABarOfItsCanopy) {

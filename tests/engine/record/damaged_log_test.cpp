@@ -148,7 +148,7 @@ TEST_P(DamagedLog, AChunkWithAWrongChecksumIsLeftOutAndCounted) {
   EXPECT_EQ(log.info().damaged, 1u);
   ASSERT_EQ(log.info().warnings.size(), 1u);
   EXPECT_EQ(log.info().warnings[0], file.path().string() + ": the chunk at byte " +
-                                        std::to_string(at) + " is damaged and was left out");
+                                        std::to_string(at) + " is damaged and was skipped");
   truths_of(log);  // a second reading counts nothing twice
   EXPECT_EQ(log.info().damaged, 1u);
 
@@ -201,7 +201,7 @@ TEST(DamagedLog, AWrongTopicOrTypeIsNamed) {
             }).find("no topic '/rover/truht'; did you mean '/rover/truth'?"),
             std::string::npos);
   EXPECT_NE(message([&] { log.read<Odometry>("/rover/imu", [](Time, const Odometry&) {}); })
-                .find("topic '/rover/imu' holds sensor_msgs/msg/Imu, which is no Odometry "
+                .find("topic '/rover/imu' holds sensor_msgs/msg/Imu, which is not Odometry "
                       "(nav_msgs/msg/Odometry)"),
             std::string::npos);
 }

@@ -115,7 +115,7 @@ TEST(Png, FailuresNameTheFile) {
     write_png(temporary_file("x.png"), Image{3, 3, {1, 2, 3}});
     FAIL() << "no exception";
   } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("an image of 3 x 3 pixels with 3 bytes is no image"),
+    EXPECT_NE(std::string(error.what()).find("3 x 3 pixels with 3 bytes are not a valid image"),
               std::string::npos);
   }
   const Result<Pixels> missing = read_png("/nonexistent_folder/x.png");

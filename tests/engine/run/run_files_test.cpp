@@ -54,7 +54,7 @@ TEST_F(RunFiles, OneFolderBelongsToOneRun) {
     } catch (const ConfigError& error) {
       EXPECT_EQ(std::string(error.what()),
                 "folder '" + folder_.string() +
-                    "' is in use by another run: wait for its end, or give this one a folder of "
+                    "' is in use by another run: wait until it ends, or give this one a folder of "
                     "its own (--out)");
     }
     EXPECT_TRUE(log().info().complete) << "the first run's results are still there";

@@ -163,9 +163,9 @@ TEST(ScenarioFault, MissingRequiredKeysAreNamed) {
             "scenario: vinerow must be given: the version of the file format, which is 1 "
             "('vinerow: 1')");
   EXPECT_EQ(fault_of(with_line(3, "")),
-            "scenario: world must be given (terrain, rows and everything else that stands in it)");
+            "scenario: world must be given (terrain, rows and other fixed objects)");
   EXPECT_EQ(fault_of("vinerow: 1\nworld: {type: flat}\n"),
-            "scenario: vehicles must be given (the vehicles by name)");
+            "scenario: vehicles must be given (vehicles by name)");
   EXPECT_EQ(
       fault_of(with_line(7, "")),
       "scenario:5: vehicles.rover.wheel_radius_m must be given: a number in m, > 0 (unloaded)");
@@ -178,7 +178,7 @@ TEST(ScenarioFault, MissingRequiredKeysAreNamed) {
       "scenario:3: world.posts[0].x_m must be given: a number in m, >= -1000 and <= 1000 (east)");
   EXPECT_EQ(
       fault_of(with_line(7, "    wheel_radius_m: {source: ruler}")),
-      "scenario:7: vehicles.rover.wheel_radius_m: value must be given beside source (a number in "
+      "scenario:7: vehicles.rover.wheel_radius_m: value must be given with source (a number in "
       "m, > 0)");
 }
 
@@ -236,7 +236,7 @@ TEST(ScenarioFault, CriteriaAndCamerasNameVehicles) {
               HasSubstr("pictures.cameras.c.distance_m: unknown key of camera of kind 'top'"));
   EXPECT_EQ(
       fault_of(with_line(2, pictures + "{kind: top, centre_m: [1, 2]}")),
-      "scenario:4: pictures.cameras.c.centre_m needs height_m > 0, what the picture shows from "
+      "scenario:4: pictures.cameras.c.centre_m needs height_m > 0, the extent of the picture from "
       "south to north");
   EXPECT_EQ(
       fault_of(
@@ -283,7 +283,7 @@ TEST(ScenarioFault, NamesAreSimpleWords) {
       "local_command, ellipsoid, estimator_state, contacts, map_edges, landing, authority)");
   EXPECT_EQ(fault_of(with_line(10, "      gps: {type: gps}\n      gps_truth: {type: gps}")),
             "scenario:11: vehicles.rover.sensors.gps_truth: a name cannot end in '_truth', which "
-            "marks what a sensor would have read without error");
+            "marks the error-free reading of a sensor");
 }
 
 TEST(ScenarioFault, NoPartIsWiredToTheTruth) {
@@ -292,7 +292,7 @@ TEST(ScenarioFault, NoPartIsWiredToTheTruth) {
         with_line(11, "    estimator: {type: fusion, " + inputs + "}\n    controller:"));
   };
   const std::string end =
-      " is the truth, which no part of a vehicle reads by name; must be the name of a sensor's "
+      " is a truth signal, which parts of a vehicle cannot read; must be the name of a sensor's "
       "signal";
   EXPECT_EQ(fusion("gps: gps"), "");
   EXPECT_EQ(fusion("gps: truth"), "scenario:11: vehicles.rover.estimator.gps = 'truth'" + end);
@@ -365,10 +365,9 @@ TEST(ScenarioFault, SyntaxErrorsNameTheLine) {
       fault_of(with_line(8, "    spawn: [alley, 0")),
       ::testing::MatchesRegex(
           "scenario:[0-9]+: is not valid YAML: the '\\[' of line 8 is not closed by '\\]'"));
-  EXPECT_EQ(
-      fault_of(with_line(7, "    wheel_radius_m: 0.2: 3")),
-      "scenario:7: is not valid YAML: a ':' stands where none can be: is a text with ': ' not "
-      "in quotes?");
+  EXPECT_EQ(fault_of(with_line(7, "    wheel_radius_m: 0.2: 3")),
+            "scenario:7: is not valid YAML: a ':' is not allowed here: is a text with ': ' not "
+            "in quotes?");
   EXPECT_EQ(fault_of(std::string("vinerow: 1\nname: a\x01z\n")),
             "scenario:2: holds the control character 0x01; a scenario is plain text");
   EXPECT_EQ(fault_of("vinerow: 1\n---\nvinerow: 1\n"),
@@ -378,8 +377,7 @@ TEST(ScenarioFault, SyntaxErrorsNameTheLine) {
   EXPECT_EQ(
       fault_of(with_line(7, "    wheel_radius_m: !!float 0.2")),
       "scenario:7: the tag 'tag:yaml.org,2002:float' is not supported; write the value without it");
-  EXPECT_EQ(fault_of(with_line(7, "    [a]: 0.2")),
-            "scenario:7: a list stands where a key is expected");
+  EXPECT_EQ(fault_of(with_line(7, "    [a]: 0.2")), "scenario:7: a list is in the place of a key");
 }
 
 TEST(ScenarioFault, EmptyFileAndOtherRoots) {
@@ -433,12 +431,12 @@ TEST(ScenarioFault, CyclicIncludeNamesTheChain) {
   const auto c = folder.write("c.yaml", "include: a.yaml\n");
   EXPECT_EQ(fault_of_file(a), c.string() +
                                   ":1: world.include = 'a.yaml': the files include each other "
-                                  "in a circle (" +
+                                  "in a cycle (" +
                                   a.string() + " -> " + b.string() + " -> " + c.string() + " -> " +
                                   a.string() + ")");
   const auto self = folder.write("self.yaml", "include: self.yaml\n");
   EXPECT_THAT(fault_of_file(self),
-              EndsWith("in a circle (" + self.string() + " -> " + self.string() + ")"));
+              EndsWith("in a cycle (" + self.string() + " -> " + self.string() + ")"));
 }
 
 TEST(ScenarioFault, FaultInAnIncludedFileNamesThatFile) {

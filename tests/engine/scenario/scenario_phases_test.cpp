@@ -117,22 +117,23 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Fault{
             "phases:\n  a: {vehicles: [plane], after: [b]}\n  b: {vehicles: [rover], after: [a]}\n",
-            "scenario:7: phases.a: would wait for ever: a waits for b waits for a"},
+            "scenario:7: phases.a: waits for itself: a waits for b waits for a"},
         Fault{"phases:\n  a: {vehicles: [plane, rover], after: [a]}\n",
-              "phases.a: would wait for ever: a waits for a"},
+              "phases.a: waits for itself: a waits for a"},
         Fault{"phases:\n  a: {vehicles: [plane], after: [bb]}\n  b: {vehicles: [rover]}\n",
               "scenario:7: phases.a.after: unknown phase 'bb'; did you mean 'b'? (known: a, b)"},
-        Fault{"phases:\n  p: {job: {type: plan, vehicle: rover}}\n  a: {vehicles: [plane], plan: "
-              "from "
-              "p}\n  b: {vehicles: [rover]}\n",
-              "scenario:8: phases.a.plan: phase 'p' plans for 'rover', and here 'plane' works"},
+        Fault{
+            "phases:\n  p: {job: {type: plan, vehicle: rover}}\n  a: {vehicles: [plane], plan: "
+            "from "
+            "p}\n  b: {vehicles: [rover]}\n",
+            "scenario:8: phases.a.plan: phase 'p' plans for 'rover', but this phase uses 'plane'"},
         Fault{"phases:\n  a: {vehicles: [plane]}\n  b: {vehicles: [rovr]}\n",
               "phases.b.vehicles: unknown vehicle 'rovr'; did you mean 'rover'?"},
         Fault{"phases:\n  a: {vehicles: [plane]}\n",
-              "vehicles.rover: works in no phase; name it in one, or take its controller away to "
-              "let it stand"},
+              "vehicles.rover: is in no phase; add it to one, or remove its controller to keep "
+              "it parked"},
         Fault{"phases:\n  a: {vehicles: [plane, rover]}\n  b: {vehicles: [rover]}\n",
-              "phases.b: works with 'rover' as phase 'a' does, and neither is after the other"},
+              "phases.b: uses 'rover' like phase 'a', but neither phase waits for the other"},
         Fault{"phases:\n  a: {vehicles: [plane, rover]}\n  m: {job: {type: mapper}}\n",
               "scenario:8: phases.m.cloud must be given: 'from <phase>', the phase whose cloud the "
               "job 'mapper' takes"},
@@ -151,10 +152,11 @@ INSTANTIATE_TEST_SUITE_P(
               "a/plane/ey}\n",
               "phases.c.pictures: phase 'a' gives pictures of plane/eye; write 'from a/plane/eye'"},
         Fault{"phases:\n  a: {vehicles: [plane, rover], job: {type: mapper}, cloud: from a}\n",
-              "phases.a: gives both vehicles and a job, must be one of vehicles and job"},
-        Fault{"phases:\n  a: {after: []}\n", "phases.a: gives neither vehicles nor a job"},
+              "phases.a: has both vehicles and a job, must have one of them"},
+        Fault{"phases:\n  a: {after: []}\n",
+              "phases.a: has neither vehicles nor a job, must have one of them"},
         Fault{"phases:\n  a: {vehicles: [plane, rover], duration_s: 3}\n",
-              "phases.a.duration_s: only jobs have one"},
+              "phases.a.duration_s: allowed for jobs only"},
         Fault{"phases:\n  a: {vehicles: [plane, rover]}\n  m: {job: {type: mapr}, cloud: from a}\n",
               "phases.m.job.type = 'mapr': unknown job; did you mean 'mapper'?"},
         Fault{"phases:\n  a: {vehicles: [plane, rover], cloud: from a}\n",

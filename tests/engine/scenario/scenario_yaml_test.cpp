@@ -62,7 +62,7 @@ std::string fault_of(const std::string& text) {
 }
 
 TEST(Yaml, AliasesThatExplodeOrCircleAreRefused) {
-  EXPECT_EQ(fault_of("a: &x [*x]\n"), "f.yaml:1: an alias stands inside the value that it names");
+  EXPECT_EQ(fault_of("a: &x [*x]\n"), "f.yaml:1: an alias is inside the value that it refers to");
   std::string bomb = "a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
   for (int i = 1; i < 9; ++i) {
     const std::string last = "*a" + std::to_string(i - 1);

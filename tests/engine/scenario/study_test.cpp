@@ -133,10 +133,9 @@ TEST(StudyFault, OneSentenceWithPlaceAndCause) {
   EXPECT_EQ(fault("factors: {a: {values: [1]}}"),
             "my_study.yaml:3: factors.a.key must be given: the path of a parameter; e.g. {key: "
             "rover.controller.lookahead_m, values: [0.5, 1]}");
-  EXPECT_EQ(
-      fault("factors: {a: {key: x.a}}"),
-      "my_study.yaml:3: factors.a has none of the keys that say what varies: values, from, "
-      "alternatives, zip, sample; e.g. {key: rover.controller.lookahead_m, values: [0.5, 1]}");
+  EXPECT_EQ(fault("factors: {a: {key: x.a}}"),
+            "my_study.yaml:3: factors.a must have one of the keys values, from, alternatives, zip, "
+            "sample; e.g. {key: rover.controller.lookahead_m, values: [0.5, 1]}");
   EXPECT_EQ(fault("factors: {a: {key: x.a, from: 1, to: 0, count: 3}}"),
             "my_study.yaml:3: factors.a: from = 1 is above to = 0");
   EXPECT_EQ(fault("factors: {a: {key: x.a, from: 0, to: 1}}"),
@@ -158,16 +157,16 @@ TEST(StudyFault, OneSentenceWithPlaceAndCause) {
 
 TEST(StudyFault, OneKeyHasOneFactor) {
   EXPECT_EQ(fault("factors:\n  a: {key: x.a, values: [1]}\n  b: {key: x.a, values: [2]}"),
-            "my_study.yaml:5: x.a is set by factors.a and by factors.b; one of them must go");
+            "my_study.yaml:5: x.a is set by factors.a and by factors.b; remove one of them");
   EXPECT_EQ(fault("set: {x.a: 1}\nfactors:\n  b: {key: x.a, values: [2]}"),
-            "my_study.yaml:5: x.a is set by set and by factors.b; one of them must go");
+            "my_study.yaml:5: x.a is set by set and by factors.b; remove one of them");
   EXPECT_EQ(fault("factors:\n  a: {key: x.c.gain, values: [1]}\n  b: {key: x.c, values: [{}]}"),
-            "my_study.yaml:5: x.c of factors.b would take the place of x.c.gain of factors.a; put "
+            "my_study.yaml:5: x.c of factors.b would overwrite x.c.gain of factors.a; put "
             "factors.b first");
   EXPECT_EQ(fault("factors:\n  a: {key: x.c, values: [{}]}\n  b: {key: x.c.gain, values: [1]}"),
             "no error");
   EXPECT_EQ(fault("factors: {a: {key: seed, values: [1]}}"),
-            "my_study.yaml:3: factors.a varies seed; seeds are listed under 'seeds'");
+            "my_study.yaml:3: factors.a cannot vary seed; list the seeds under 'seeds'");
 }
 
 TEST(StudyFault, ATrillionCellsAreRefused) {
@@ -176,7 +175,7 @@ TEST(StudyFault, ATrillionCellsAreRefused) {
                   "  b: {key: x.b, from: 1, to: 1000, count: 1000}\n"
                   "  c: {key: x.c, from: 1, to: 1000, count: 1000}\n"),
             "my_study.yaml: 1000 seeds x 1000 of a x 1000 of b x 1000 of c make 1e+12 cells, must "
-            "be at most 1000000; sample the factors, or cut the study");
+            "be at most 1000000; sample the factors, or reduce the study");
 }
 
 /// What a cell sets stands over the scenario's own values, and its errors name the study.

@@ -139,9 +139,10 @@ TEST(ImuNoise, AnInstabilityBelowTheWhiteNoiseIsRefused) {
     FAIL() << "accepted";
   } catch (const ConfigError& error) {
     // White noise of 360 deg/h at 1 s is 18 deg/h at 400 s.
-    EXPECT_STREQ(error.what(),
-                 "gyro_bias_instability_dph = 1 deg/h asks for a least Allan deviation of 0.664282 "
-                 "deg/h, but white noise and random walk alone are 18 deg/h or more up to 400 s");
+    EXPECT_STREQ(
+        error.what(),
+        "gyro_bias_instability_dph = 1 deg/h requires a minimum Allan deviation of "
+        "0.664282 deg/h, but white noise and random walk alone are 18 deg/h or more up to 400 s");
   }
 }
 

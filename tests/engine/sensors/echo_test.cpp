@@ -147,12 +147,12 @@ TEST(Echo, ReturnsWithinAPulseAddUp) {
   params.threshold = 1.0;
   params.pulse_m = 0.03;
   std::vector<EchoReturn> returns = {{2.0, 0.6}, {1.0, 0.6}, {1.5, 0.5}, {1.52, 0.4}, {2.02, 0.5}};
-  EXPECT_EQ(first_heard_m(params, returns), 2.0);
+  EXPECT_EQ(first_echo_m(params, returns), 2.0);
   returns.push_back({1.53, 0.2});
-  EXPECT_EQ(first_heard_m(params, returns), 1.5);
+  EXPECT_EQ(first_echo_m(params, returns), 1.5);
   params.threshold = 1.2;
-  EXPECT_TRUE(std::isinf(first_heard_m(params, returns)));
-  EXPECT_TRUE(std::isinf(first_heard_m(params, {})));
+  EXPECT_TRUE(std::isinf(first_echo_m(params, returns)));
+  EXPECT_TRUE(std::isinf(first_echo_m(params, {})));
 }
 
 }  // namespace

@@ -220,7 +220,7 @@ TEST(Lidar, RefusesBadInputInOneSentence) {
             "angle_step_deg = 0.01 deg makes 27001 beams of field_of_view_deg = 270 deg, must be "
             "at most 20000");
   EXPECT_EQ(error_of({{"sub_rays", std::int64_t{4}}}),
-            "sub_rays = 4, must be odd: one lies in the middle");
+            "sub_rays = 4, must be odd: one ray is in the middle");
   EXPECT_EQ(error_of({{"min_range_m", 12.0}}), "min_range_m = 12 m, must be < max_range_m = 10 m");
 }
 

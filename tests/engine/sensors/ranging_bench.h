@@ -47,7 +47,7 @@ class RangingBench {
   }
   Time now() const { return now_; }
   /// Before the first step: ticks fall beside the multiples of the period.
-  void begin_at(Time first) { now_ = first; }
+  void start_at(Time first) { now_ = first; }
   Sensor& sensor() { return *sensor_; }
   const SignalReader<T>& reading() const { return reading_; }
   const SignalReader<T>& truth() const { return truth_; }

@@ -51,7 +51,7 @@ Pose in_alley(std::size_t alley, double share, double height_m, double aside_m =
 
 struct ConeError {
   double mean_m = 0.0;
-  double most_m = 0.0;
+  double max_m = 0.0;
   double p95_m = 0.0;
 };
 
@@ -75,7 +75,7 @@ ConeError error_on_the_canopy(int rings) {
   std::sort(errors.begin(), errors.end());
   ConeError result;
   for (const double error : errors) result.mean_m += error / static_cast<double>(errors.size());
-  result.most_m = errors.back();
+  result.max_m = errors.back();
   result.p95_m = errors[errors.size() * 95 / 100];
   return result;
 }
@@ -88,7 +88,7 @@ TEST(RangingInAVineyard, TheConeOfADeviceFindsTheFirstReturnOnACanopy) {
   EXPECT_GE(error.mean_m, 0.0);
   EXPECT_LT(error.mean_m, 0.001);
   EXPECT_LT(error.p95_m, 0.003);
-  EXPECT_LT(error.most_m, 0.01);
+  EXPECT_LT(error.max_m, 0.01);
 }
 
 std::vector<Eigen::Vector2d> in_plane(const std::vector<io::GeoFeature>& features) {

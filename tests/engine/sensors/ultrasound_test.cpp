@@ -214,7 +214,7 @@ TEST(Ultrasound, TurnsCountFromTheFirstTick) {
   const ShapeScene scene = wall(1.0);
   for (int k = 0; k < 4; ++k) {
     Bench bench("ultrasound", {{"cycle_s", 0.2}, {"phase_s", 0.05 * k}}, scene);
-    bench.begin_at(Time{296'452'500'000});
+    bench.start_at(Time{296'452'500'000});
     for (int i = 0; i < 40; ++i) {
       const std::uint64_t before = bench.truth().sequence();
       bench.step_only();

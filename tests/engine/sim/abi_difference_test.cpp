@@ -35,7 +35,8 @@ TEST(AbiDifference, SaysInWordsWhatDiffers) {
   contains("cxx11_abi", "7", "_GLIBCXX_USE_CXX11_ABI 7");
   contains("gxx_abi", "1002", "C++ ABI 1002 (another compiler?)");
   contains("headers", "0123456789abcdef", "another version of vinerow's headers (hash 0123456789abcdef");
-  contains("CameraShot", "224/32", "holds CameraShot in 224 bytes aligned to 32, this vinerow in ");
+  contains("CameraShot", "224/32",
+           "stores CameraShot in 224 bytes aligned to 32, this vinerow in ");
 }
 
 TEST(AbiDifference, NamesTheCauseBeforeItsEffects) {
@@ -51,7 +52,7 @@ TEST(AbiDifference, TagsThatAreNoneAreQuoted) {
     EXPECT_EQ(abi_difference(tag, abi_tag()),
               "was built for '" + tag + "', this vinerow is '" + own + "'");
   }
-  EXPECT_EQ(abi_difference(own, abi_tag()), "does not say its 'headers'");
+  EXPECT_EQ(abi_difference(own, abi_tag()), "does not state its 'headers'");
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ std::vector<Alley> make_alleys(int count) {
 
 /// What a plan occupies, worked out beside the code under test.
 struct Occupied {
-  double begin_m, end_m;
+  double start_m, end_m;
   std::set<int> alleys;
 };
 
@@ -104,7 +104,7 @@ struct Mover {
   std::set<int> alleys(double vehicle_m) const {
     std::set<int> all;
     for (const Occupied& stretch : tour.occupied) {
-      if (at_m > stretch.begin_m && at_m - vehicle_m < stretch.end_m) {
+      if (at_m > stretch.start_m && at_m - vehicle_m < stretch.end_m) {
         all.insert(stretch.alleys.begin(), stretch.alleys.end());
       }
     }
@@ -192,7 +192,7 @@ TEST(AlleyStretches, OfAPlanAreItsLegsTurnsAndTheNearPartOfItsWays) {
   const Tour tour = make_tour({0, 1});
   const auto stretches = find_alley_stretches(tour.plan, make_alleys(3), AlleyUse{});
   ASSERT_EQ(stretches.size(), 3u);
-  EXPECT_DOUBLE_EQ(stretches[0].begin_m, 6.0);  // 4 m before the leg at 10 m
+  EXPECT_DOUBLE_EQ(stretches[0].start_m, 6.0);  // 4 m before the leg at 10 m
   EXPECT_DOUBLE_EQ(stretches[0].end_m, 40.0);
   EXPECT_EQ(stretches[0].needs, (std::vector<int>{0}));
   EXPECT_DOUBLE_EQ(stretches[1].end_m, 46.5);
@@ -246,11 +246,11 @@ TEST(AlleyStretches, FlightsNeedNothingOnTheirWayUpHomeAndDown) {
   use.flies = true;
   const auto stretches = find_alley_stretches(plan, make_alleys(2), use);
   ASSERT_EQ(stretches.size(), 1u);
-  EXPECT_DOUBLE_EQ(stretches[0].begin_m, 8.0);  // 2 m up, 10 m there, less 4 m
+  EXPECT_DOUBLE_EQ(stretches[0].start_m, 8.0);  // 2 m up, 10 m there, less 4 m
   EXPECT_DOUBLE_EQ(stretches[0].end_m, 42.0);
   EXPECT_DOUBLE_EQ(measure_plan(plan, true).back(), 2.0 + 10.0 + 30.0 + 3.0 + 40.0 + 5.0);
   use.approach_m = 0.0;
-  EXPECT_DOUBLE_EQ(find_alley_stretches(plan, make_alleys(2), use)[0].begin_m, 12.0);
+  EXPECT_DOUBLE_EQ(find_alley_stretches(plan, make_alleys(2), use)[0].start_m, 12.0);
 }
 
 TEST(AlleyStretches, AFlightsWayFromRowToRowNeedsBoth) {
@@ -266,7 +266,7 @@ TEST(AlleyStretches, AFlightsWayFromRowToRowNeedsBoth) {
   use.flies = true;
   const auto stretches = find_alley_stretches(plan, make_alleys(2), use);
   ASSERT_EQ(stretches.size(), 3u);
-  EXPECT_DOUBLE_EQ(stretches[1].begin_m, 30.0);
+  EXPECT_DOUBLE_EQ(stretches[1].start_m, 30.0);
   EXPECT_DOUBLE_EQ(stretches[1].end_m, 34.5);
   EXPECT_EQ(stretches[1].needs, (std::vector<int>{0, 1}));
   EXPECT_DOUBLE_EQ(stretches[2].end_m, 64.5);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/core/error.h"
+#include "engine/metrics/register_metrics.h"
 #include "engine/sim/judge.h"
 
 namespace vinerow::judge_test {
@@ -73,16 +74,24 @@ TEST(Judge, ALongListOfMetricsIsCutWhereOneIsNear) {
 /// What is said of a criterion before the run, of a scenario with these metrics.
 std::string refusal_of(const std::string& metric, std::optional<double> min,
                        std::optional<double> max, const std::vector<std::string>& types) {
-  std::vector<scenario::NamedPart> parts;
+  Registry registry;
+  metrics::register_metrics(registry);
+  scenario::Scenario scenario;
   for (const std::string& type : types) {
-    parts.push_back({type, {}});
-    parts.back().part.type = type;
+    scenario.metrics.push_back({type, {}});
+    scenario.metrics.back().part.type = type;
+    if (type != "a_plugin_s") continue;
+    PartSpec of_a_plugin;
+    of_a_plugin.name = type;
+    registry.add_metric(of_a_plugin, {});
   }
   scenario::Criterion wanted = criterion(metric, min, max);
   wanted.where = {"x.yaml", 7};
   const std::string name = metric.substr(metric.find('.') + 1);
   try {
-    check_criteria({wanted}, {{"rover", {{name, std::nan("")}}}}, parts);
+    check_criteria({wanted}, {{"rover", {{name, std::nan("")}}}}, [&](const std::string& full) {
+      return find_declared_result(scenario, registry, full);
+    });
   } catch (const ConfigError& error) {
     return error.what();
   }
@@ -137,7 +146,8 @@ TEST(CheckCriteria, KnowsNoRangeOfWhatOthersMeasure) {
 }
 
 TEST(CheckCriteria, RefusesMetricsThatDoNotExist) {
-  EXPECT_THROW(check_criteria({criterion("rover.b", {}, 1.0)}, {{"rover", {{"a", 0.0}}}}, {}),
+  EXPECT_THROW(check_criteria({criterion("rover.b", {}, 1.0)}, {{"rover", {{"a", 0.0}}}},
+                              [](const std::string&) { return nullptr; }),
                ConfigError);
 }
 

@@ -143,7 +143,7 @@ TEST_F(MissionRun, ATimeoutFailsItsPhaseAloneWhereOthersMayContinue) {
   const run::RunResult result = run(
       {"rover.controller.work_s=1000", "phases.spray.timeout_s=2", "drone.controller.work_s=6"});
   EXPECT_EQ(told(result)[2], "spray failed 5.00-7.00");
-  EXPECT_EQ(phase(result, "spray").reason, "rover had not finished after 2 s, its timeout");
+  EXPECT_EQ(phase(result, "spray").reason, "rover had not finished within its timeout of 2 s");
   EXPECT_EQ(told(result)[3], "scout succeeded 5.00-11.00");
   EXPECT_EQ(result.status, run::RunStatus::kCriterionFailed);
 }
@@ -187,7 +187,7 @@ TEST_F(MissionRun, AMissedCriterionFailsItsPhase) {
 
 TEST_F(MissionRun, TheEndOfTheRunFailsWhatRunsAndNamesWhatWasNotReached) {
   const run::RunResult result = run({"duration_s=3"});
-  EXPECT_EQ(phase(result, "build_map").reason, "the run's duration of 3 s was over");
+  EXPECT_EQ(phase(result, "build_map").reason, "the run ended after its duration of 3 s");
   EXPECT_EQ(phase(result, "spray").state, PhaseState::kNotStarted);
   EXPECT_EQ(result.status, run::RunStatus::kCriterionFailed);
 }

@@ -55,13 +55,13 @@ TEST(PictureCollector, TellsWhereTheEstimateHasTheCameraAtTheShot) {
   const PictureSet& pictures = *bench.collector.product().pictures;
   ASSERT_EQ(pictures.X_WS.size(), 1u);
   EXPECT_EQ(pictures.X_WS[0].p, Vector3d(100, 0, 95));
-  ASSERT_EQ(pictures.told_W.size(), 1u);
+  ASSERT_EQ(pictures.estimated_W.size(), 1u);
   // 0.2 m ahead of the body, which is north, and 10 ms at 12 m/s.
-  EXPECT_NEAR((pictures.told_W[0] - Vector3d(99.0, 2.0 + 0.2 + 0.12, 93.9)).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((pictures.estimated_W[0] - Vector3d(99.0, 2.0 + 0.2 + 0.12, 93.9)).norm(), 0.0, 1e-9);
   // A shot that is told late is as old as its stamp.
   bench.estimates.write(Time{2'000'000'000}, estimate);
   bench.shoot(Time{1'900'000'000}, 1);
-  EXPECT_NEAR((pictures.told_W[1] - Vector3d(99.0, 2.2 - 1.2, 93.9)).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((pictures.estimated_W[1] - Vector3d(99.0, 2.2 - 1.2, 93.9)).norm(), 0.0, 1e-9);
 }
 
 TEST(PictureCollector, HasNothingToTellWhereNobodyKnewThePlaceOfAPicture) {
@@ -70,7 +70,7 @@ TEST(PictureCollector, HasNothingToTellWhereNobodyKnewThePlaceOfAPicture) {
   bench.estimates.write(Time{2}, Odometry{});
   bench.shoot(Time{3}, 1);
   EXPECT_EQ(bench.collector.count(), 2);
-  EXPECT_TRUE(bench.collector.product().pictures->told_W.empty());
+  EXPECT_TRUE(bench.collector.product().pictures->estimated_W.empty());
 }
 
 }  // namespace

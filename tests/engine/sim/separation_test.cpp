@@ -34,7 +34,7 @@ TEST(Separation, OfTwoThatPassEachOtherIsTheGapBetweenTheirCorners) {
     separation.update(tick(i));
   }
   for (const int vehicle : {0, 1}) {
-    const Separation::Least& least = separation.least(vehicle);
+    const Separation::MinDistance& least = separation.least(vehicle);
     EXPECT_NEAR(least.distance_m, 5.0 - 2.0 * std::sqrt(2.0), 1e-12);
     EXPECT_EQ(least.other, 1 - vehicle);
     EXPECT_NEAR(least.time.s(), 10.0, 1e-9);

@@ -165,8 +165,7 @@ TEST(Spawn, RefusesTwoVehiclesOnOneSpot) {
   };
   EXPECT_EQ(start.fault({other_at(0.5)}),
             "s.yaml:7: vehicles.rover.spawn: at x = 0.000 m, y = 0.000 m the vehicle would stand "
-            "in vehicle 'drone', which starts at x = 0.500 m, y = 0.000 m; give one of them "
-            "another place");
+            "in vehicle 'drone', which starts at x = 0.500 m, y = 0.000 m; move one of them");
   EXPECT_EQ(start.fault({other_at(1.51)}), "none");
 }
 
@@ -193,9 +192,9 @@ TEST(Camera, IsRefusedBelowTheGroundAndInsideAnObstacle) {
   };
   EXPECT_EQ(fault_at({0.0, 0.0, 2.0}), "none");
   EXPECT_EQ(fault_at({0.0, 0.0, -2.0}),
-            "s.yaml:30: camera 'gate' would stand 2 m below the ground; position_m = [0, 0, -2] "
-            "counts its height from the ground up");
-  EXPECT_THAT(fault_at({3.0, 0.0, 2.0}), HasSubstr("would stand inside the obstacle 'shed'"));
+            "s.yaml:30: camera 'gate' would be 2 m below the ground; the height in position_m = "
+            "[0, 0, -2] is measured from the ground");
+  EXPECT_THAT(fault_at({3.0, 0.0, 2.0}), HasSubstr("would be inside the obstacle 'shed'"));
   EXPECT_EQ(fault_at({3.0, 0.0, 6.0}), "none") << "above the shed";
 }
 

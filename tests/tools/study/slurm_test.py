@@ -73,7 +73,7 @@ class SlurmStudy(study_case.StudyCase):
         told = self.on_slurm("run", file, "--chunk", 5, "--detach")
         self.assertIn("3 tasks submitted as ", told)
         self.wait_for(lambda: self.stored() == 12, "nobody ran the tasks")
-        self.assertIn("12 were finished before", self.on_slurm("resume", file))
+        self.assertIn("12 were already finished", self.on_slurm("resume", file))
         self.nothing_is_left()
 
     def test_tasks_that_wait_are_found_again(self):
@@ -115,7 +115,7 @@ class SlurmStudy(study_case.StudyCase):
         self.assertEqual(driver.returncode, 3, error)
         self.assertEqual(len(killed), 3)
         self.assertEqual([row["state"] for row in self.rows()], ["met", "crashed", "met", "met"])
-        self.assertRegex(self.rows()[1]["reason"], r"Slurm's task \d+_0 ended as FAILED")
+        self.assertRegex(self.rows()[1]["reason"], r"Slurm task \d+_0 ended as FAILED")
 
     def is_at_work(self, task):
         """Whether it has run one cell for two seconds: only that which never ends takes so long."""
@@ -138,10 +138,10 @@ class SlurmStudy(study_case.StudyCase):
     def test_bad_input(self):
         file = self.write(self.TWO)
         refused = self.on_slurm("run", file, "--sbatch=--partition=nowhere", "--quiet", status=2)
-        self.assertEqual(refused, "vinerow: Slurm refuses the job: sbatch: error: Batch job submission failed: Invalid partition name specified\n")
+        self.assertEqual(refused, "vinerow: Slurm refused the job: sbatch: error: Batch job submission failed: Invalid partition name specified\n")
         none = {**os.environ, "PATH": "/nowhere"}
         refused = self.study("run", file, "--runner", "slurm", environment=none, status=2)
-        self.assertEqual(refused, "vinerow: there is no Slurm on this machine ('sbatch' is not in PATH); without '--runner slurm' the study runs here\n")
+        self.assertEqual(refused, "vinerow: this machine has no Slurm ('sbatch' is not in PATH); without '--runner slurm' the study runs locally\n")
 
     def test_tasks_that_never_work(self):
         # The study is not what it was when the job was submitted.
@@ -158,10 +158,10 @@ class SlurmStudy(study_case.StudyCase):
         self.assertEqual(self.stored(), 0)
         logs = [log.read_text() for log in (self.folder / "out" / "slurm").glob("*/0.log")]
         self.assertEqual(len(logs), 1)
-        self.assertIn("s.yaml', a file it names or the program is not what it was when the job was submitted", logs[0])
+        self.assertIn("s.yaml', a file it names or the program has changed since the job was submitted", logs[0])
         # Tasks that cannot even begin: three of them are enough.
         told = self.on_slurm("run", file, "--fresh", "--sbatch=--output=/nowhere/log", "--quiet", status=3)
-        self.assertRegex(told, r"^vinerow: no task has a result: Slurm's task \d+_\d+ ended as FAILED \(.*\)\n$")
+        self.assertRegex(told, r"^vinerow: no task has a result: Slurm task \d+_\d+ ended as FAILED \(.*\)\n$")
         self.nothing_is_left()
 
     def test_a_job_that_was_cancelled(self):
@@ -171,7 +171,7 @@ class SlurmStudy(study_case.StudyCase):
         subprocess.run(["scancel", *self.slurm.jobs()], env=self.slurm.environment, check=True)
         _, error = driver.communicate()
         self.assertEqual(driver.returncode, 3)
-        self.assertRegex(error, r"Slurm's task \d+_\d+ ended as CANCELLED.*; finished cells are kept, 'vinerow study resume' goes on\n")
+        self.assertRegex(error, r"Slurm task \d+_\d+ ended as CANCELLED.*; finished cells are kept, 'vinerow study resume' continues\n")
         self.assertGreater(self.stored(), 10)
 
     def test_a_node_that_never_returns(self):
@@ -179,7 +179,7 @@ class SlurmStudy(study_case.StudyCase):
         self.addCleanup(self.slurm.start_node, "n2")
         file = self.write(self.TWO)
         told = self.on_slurm("run", file, "--sbatch=--nodelist=n2", "--patience", 3, status=3)
-        self.assertRegex(told, r"no task has run for \d+ s \(0 tasks run, 12 wait.*\); finished cells are kept")
+        self.assertRegex(told, r"no task has run for \d+ s \(0 tasks running, 12 waiting.*\); finished cells are kept")
         self.nothing_is_left()
 
 

@@ -78,7 +78,7 @@ class Study(study_case.StudyCase):
         finished = sum(1 for _ in cells.glob("*/*.json"))
         self.assertLess(finished, 120, "killed too late to test anything")
         told = self.study("resume", file, "--jobs", 2, out="two")
-        self.assertIn("were finished before", told)
+        self.assertIn("were already finished", told)
         before = int(told.split(" s, ")[-1].split(" were")[0])
         self.assertGreaterEqual(before, finished)
         for table in ("cells.csv", "settings.csv"):
@@ -246,7 +246,7 @@ class Study(study_case.StudyCase):
         page = (self.folder / "out" / "study.html").read_text()
         self.assertNotIn("<b>not bold", page)
         xml.fromstring(page.split("\n", 1)[1])
-        for word in ("data-cell=\"9\"", "study repeat", "What moves what", "Differences", "http://www.w3.org/2000/svg"):
+        for word in ("data-cell=\"9\"", "study repeat", "Effects", "Differences", "http://www.w3.org/2000/svg"):
             self.assertIn(word, page)
         self.assertNotIn("src=\"http", page)
 
@@ -259,15 +259,15 @@ class Study(study_case.StudyCase):
         self.assertIn("s.yaml:4: vehicles.rover.controller.lookahead_m = -1 m, must be > 0 m",
                       fault("factors: {a: {key: rover.controller.lookahead_m, values: [1, -1]}}"))
         self.assertIn("s.yaml:4: metrics: no cell has a number 'rover.tme_s'; did you mean 'rover.time_s'?", fault("metrics: [rover.tme_s]"))
-        self.assertIn("s.yaml:4: derived.x = '1 +' is no expression", fault("derived: {x: 1 +}"))
+        self.assertIn("s.yaml:4: derived.x = '1 +' is not an expression", fault("derived: {x: 1 +}"))
         self.assertIn("s.yaml:4: derived.x: no cell has a number 'nothing'", fault("derived: {x: nothing + 1}"))
         self.assertIn("make 1e+09 cells", fault("seeds: 1000\nfactors: {a: {key: gravity_mps2, from: 1, to: 2, count: 1000}, "
                                                 "b: {key: rover.controller.lookahead_m, from: 1, to: 2, count: 1000}}"))
         two = self.write(self.TWO)
-        self.assertIn("are of '--runner slurm'", self.study("run", two, "--chunk", 3, status=2, out="bad"))
+        self.assertIn("need '--runner slurm'", self.study("run", two, "--chunk", 3, status=2, out="bad"))
         self.assertIn("--jobs: must be > 0, is '0'", self.study("run", two, "--jobs", 0, status=2, out="bad"))
         self.assertIn("there is nothing to resume", self.study("resume", self.write(""), status=2, out="none"))
-        self.assertIn("there is no cell 1, the study's are 0 to 0", self.study("cell", self.write(""), 1, status=2))
+        self.assertIn("there is no cell 1, the study has cells 0 to 0", self.study("cell", self.write(""), 1, status=2))
         self.assertFalse((self.folder / "bad").exists(), "a refused study writes nothing")
 
     def test_what_has_changed_is_told(self):
@@ -279,7 +279,7 @@ class Study(study_case.StudyCase):
         file.write_text(text)
         self.study("run", file)
         file.write_text(text.replace("[1, 2]", "[1, 2, 3]"))
-        self.assertIn("the study's list of cells has changed since; 'vinerow study run --fresh' begins anew", self.study("run", file, status=2))
+        self.assertIn("the study's list of cells has changed since; 'vinerow study run --fresh' starts a new index", self.study("run", file, status=2))
         self.assertIn("run      1 cells", self.study("run", file, "--fresh"))
         with scenario.open("a") as more:
             more.write("# edited\n")
@@ -287,14 +287,14 @@ class Study(study_case.StudyCase):
         scenario.write_text(scenario.read_text() + "gravity_mps2: 9.7\n")
         self.assertIn("the scenario or a file it names has changed since", self.study("run", file, status=2))
         other = self.write("", name="other.yaml")
-        self.assertIn("is of another study", self.study("run", other, status=2))
+        self.assertIn("belongs to another study", self.study("run", other, status=2))
         (self.folder / "out" / "study.sqlite").write_bytes(b"no database at all" * 100)
         self.assertIn("study.sqlite' cannot be read: file is not a database", self.study("run", file, status=2))
         for cell in (self.folder / "out" / "cells").glob("*/*.json"):  # also of the study as it was
             cell.write_text("{}")
         file.write_text(text)
         scenario.write_text(f"include: {SCENARIO}\n")
-        self.assertIn("is no result of a cell", self.study("run", file, "--fresh", status=2))
+        self.assertIn("is not the result of a cell", self.study("run", file, "--fresh", status=2))
 
     def test_a_full_disk_keeps_what_is_finished(self):
         if not os.access("/dev/full", os.W_OK):
@@ -335,7 +335,7 @@ class Study(study_case.StudyCase):
         file = self.write("budget: {time_s: 70}\n")
         self.study("run", file, "--runner", "slurm", "--sbatch=--partition=long", "--quiet", environment=environment, status=3)
         self.assertEqual([row["state"] for row in self.rows()], ["out of time"])
-        self.assertEqual(self.rows()[0]["reason"], "Slurm's task 7_0 ended as TIMEOUT")
+        self.assertEqual(self.rows()[0]["reason"], "Slurm task 7_0 ended as TIMEOUT")
         words = said.read_text().splitlines()
         self.assertEqual(sum("--parsable " in line for line in words), 3, "a cell is tried three times")
         # 70 s for the cell and 300 s for the start of its task, in whole minutes; the user's options come last.

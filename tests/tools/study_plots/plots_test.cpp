@@ -304,15 +304,15 @@ TEST(StudyParallelPlot, DrawsALineThroughEveryAxis) {
   const std::string figure =
       parallel_plot(ways_of({{0.0, 1.0, 5.0}, {2.0, 3.0, 10.0}, {1.0, 2.0, 0.0}}));
   const Document svg = checked(figure);
-  const std::vector<Element> ways = svg.with_class("way");
-  ASSERT_EQ(ways.size(), 3u);
+  const std::vector<Element> paths = svg.with_class("way");
+  ASSERT_EQ(paths.size(), 3u);
   // Axes from y = 392 up to 62; the first line: the lowest level, the least speed, half of the
   // error.
-  EXPECT_THAT(ways[0].attributes.at("d"), HasSubstr(" 392L"));
-  EXPECT_TRUE(ways[0].attributes.at("d").ends_with(" 227"));
-  EXPECT_EQ(ways[1].attributes.at("stroke"), "#fde725");
-  EXPECT_EQ(ways[2].attributes.at("stroke"), "#440154");
-  EXPECT_TRUE(ways[1].attributes.at("d").ends_with(" 62"));
+  EXPECT_THAT(paths[0].attributes.at("d"), HasSubstr(" 392L"));
+  EXPECT_TRUE(paths[0].attributes.at("d").ends_with(" 227"));
+  EXPECT_EQ(paths[1].attributes.at("stroke"), "#fde725");
+  EXPECT_EQ(paths[2].attributes.at("stroke"), "#440154");
+  EXPECT_TRUE(paths[1].attributes.at("d").ends_with(" 62"));
   EXPECT_THAT(figure, HasSubstr("controller: c\nspeed: 3 m/s\nerror: 10 m\ncell 1"));
 }
 
@@ -324,12 +324,12 @@ TEST(StudyParallelPlot, LeavesGapsAndDrawsNoMoreLinesThanAllowed) {
   EXPECT_EQ(std::count(path.begin(), path.end(), 'L'), 0);
   EXPECT_TRUE(svg.with_class("way")[1].is("uncoloured"));
   ParallelPlot many = ways_of(std::vector<std::vector<double>>(100, {0.0, 1.0, 2.0}));
-  many.most_lines = 10;
+  many.max_lines = 10;
   const std::string figure = parallel_plot(many);
   const std::vector<Element> few = checked(figure).with_cell();
   ASSERT_EQ(few.size(), 10u);
   EXPECT_EQ(few[9].attributes.at("data-cell"), "90");
-  EXPECT_THAT(figure, HasSubstr("A caption. Of 100 lines 10 are drawn, evenly chosen."));
+  EXPECT_THAT(figure, HasSubstr("A caption. Of 100 lines 10 evenly chosen ones are drawn."));
 }
 
 TEST(StudyParallelPlot, TakesAnyAxesAndValues) {
@@ -413,17 +413,17 @@ std::vector<std::string> plots_of_text(const std::string& text) {
   boxes.texts = {text, text};
   boxes.x = boxes.y = quantity;
   for (BoxLevel& level : boxes.levels) level.label = level.values[0].note = text;
-  ParallelPlot ways = ways_of({{0.0, 1.0, 2.0}, {1.0, 5.0, 3.0}});
-  ways.texts = {text, text};
-  for (ParallelAxis& axis : ways.axes) axis.quantity = quantity;
-  ways.axes[0].levels = ways.axes[2].levels = std::vector<std::string>(4, text);
-  ways.lines[0].note = text;
+  ParallelPlot paths = ways_of({{0.0, 1.0, 2.0}, {1.0, 5.0, 3.0}});
+  paths.texts = {text, text};
+  for (ParallelAxis& axis : paths.axes) axis.quantity = quantity;
+  paths.axes[0].levels = paths.axes[2].levels = std::vector<std::string>(4, text);
+  paths.lines[0].note = text;
   IntervalPlot rows = rows_of({{text, 0.5, 0.1, 0.9, text, 1}, {text, 0.5, 0.1, 0.9, text, 2}});
   rows.texts = {text, text};
   rows.value = quantity;
   rows.rows_title = rows.spread_label = text;
   rows.reference = {0.5, text};
-  return {heat_map(heat), band_plot(band), box_plot(boxes), parallel_plot(ways),
+  return {heat_map(heat), band_plot(band), box_plot(boxes), parallel_plot(paths),
           interval_plot(rows)};
 }
 

@@ -120,8 +120,8 @@ TEST(FixedWingLaunch, RefusesAStartBelowStall) {
     FAIL();
   } catch (const ConfigError& error) {
     EXPECT_STREQ(error.what(),
-                 "plane: no level flight at start_speed_mps = 7 to start with: it stalls below 8.4 "
-                 "m/s, or throttle or elevons do not reach");
+                 "plane: start_speed_mps = 7 allows no level flight: it stalls below 8.4 m/s, or "
+                 "throttle or elevons do not suffice");
   }
 }
 
@@ -230,8 +230,8 @@ TEST(FixedWingParameters, RefusesWhatDoesNotFly) {
   EXPECT_EQ(refusal([](ParameterSet& s) {
               s.set("inertia_kgm2", std::vector<double>{0.031, 0.019, 0.060});
             }),
-            "plane: inertia_kgm2 = [0.031, 0.019, 0.06] is that of no body: one of them is larger "
-            "than the other two together");
+            "plane: inertia_kgm2 = [0.031, 0.019, 0.06] is not possible for a rigid body: one "
+            "moment is larger than the sum of the other two");
   EXPECT_EQ(refusal([](ParameterSet& s) { s.set("inertia_xz_kgm2", 0.05); }),
             "plane: inertia_xz_kgm2 = 0.05, must be less than sqrt(Jx Jz) = 0.03857 either side");
   EXPECT_EQ(refusal([](ParameterSet& s) { s.set("wing_span_m", -1.0); }),

@@ -36,8 +36,8 @@ TEST(GroundEffect, FourRotorsAreTheSumOfTheirImages) {
 
 TEST(GroundEffect, IsBoundedAndEnds) {
   const GroundEffect effect(GroundEffectModel::kMultirotor, 0.19, 0.31, 2.0);
-  EXPECT_LE(effect.thrust_ratio(0.0), GroundEffect::kMostRatio);
-  EXPECT_LE(effect.thrust_ratio(-1.0), GroundEffect::kMostRatio);
+  EXPECT_LE(effect.thrust_ratio(0.0), GroundEffect::kMaxRatio);
+  EXPECT_LE(effect.thrust_ratio(-1.0), GroundEffect::kMaxRatio);
   EXPECT_EQ(effect.thrust_ratio(effect.reach_m()), 1.0);
   EXPECT_EQ(effect.thrust_ratio(0.3, -0.5), 1.0);  // blowing away from the ground
   EXPECT_EQ(GroundEffect(GroundEffectModel::kNone, 0.19, 0.31, 2.0).thrust_ratio(0.2), 1.0);

@@ -240,8 +240,8 @@ TEST(WheeledPlatform, RefusesStrutsThatAreTooStiffForTheStep) {
   };
   EXPECT_EQ(fault_of(490.0, 900.0), "");
   EXPECT_EQ(fault_of(510.0, 900.0),
-            "rover: physics.step_s = 0.001 s is too long for struts so stiff under 100 kg: they "
-            "swing 0.51 rad and damp by 0.9 in a step, must be up to 0.5 rad and 1");
+            "rover: physics.step_s = 0.001 s is too long for the struts under 100 kg: they swing "
+             "0.51 rad and damp by 0.9 in a step, must be at most 0.5 rad and 1");
   EXPECT_NE(fault_of(490.0, 1100.0).find("damp by 1.1 in a step"), std::string::npos);
 }
 

@@ -79,11 +79,11 @@ TEST(RowLines, GoesStraightOnBeyondTheEnds) {
 TEST(RowLines, KnowsLeftFromRightInBothDirections) {
   const RowLines lines({{0, {{0, 0, 0}, {10, 0, 0}}, 0.6, 0.5, 2.0},
                         {1, {{10, 2.5, 0}, {0, 2.5, 0}}, 0.6, 0.5, 2.0}});  // runs the other way
-  const RowsBeside east = lines.beside({5.0, 1.0}, 0.0, 2.0, 0.3, 0.0);
+  const AdjacentRows east = lines.beside({5.0, 1.0}, 0.0, 2.0, 0.3, 0.0);
   ASSERT_TRUE(east.left && east.right);
   EXPECT_EQ(east.left->row, 1);
   EXPECT_EQ(east.right->row, 0);
-  const RowsBeside west = lines.beside({5.0, 1.0}, kPi, 2.0, 0.3, 0.0);
+  const AdjacentRows west = lines.beside({5.0, 1.0}, kPi, 2.0, 0.3, 0.0);
   ASSERT_TRUE(west.left && west.right);
   EXPECT_EQ(west.left->row, 0);
   EXPECT_EQ(west.right->row, 1);
@@ -92,7 +92,7 @@ TEST(RowLines, KnowsLeftFromRightInBothDirections) {
 TEST(RowLines, NothingIsBesideAVehicleThatTurnsIsFarOrBeyondTheEnd) {
   const RowLines lines({{0, {{0, 0, 0}, {10, 0, 0}}, 0.6, 0.5, 2.0}});
   const auto count = [&](const Vector2d& p, double heading_rad, double beyond_m = 0.0) {
-    const RowsBeside found = lines.beside(p, heading_rad, 2.0, rad_from_deg(20.0), beyond_m);
+    const AdjacentRows found = lines.beside(p, heading_rad, 2.0, rad_from_deg(20.0), beyond_m);
     return found.left.has_value() + found.right.has_value();
   };
   EXPECT_EQ(count({5.0, 1.0}, rad_from_deg(19.0)), 1);

@@ -287,10 +287,10 @@ TEST(Sprayer, BadParametersAreToldInASentence) {
   EXPECT_NE(error({{"tank_l", 0.0}}).find("tank_l = 0 l, must be > 0"), std::string::npos);
   EXPECT_NE(error({{"hollow_share", 1.5}}).find("hollow_share = 1.5"), std::string::npos);
   const RowMap nothing;
-  EXPECT_EQ(config_error_of(
-                [&] { PayloadRig("sprayer", make_box_rows({{.y_m = 1.0}}), {}, 1, &nothing); }),
-            "rover.p: the vehicle's map has no rows, must have one at least: sections open beside "
-            "rows");
+  EXPECT_EQ(
+      config_error_of(
+          [&] { PayloadRig("sprayer", make_box_rows({{.y_m = 1.0}}), {}, 1, &nothing); }),
+      "rover.p: the vehicle's map has no rows, must have at least one: sections open beside rows");
 }
 
 }  // namespace

@@ -163,12 +163,11 @@ TEST(QuadrotorParams, RefusesWhatCannotBe) {
   EXPECT_EQ(
       refusal([](QuadrotorParams& p) { p.arm_m = 0.2; }),
       "drone: rotors of rotor_radius_m = 0.19 would strike each other on arms of arm_m = 0.2");
-  EXPECT_EQ(
-      refusal([](QuadrotorParams& p) {
-        p.inertia_kgm2 = {0.05, 0.05, 0.2};
-      }),
-      "drone: inertia_kgm2 = [0.05, 0.05, 0.2] is that of no body: one of them is larger than "
-      "the other two together");
+  EXPECT_EQ(refusal([](QuadrotorParams& p) {
+              p.inertia_kgm2 = {0.05, 0.05, 0.2};
+            }),
+            "drone: inertia_kgm2 = [0.05, 0.05, 0.2] is not possible for a rigid body: one moment "
+            "is larger than the sum of the other two");
   EXPECT_EQ(refusal([](QuadrotorParams& p) { p.mass_kg = -1.0; }),
             "drone: mass_kg = -1 kg, must be > 0 kg");
   EXPECT_EQ(refusal([](QuadrotorParams& p) { p.battery.initial_charge = 1.5; }),
@@ -186,8 +185,7 @@ TEST(QuadrotorParams, ReadsFaultsAndRefusesARotorFailureWithoutARotor) {
     read_quadrotor_params(parameters, "drone", kGravity);
     FAIL() << "accepted";
   } catch (const ConfigError& error) {
-    EXPECT_STREQ(error.what(),
-                 "drone: faults[0]: a rotor_failure must tell which 'rotor' (1 to 4)");
+    EXPECT_STREQ(error.what(), "drone: faults[0]: a rotor_failure must name its 'rotor' (1 to 4)");
   }
   fault.set("rotor", std::int64_t{3}).set("remaining", 0.25);
   parameters.set("faults", std::vector<ParameterSet>{fault});

@@ -285,8 +285,7 @@ TEST(SteeredUrdf, SaysWhatIsWrong) {
   UrdfRoverOptions other;
   other.steering_joints = {"body_joint"};
   EXPECT_EQ(error_of_options(car, other),
-            file + ": no wheel hangs on steering joint 'body_joint', or it does not turn about the "
-                   "vertical (z)");
+            file + ": steering joint 'body_joint' carries no wheel, or does not turn about the vertical (z)");
   other.steering_joints = {"steer_front_lef_joint"};
   EXPECT_NE(error_of_options(car, other).find("did you mean 'steer_front_left_joint'?"),
             std::string::npos);

@@ -328,8 +328,8 @@ TEST(WindProbe, RefusesAWindThatCannotBe) {
   wind.random_gusts = GustStatistics{.interval_s = 2.0, .duration_s = 2.0};
   EXPECT_EQ(
       error_of(wind),
-      "wind: random_gusts: interval_s = 2 s, must be > duration_s = 2 s, for random gusts do not "
-      "overlap");
+      "wind: random_gusts: interval_s = 2 s, must be > duration_s = 2 s, because random gusts do "
+      "not overlap");
 }
 
 }  // namespace

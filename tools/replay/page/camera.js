@@ -1,9 +1,9 @@
 "use strict";
-// The eye: orbits freely, goes with a vehicle, or stays behind one.
+// Camera: orbits freely, follows a vehicle, or stays behind one.
 (function (root) {
   const Replay = (root.VinerowReplay = root.VinerowReplay || {});
 
-  const kFlight_s = 0.7;  // from one view to the next
+  const kFlight_s = 0.7;  // transition from one view to the next
 
   class Eye {
     constructor(canvas, scene) {
@@ -19,14 +19,14 @@
       this.followed = null;  // vehicle
       this.behind = false;
       this.flight = null;
-      this.fitted = null;  // how the view was found that a new size of the picture asks for again
+      this.fitted = null;  // function that finds the current view again after a change of size
       this.last = { position: new THREE.Vector3(), yaw: 0 };
       const own = () => (this.flight = this.fitted = null);
       this.controls.addEventListener("start", own);
       canvas.addEventListener("wheel", own);
     }
 
-    /** Goes to a view, at once or in a glide. */
+    /** Moves to a view, at once or smoothly. */
     go(position, target, at_once) {
       if (at_once) {
         this.camera.position.copy(position);
@@ -40,12 +40,12 @@
       };
     }
 
-    /** The places fill the picture, seen from a direction (towards the eye). */
+    /** Fits the places into the picture, seen from a direction (towards the camera). */
     fit(places, direction, at_once) {
       const away = direction.clone().normalize();
       const right = new THREE.Vector3(0, 0, 1).cross(away).normalize(), up = away.clone().cross(right);
       const tangent = Math.tan(0.5 * this.camera.fov * Math.PI / 180), wide = tangent * this.camera.aspect;
-      // The middle of the picture: of a near and a far edge the near one needs more room, so a few rounds.
+      // Centre the view: a near edge needs more space than a far one, so iterate a few times.
       const centre = new THREE.Box3().setFromPoints(places).getCenter(new THREE.Vector3());
       const distanceFor = () => {
         let needed = 3;
@@ -75,7 +75,7 @@
       this.go(centre.clone().addScaledVector(away, distance), centre, at_once);
     }
 
-    /** All of the scene: its long side across the picture, a little askew, and light from the eye's side. */
+    /** View of the whole scene: slightly oblique, its long side across the picture, light from the camera's side. */
     whole(ground, sun, at_once) {
       const places = this.scene.home(ground, 0);
       let best = null, most = -Infinity;
@@ -108,7 +108,7 @@
       this.behind = false;
     }
 
-    /** The picture has another shape. */
+    /** Adapts to a new aspect ratio of the picture. */
     reshape(aspect) {
       this.camera.aspect = aspect;
       this.camera.updateProjectionMatrix();
@@ -128,7 +128,7 @@
       this.go(target.clone().addScaledVector(direction, behind ? 2.6 * size + 1.6 : 4.2 * size + 2.5), target, at_once);
     }
 
-    /** Whether a place lies in the picture. */
+    /** Whether a place is in the picture. */
     sees(place) {
       this.camera.updateMatrixWorld();
       const at = place.clone().project(this.camera);

@@ -1,5 +1,5 @@
 "use strict";
-// Buttons, lists, keys, the time line and the vehicles' names.
+// Buttons, lists, keys, time line and vehicle names.
 (function (root) {
   const Replay = (root.VinerowReplay = root.VinerowReplay || {});
 
@@ -43,7 +43,7 @@
         const row = element("tr"), name = element("td"), dot = element("span", "vr-dot");
         dot.style.background = vehicle.colour;
         name.append(dot, vehicle.name);
-        row.title = "go with " + vehicle.name;
+        row.title = "follow " + vehicle.name;
         row.append(name, element("td"), element("td"));
         row.addEventListener("click", () => this.follow(vehicle, false));
         this.find("vehicles").append(row);
@@ -55,7 +55,7 @@
       });
     }
 
-    /** Phases that overlap lie in lanes below each other. */
+    /** Draws the phases; overlapping phases are in lanes below each other. */
     makePhases() {
       const { phases, duration_s } = this.player.index, strip = this.find("phases"), ends = [];
       for (const phase of phases) {
@@ -80,7 +80,7 @@
       const list = this.find("camera");
       list.append(new Option("free", "free"));
       this.player.scene.vehicles.forEach((vehicle, v) => {
-        list.append(new Option("with " + vehicle.name, "with " + v), new Option("behind " + vehicle.name, "behind " + v));
+        list.append(new Option("follow " + vehicle.name, "with " + v), new Option("behind " + vehicle.name, "behind " + v));
       });
       list.addEventListener("change", () => {
         const [kind, v] = list.value.split(" ");
@@ -163,7 +163,7 @@
       });
     }
 
-    /** The wheel turns the page until the replay has been clicked, and again once it is left. */
+    /** The wheel scrolls the page until the replay is clicked, and again after the pointer leaves it. */
     listenToWheel() {
       const stage = this.player.stage, controls = this.player.eye.controls, alone = document.body.children[0] === stage ||
         stage.parentElement === document.body && stage.clientHeight >= window.innerHeight;
@@ -181,7 +181,7 @@
 
     /**
      * "#replay:t=52;follow=drone;hide=canopy,plans;speed=8;play=1" opens the page at that instant; "behind=drone",
-     * "view=above" and "eye=x,y,z;look=x,y,z" (m in W) are other views.
+     * "view=above" and "eye=x,y,z;look=x,y,z" (m in W) select other views.
      */
     readAddress() {
       const player = this.player, address = decodeURIComponent(window.location.hash);
@@ -228,7 +228,7 @@
       find("camera").value = followed < 0 ? "free" : (player.eye.behind ? "behind " : "with ") + followed;
     }
 
-    /** Names stand over the vehicles, or at the edge of the picture towards those out of sight. */
+    /** Places names above the vehicles, or at the edge of the picture towards vehicles out of sight. */
     placeLabels(camera) {
       const { player } = this, width = player.stage.clientWidth, height = player.stage.clientHeight;
       const foot = this.find("foot").offsetHeight, placed = [];
@@ -252,7 +252,7 @@
         const reach = 0.5 * label.offsetWidth + 6, tall = label.offsetHeight;
         left = Math.min(Math.max(left, reach), width - reach);
         low = Math.min(Math.max(low, 30), height - foot - 18);
-        // Above those that would lie under it.
+        // Move the label above those that it would cover.
         for (let k = 0; k < placed.length; ++k) {
           const other = placed.find((at) => Math.abs(at.left - left) < at.reach + reach - 8 && Math.abs(at.low - low) < tall + 2);
           if (other) low = other.low - tall - 3;

@@ -1,6 +1,6 @@
 "use strict";
-// What the page holds of the run: tracks by vehicle, plans, pictures. Knows no browser but for atob, so that tests run
-// it elsewhere. The layout is told in tools/replay/replay_tracks.h.
+// Data of the run in the page: tracks by vehicle, plans, textures. Uses no browser function except atob, so that tests
+// can run it elsewhere. tools/replay/replay_tracks.h documents the layout.
 (function (root) {
   const Replay = (root.VinerowReplay = root.VinerowReplay || {});
 
@@ -12,7 +12,7 @@
     return bytes;
   };
 
-  /** out[0..3] = the rotation a share of the way from a[i..] to b[j..], turning evenly. */
+  /** out[0..3] = rotation between a[i..] and b[j..] at a share from 0 to 1, at constant rate. */
   function slerp(out, a, i, b, j, share) {
     let dot = 0;
     for (let c = 0; c < 4; ++c) dot += a[i + c] * b[j + c];
@@ -118,7 +118,7 @@
     speedAt(at) {
       const b = at.next;
       let a = Math.max(b - 1, 0);
-      // The last instant may be in the track twice: what is of one time tells no speed.
+      // The last instant may be in the track twice; two samples of the same time give no speed.
       while (a > 0 && this.times[a] === this.times[b]) --a;
       if (this.times[a] === this.times[b]) return 0;
       const p = this.positions;
@@ -126,13 +126,13 @@
         (this.times[b] - this.times[a]);
     }
 
-    /** Height above the ground, m; null where it is not told. */
+    /** Height above the ground, m; null if the data lack it. */
     heightAt(at) {
       if (!this.heights) return null;
       return this.heights[at.index] + at.share * (this.heights[at.next] - this.heights[at.index]);
     }
 
-    /** Number of the plan that holds at t, -1: none yet. */
+    /** Number of the plan valid at t, -1: none yet. */
     planAt(t) {
       let found = -1;
       for (let i = 0; i < this.plans.length && this.plans[i].t <= t; ++i) found = i;

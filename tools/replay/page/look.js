@@ -1,5 +1,5 @@
 "use strict";
-// How things look: light of the run's hour, sky, ground, leaves. Colours are linear until the tone curve.
+// Materials: light of the run's hour, sky, ground, leaves. Colours are linear until the tone curve.
 (function (root) {
   const Replay = (root.VinerowReplay = root.VinerowReplay || {});
 
@@ -37,7 +37,7 @@
       texture.magFilter = THREE.LinearFilter;
       texture.minFilter = name === "sky" ? THREE.LinearFilter : THREE.LinearMipMapLinearFilter;
       texture.generateMipmaps = name !== "sky" && levels.length === 1;
-      // Their maker has kept the leaves' share of the picture at every level: foliage does not thin out with distance.
+      // Every level keeps the leaves' share of the picture, so foliage does not thin out with distance.
       if (levels.length > 1) texture.mipmaps = levels;
       if (name !== "sky") texture.anisotropy = anisotropy;
       if (name === "ground" || name === "noise") texture.wrapS = texture.wrapT = THREE.RepeatWrapping;
@@ -60,14 +60,14 @@
     sky.groundColor = colourOf(light.ground);
     sky.position.set(0, 0, 1);
     scene.add(sun, sun.target, sky);
-    // Fog is mixed in after the tone curve: it wants the colour of the screen.
+    // Fog is added after the tone curve, so it needs a screen colour.
     const haze = [0, 1, 2].map((c) => toScreen(0.5 * (light.haze_to_sun[c] + light.haze_from_sun[c])));
     scene.fog = new THREE.FogExp2(0xffffff, 0.00042);
     scene.fog.color = colourOf(haze);
     return sun;
   };
 
-  /** Puts the shadow's box around a place, in whole texels so that edges do not crawl. */
+  /** Centres the shadow's box on a place, in whole texels so that shadow edges do not crawl. */
   Replay.aimSun = function (sun, centre, reach) {
     const camera = sun.shadow.camera, direction = sun.userData.direction;
     const right = new THREE.Vector3(0, 0, 1).cross(direction).normalize();
@@ -140,10 +140,10 @@
     return sky;
   };
 
-  // Distances are kept up to here, as the renderer's.
+  // Limit of distances, as in the renderer.
   const kReach = 2.55, kFade = 2.4;
 
-  /** Distances to rows (R) and middles of alleys (G), and where alleys are (B), around the rows. */
+  /** Texture around the rows: distance to rows (R), distance to alley centres (G), alley mask (B). */
   function makeRowMask(ground) {
     if (!ground.row_box) return null;
     const x0 = ground.row_box[0][0] - 6, y0 = ground.row_box[0][1] - 6;
@@ -224,7 +224,7 @@
       grass *= 0.88 + 0.18 * mask.b * smoothstep(0.9, 0.2, d.y);
       vec3 colour = mix(grass, soil, clamp(max(strip, track), 0.0, 1.0));
       colour *= 1.0 - 0.22 * (1.0 - smoothstep(0.0, 0.8, d.x));
-      // Far country: fields and woods in turn.
+      // Distant country: alternating fields and woods.
       float far = smoothstep(120.0, 600.0, distance(q, home));
       vec4 regions = texture2D(noiseTile, q * 0.00071 + 0.2), trees = texture2D(noiseTile, q * 0.0051 + 0.6);
       vec3 field = mix(vec3(0.090, 0.112, 0.046), vec3(0.190, 0.165, 0.092), smoothstep(0.42, 0.62, regions.r));
@@ -254,12 +254,12 @@
     return material;
   };
 
-  /** Foliage: cards lit on both sides as the canopy's volume is, and their shadows' material. */
+  /** Foliage: cards lit on both sides like the canopy's volume, and the material of their shadows. */
   Replay.makeLeafMaterial = function (texture) {
     const material = new THREE.MeshLambertMaterial({
       color: 0xffffff, map: texture, alphaTest: 0.5, side: THREE.DoubleSide, vertexColors: THREE.VertexColors,
     });
-    // Leaves let light through: their lee side is not black, and their shadows on each other are not either.
+    // Leaves are translucent: neither their far side nor their shadows on each other are black.
     const throughLeaves = THREE.ShaderChunk.lights_lambert_vertex.replace(/saturate\( dotNL \)/g, "saturate( 0.62 * dotNL + 0.38 )");
     material.onBeforeCompile = (shader) => {
       shader.vertexShader = shader.vertexShader.replace("#include <lights_lambert_vertex>", throughLeaves);

@@ -1,12 +1,12 @@
 "use strict";
-// The player: reads the page's data, draws, and lets a user scrub, follow and look around.
+// Player: reads the page's data, draws, and handles time, camera and views.
 (function (root) {
   const Replay = (root.VinerowReplay = root.VinerowReplay || {});
 
   const kSpeeds = [1, 2, 4, 8, 16, 32, 64];
   const kStep_s = 5;
-  const kLead_s = 1;  // before the first move
-  const kLongest_s = 1;  // of a step while playing: a page that lay in the background does not jump
+  const kLead_s = 1;  // time shown before the first motion
+  const kLongest_s = 1;  // longest step while playing, so that a page from the background does not jump
 
   class Player {
     constructor(stage) {
@@ -18,7 +18,7 @@
       this.speed = 4;
       this.dirty = true;
       this.costs = [];
-      this.quality = 2;  // 2: shadows, full resolution; 1: coarser leaves and pixels; 0: no shadows, fewer pixels
+      this.quality = 2;  // 2: shadows, full resolution; 1: coarser leaves, lower resolution; 0: also no shadows
       this.show = { canopy: true, plans: true, trails: true, labels: true };
     }
 
@@ -42,7 +42,7 @@
         (error) => this.fail("The scene cannot be read: " + error.message + "."));
     }
 
-    /** Whether a program draws in place of a graphics card, tens of times as slowly. */
+    /** Whether a software renderer replaces the graphics card, which is tens of times slower. */
     drawsInSoftware() {
       const context = document.createElement("canvas").getContext("webgl");
       const names = context && context.getExtension("WEBGL_debug_renderer_info");
@@ -56,7 +56,7 @@
       const attributes = { antialias: !plain, alpha: false, depth: true };
       const context = this.canvas.getContext("webgl", attributes);
       if (!context) {
-        this.fail("This browser draws no 3D graphics (WebGL is off or missing), so the replay cannot be shown.");
+        this.fail("This browser cannot draw 3D graphics (WebGL is off or missing), so the replay cannot be shown.");
         return false;
       }
       options.context = context;
@@ -84,7 +84,7 @@
       this.controls.readAddress();
       if (this.quality === 0) this.tellSimple();
       this.eye.controls.addEventListener("change", () => (this.dirty = true));
-      // A canvas that changes its size is empty until it is drawn: at once, before the page is shown.
+      // A resized canvas is empty until it is drawn, so draw before the page is shown.
       new ResizeObserver(() => {
         this.resize();
         this.draw();
@@ -102,7 +102,7 @@
       window.requestAnimationFrame(frame);
     }
 
-    /** When something begins to happen, and where it does. */
+    /** Start time and view: shortly before the first motion, at the place of it. */
     open() {
       const first = this.scene.firstMove();
       this.seek(first ? Math.max(first.t - kLead_s, 0) : 0);
@@ -171,11 +171,11 @@
       this.stage.dataset.frames = String(Number(this.stage.dataset.frames || 0) + 1);
     }
 
-    /** A machine without a graphics card gets a plainer picture instead of a slow one. */
+    /** Lowers the quality if drawing is slow, as on a machine without a graphics card. */
     watchCost(cost_ms, dt) {
       if (!this.playing || this.quality === 0) return;
       this.costs.push(Math.max(cost_ms, 1000 * dt));
-      // Nobody waits for sixteen pictures of a second each.
+      // Do not measure further: sixteen frames of a second each would take too long.
       const slow = this.costs.length >= 3 && Math.min(...this.costs.slice(-2)) > 400;
       if (this.costs.length < 16 && !slow) return;
       const mean = this.costs.slice(4).reduce((a, b) => a + b, 0) / (this.costs.length - 4);
@@ -194,7 +194,7 @@
   Replay.kSpeeds = kSpeeds;
   Replay.kStep_s = kStep_s;
 
-  /** Begins when the replay comes near the window: a report that is only read costs nothing. */
+  /** Starts when the replay becomes visible, so that a report that is only read costs nothing. */
   Replay.start = function () {
     const stage = document.getElementById("vinerow-replay");
     const player = (Replay.player = new Player(stage));
@@ -209,7 +209,7 @@
         }
       }, 30);
     };
-    // A report shows what stands above it first; a page that is nothing but the replay begins at once.
+    // A report starts the replay when it becomes visible; a page with only the replay starts at once.
     const margin = -60, box = stage.getBoundingClientRect();
     if (box.top < window.innerHeight + margin && box.bottom > -margin) {
       begin();

@@ -1,19 +1,19 @@
 "use strict";
-// The world, the vehicles and the lines drawn over it. z is up, as in the log: glTF's y up is turned back.
+// World, vehicles and the lines over them. z is up, as in the log: glTF's y up is rotated back.
 (function (root) {
   const Replay = (root.VinerowReplay = root.VinerowReplay || {});
 
-  // Nearer than this the finest leaves are drawn, then the middle ones.
+  // Distances below which the finest and the middle leaves are drawn, m.
   const kLevels = [22, 320];
-  // Lines hover this much above what they follow.
+  // Height of lines above what they follow, m.
   const kHover = 0.07;
-  // Rotors turn so fast, as far as the eye can tell.
+  // Displayed rotation rate of rotors.
   const kSpinTurns = 7.3;
-  // Trails of the others while the eye goes with one vehicle.
+  // Opacity of the other vehicles' trails while the camera follows one vehicle.
   const kFaint = 0.3;
-  // Around the vehicle that the eye goes with they are left out, so many of its sizes far and a bit more, m.
+  // Trails are hidden around the followed vehicle within this multiple of its size plus a margin, m.
   const kClear = 3, kClear_m = 2;
-  // Farther from where it began a vehicle has set out.
+  // A vehicle farther than this from its start has departed, m.
   const kSetOut = 0.3;
 
   function worldMaterial(own, materials, cards) {
@@ -26,7 +26,7 @@
     return materials.plain.get(own);
   }
 
-  /** Of a line: its shader reads a uniform of its own. */
+  /** Gives the shader of a line its own uniform. */
   function setOpacity(material, opacity) {
     material.transparent = opacity < 1;
     material.opacity = opacity;
@@ -35,7 +35,7 @@
     material.needsUpdate = true;
   }
 
-  /** A line's parts near a place are not drawn, and fade in up to twice as far. @param clearing {place, reach} uniforms */
+  /** Hides a line within a reach of a place and fades it in up to twice the reach. @param clearing {place, reach} uniforms */
   function clearAround(material, clearing) {
     material.uniforms.clearPlace = clearing.place;
     material.uniforms.clearReach = clearing.reach;
@@ -48,7 +48,7 @@
       own(material.fragmentShader, "vec4 diffuseColor = vec4( diffuse, opacity );", fade);
   }
 
-  /** Moves what hangs in the file's tree to where it stands in W. */
+  /** Moves an object from the file's tree to its pose in W. */
   function settle(object, parent) {
     object.matrix.copy(object.matrixWorld);
     object.matrixAutoUpdate = false;
@@ -56,7 +56,7 @@
   }
 
   class Scene {
-    /** @param gltf what GLTFLoader made @param index the page's @param tracks of data.js */
+    /** @param gltf result of GLTFLoader @param index index of the page @param tracks tracks of data.js */
     constructor(gltf, index, tracks, textures) {
       this.scene = new THREE.Scene();
       this.sun = Replay.addLight(this.scene, index.light);
@@ -70,11 +70,11 @@
       this.levels = [];
       this.lineMaterials = [];
       this.arrangeWorld(gltf, index, textures);
-      this.focus = null;  // vehicle that the eye goes with
+      this.focus = null;  // vehicle that the camera follows
       this.vehicles = tracks.map((track, v) => this.addVehicle(track, v));
     }
 
-    /** {vehicle, t} of who moves first, s since the run's start; null where nobody does. */
+    /** {vehicle, t} of the vehicle that moves first, s since the run's start; null if none moves. */
     firstMove() {
       let first = null;
       for (const vehicle of this.vehicles) {
@@ -87,7 +87,7 @@
       return first;
     }
 
-    /** Lines of the others do not run through the one that is looked at. */
+    /** Keeps lines of other vehicles clear of the followed one. */
     setFocus(vehicle, t) {
       for (const each of this.vehicles) {
         const clear = vehicle !== null && each !== vehicle;
@@ -180,7 +180,7 @@
       const material = new THREE.LineMaterial({ color: new THREE.Color(colour).getHex(), linewidth: width });
       setOpacity(material, opacity);
       material.fog = false;
-      // Lines are signs: their colours are those of the screen.
+      // Lines are symbols: their colours are screen colours, without tone mapping.
       material.fragmentShader = material.fragmentShader.replace("#include <tonemapping_fragment>", "").replace("#include <encodings_fragment>", "");
       this.lineMaterials.push(material);
       const line = new THREE.LineSegments2(geometry, material);
@@ -189,7 +189,7 @@
       return line;
     }
 
-    /** Pairs of points; as many are drawn as have been passed. */
+    /** Trail as pairs of points, of which those already passed are drawn. */
     addTrail(vehicle, v) {
       const track = vehicle.track, n = track.times.length, down = track.entry.foot_m - kHover - 0.01 * v;
       const pairs = new Float32Array(6 * Math.max(n - 1, 1));
@@ -201,7 +201,7 @@
         }
       }
       const line = this.addLine(this.trails, pairs, vehicle.colour, 3.5, 1);
-      // Where a plan was kept exactly, the trail covers it.
+      // The trail covers the plan where the vehicle followed it exactly.
       line.material.polygonOffset = true;
       line.material.polygonOffsetUnits = -400;
       line.renderOrder = 2;
@@ -219,7 +219,7 @@
       return line;
     }
 
-    /** Everything at a time, s since the run's start. */
+    /** Moves everything to a time, s since the run's start. */
     setTime(t) {
       for (const vehicle of this.vehicles) {
         const at = vehicle.track.bracket(t), p = [0, 0, 0], q = [0, 0, 0, 1];
@@ -251,19 +251,19 @@
       part.object.matrix.compose(new THREE.Vector3().fromArray(p), rotation, new THREE.Vector3(1, 1, 1));
     }
 
-    /** Before a picture: what is near is drawn finer. @param share of the distances, 1 or less */
+    /** Selects levels of detail before drawing. @param share factor on the distances, 1 or less */
     prepare(camera, width, height, share) {
       for (const { levels, centre } of this.levels) {
         const distance = camera.position.distanceTo(centre);
         let wanted = distance < kLevels[0] * share ? 0 : distance < kLevels[1] * share ? 1 : 2;
         wanted = Math.min(wanted, levels.length - 1);
-        while (!levels[wanted]) ++wanted;  // the page does not hold the finest
+        while (!levels[wanted]) ++wanted;  // the page may lack the finest level
         levels.forEach((object, i) => (object.visible = i === wanted));
       }
       for (const material of this.lineMaterials) material.resolution.set(width, height);
     }
 
-    /** Places that a view of the whole shows: rows, and vehicles at a time; all trails where there are no rows. */
+    /** Places in a view of the whole: rows, and vehicles at a time; all trails if there are no rows. */
     home(ground, t) {
       const places = [];
       const add = (array, at, up) => places.push(new THREE.Vector3(array[at], array[at + 1], array[at + 2] + up));
@@ -290,7 +290,7 @@
     }
   }
 
-  /** What a rotor looks like when the eye cannot follow its blades. */
+  /** Blurred disc of a fast rotor. */
   function addDisc(object, axis) {
     const box = new THREE.Box3(), along = new THREE.Vector3().fromArray(axis);
     object.traverse((mesh) => {

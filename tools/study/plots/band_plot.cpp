@@ -15,7 +15,7 @@ using tools::report::Svg;
 
 constexpr double kBandHeight_px = 340.0, kBandTop_px = 12.0, kBandBottom_px = 50.0,
                  kBandRight_px = 20.0;
-/// Groups with whiskers stand so far beside each other, for whiskers not to cover each other.
+/// Horizontal offset between groups, so that their whiskers do not cover each other.
 constexpr double kBeside_px = 5.0;
 
 bool on_axis(double value, AxisScale scale) {
@@ -30,7 +30,7 @@ Range shown_range(const Range& values, const Quantity& quantity, AxisScale scale
   return scale == AxisScale::kLinear ? axis_range(values, quantity) : logarithmic_range(values);
 }
 
-/// Axes that hold every point with its interval.
+/// Axes that contain every point with its interval.
 struct BandAxes {
   Axis x, y;
 };
@@ -44,7 +44,7 @@ BandAxes make_axes(const BandPlot& plot, const Range& xs, const Range& ys) {
           y};
 }
 
-/// A bound of an interval on the page; where it is beyond the plot, the plot's edge.
+/// Pixel of an interval's bound, clipped to the plot.
 double bound_px(double bound, const Axis& y, AxisScale scale) {
   if (scale == AxisScale::kLogarithmic && bound <= 0.0) return y.from_px();
   return y.px(std::clamp(bound, y.range().low, y.range().high));
@@ -103,7 +103,7 @@ class GroupDrawing {
   double x_px(const BandPoint& point) const { return axes_.x.px(point.x) + beside_px_; }
   double y_px(const BandPoint& point) const { return axes_.y.px(point.value); }
 
-  /// Points without a gap between them.
+  /// Runs of points without a gap.
   std::vector<std::vector<const BandPoint*>> stretches() const {
     std::vector<std::vector<const BandPoint*>> out(1);
     for (const BandPoint* point : points_) {
@@ -119,7 +119,7 @@ class GroupDrawing {
   void draw_band(const std::vector<const BandPoint*>& stretch, Svg& svg) const {
     std::vector<Eigen::Vector2d> outline;
     for (const BandPoint* point : stretch) {
-      // Where the interval is not known the band has no width.
+      // The band has no width where the interval is unknown.
       const double low = has_interval(*point) ? point->low : point->value;
       outline.emplace_back(x_px(*point), bound_px(low, axes_.y, plot_.y_scale));
     }
@@ -186,7 +186,7 @@ std::string band_plot(const BandPlot& plot) {
   draw_level_axis(axes.x, axes.y.from_px(), axes.y.from_px(), plot.x.title(), svg);
   std::vector<GroupDrawing> drawings;
   for (std::size_t g = 0; g < plot.groups.size(); ++g) drawings.emplace_back(plot, g, axes);
-  // Marks lie above every band and line, so that each can be hit.
+  // Marks are above all bands and lines, so that each can be clicked.
   for (const GroupDrawing& drawing : drawings) drawing.draw_spread(svg);
   for (const GroupDrawing& drawing : drawings) drawing.draw_line(svg);
   for (const GroupDrawing& drawing : drawings) drawing.draw_marks(svg);

@@ -1,5 +1,5 @@
 #pragma once
-/// A metric over a numeric factor: a line for each group, with its interval as band or whiskers.
+/// Plot of a metric over a numeric factor: one line per group, with intervals as band or whiskers.
 
 #include <cstdint>
 #include <string>
@@ -14,7 +14,7 @@ namespace vinerow::study {
 struct BandPoint {
   double x = 0.0;
   double value = kNoValue;                 ///< NaN: the line has a gap
-  double low = kNoValue, high = kNoValue;  ///< its interval, where known
+  double low = kNoValue, high = kNoValue;  ///< its interval, if known
   std::string note;
   std::int64_t cell = kNoCell;
 };
@@ -32,12 +32,12 @@ struct BandPlot {
   std::string spread_label;  ///< "95 % interval"
   std::vector<BandGroup> groups;
   Spread spread = Spread::kBand;
-  /// A logarithmic axis leaves out what is not above 0.
+  /// A logarithmic axis leaves out values that are not above 0.
   tools::report::AxisScale x_scale = tools::report::AxisScale::kLinear;
   tools::report::AxisScale y_scale = tools::report::AxisScale::kLinear;
 };
 
-/// <figure>; "" where no group has a point that can be drawn.
+/// <figure>; "" if no group has a point that can be drawn.
 std::string band_plot(const BandPlot& plot);
 
 }  // namespace vinerow::study

@@ -27,7 +27,7 @@ std::optional<BoxNumbers> calc_box_numbers(std::vector<double> values) {
   box.median = quantile(values, 0.5);
   box.upper_quartile = quantile(values, 0.75);
   const double reach = 1.5 * (box.upper_quartile - box.lower_quartile);
-  // The box itself bounds the whiskers where no value lies between it and its reach.
+  // Without a value between the box and its reach, the whisker ends at the box.
   box.low_whisker =
       std::min(*std::lower_bound(values.begin(), values.end(), box.lower_quartile - reach),
                box.lower_quartile);

@@ -30,13 +30,13 @@ struct BoxLayout {
 };
 
 BoxLayout lay_out_boxes(const BoxPlot& plot, const Axis& y) {
-  constexpr double kWanted_px = 44.0, kLeast_px = 8.0, kWidestBox_px = 84.0;
+  constexpr double kWanted_px = 44.0, kMin_px = 8.0, kWidestBox_px = 84.0;
   const auto count = static_cast<double>(plot.levels.size());
   BoxLayout at;
   at.left = upright_axis_px(y);
   const double around = at.left + kBoxRight_px;
   const bool half = count * kWanted_px <= kHalfWidth_px - around;
-  at.pitch = std::max(((half ? kHalfWidth_px : kFullWidth_px) - around) / count, kLeast_px);
+  at.pitch = std::max(((half ? kHalfWidth_px : kFullWidth_px) - around) / count, kMin_px);
   at.width = around + count * at.pitch;
   at.half_box = 0.5 * std::min(0.62 * at.pitch, kWidestBox_px);
   std::vector<std::string> names;
@@ -75,9 +75,9 @@ void draw_box(const BoxNumbers& box, const std::string& tip, double x, double ha
   svg.line(x - half_width, y.px(box.median), x + half_width, y.px(box.median), "median s0");
 }
 
-/// Places of dots that do not cover each other, as near the middle as they can be. Where a row is
-/// full, they do. @param heights_px  rising @returns offsets from the middle, px
-std::vector<double> side_by_side(const std::vector<double>& heights_px, double most_px) {
+/// Offsets at which dots do not cover each other, as near to the middle as possible. In a full row
+/// they overlap. @param heights_px  ascending @returns offsets from the middle, px
+std::vector<double> side_by_side(const std::vector<double>& heights_px, double max_px) {
   constexpr double kStep_px = 2.0 * kSpeck_px + 0.4;
   std::vector<double> offsets;
   for (std::size_t i = 0; i < heights_px.size(); ++i) {
@@ -85,7 +85,7 @@ std::vector<double> side_by_side(const std::vector<double>& heights_px, double m
     for (int k = 0; k < 1000; ++k) {
       // 0, 1, -1, 2, -2, ... steps from the middle.
       const double offset = (k % 2 == 0 ? -1.0 : 1.0) * ((k + 1) / 2) * kStep_px;
-      if (std::abs(offset) > most_px) break;
+      if (std::abs(offset) > max_px) break;
       bool free = true;
       for (std::size_t j = i; free && j-- > 0;) {
         const double apart = heights_px[i] - heights_px[j];
@@ -103,7 +103,7 @@ std::vector<double> side_by_side(const std::vector<double>& heights_px, double m
 
 void draw_dots(const BoxPlot& plot, const BoxLevel& level, const BoxNumbers& box, double x,
                double half_width, const Axis& y, Svg& svg) {
-  const bool all = level.values.size() <= kMostDots;
+  const bool all = level.values.size() <= kMaxDots;
   std::vector<const BoxValue*> shown;
   for (const BoxValue& value : level.values) {
     if (can_draw(value.value) && (all || box.is_outlier(value.value))) shown.push_back(&value);
@@ -163,7 +163,7 @@ std::string box_plot(const BoxPlot& plot) {
     if (!box) continue;
     draw_box(*box, box_tip(plot, level, *box, numbers.size()), at.centre(i), at.half_box, y, svg);
     draw_dots(plot, level, *box, at.centre(i), at.half_box, y, svg);
-    with_dots = with_dots || level.values.size() <= kMostDots;
+    with_dots = with_dots || level.values.size() <= kMaxDots;
     for (const double value : numbers) with_outliers = with_outliers || box->is_outlier(value);
   }
   return study_figure(plot.texts, box_legend(with_dots, with_outliers), svg.finish(), at.width);

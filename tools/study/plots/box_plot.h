@@ -1,5 +1,5 @@
 #pragma once
-/// A metric's values at each level of a factor: a box each, and the values themselves.
+/// Box plot of a metric at each level of a factor, with single values.
 
 #include <cstdint>
 #include <string>
@@ -29,10 +29,10 @@ struct BoxPlot {
   std::vector<BoxLevel> levels;  ///< from left to right
 };
 
-/// Levels of no more values than this show each of them; others show their outliers.
-inline constexpr std::size_t kMostDots = 50;
+/// A level with at most this many values shows each of them, others only their outliers.
+inline constexpr std::size_t kMaxDots = 50;
 
-/// <figure>; "" where no value can be drawn. Dots that would cover each other stand side by side.
+/// <figure>; "" if no value can be drawn. Dots that would cover each other are placed side by side.
 std::string box_plot(const BoxPlot& plot);
 
 }  // namespace vinerow::study

@@ -47,7 +47,8 @@ const char* click_script() {
     selection.removeAllRanges();
     selection.addRange(range);
   }
-  // Pages from files may not reach the clipboard in every browser: then the old way, or by hand.
+  // Not every browser gives pages from files access to the clipboard: fall back to execCommand, or
+  // let the user copy.
   function copyByHand() {
     selectCode();
     copy.textContent = document.execCommand('copy') ? 'Copied' : 'Press Ctrl+C';
@@ -62,7 +63,7 @@ const char* click_script() {
     var mark = markOf(event);
     if (mark) choose(mark);
   });
-  // One stop of the Tab key for each plot; inside it, arrows.
+  // One tab stop per plot; arrow keys move inside it.
   document.querySelectorAll('svg.study').forEach(function (svg) {
     var marks = Array.prototype.slice.call(svg.querySelectorAll('[data-cell]'));
     if (marks.length === 0) return;

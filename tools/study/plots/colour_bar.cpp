@@ -17,7 +17,7 @@ using tools::report::Range;
 using tools::report::Svg;
 
 constexpr int kSteps = 64;
-/// A step reaches so far below the next one, so that no seam shows between them.
+/// Overlap of neighbouring steps, so that no seam shows between them.
 constexpr double kOver_px = 2.0;
 
 double share_of(double value, const Range& range) {
@@ -49,10 +49,10 @@ bool is_dark(double value, const Range& range) {
 }
 
 void draw_lying_bar(const Range& range, const Quantity& quantity, double left_px, double top_px,
-                    double length_px, double room_px, Svg& svg) {
+                    double length_px, double space_px, Svg& svg) {
   constexpr double kThick_px = 12.0;
   const double bar = top_px + 18.0;
-  svg.text(left_px, top_px + 11, shortened(quantity.title(), room_px, kLabel_px), "label");
+  svg.text(left_px, top_px + 11, shortened(quantity.title(), space_px, kLabel_px), "label");
   const double step = length_px / kSteps;
   for (int i = 0; i < kSteps; ++i) {
     const double wide = i + 1 < kSteps ? step + kOver_px : step;
@@ -64,7 +64,7 @@ void draw_lying_bar(const Range& range, const Quantity& quantity, double left_px
   for (const double tick : axis.ticks()) {
     const double at = axis.px(tick), half = 0.5 * widest_px(axis.short_text(tick), kTick_px);
     svg.line(at, bar + kThick_px, at, bar + kThick_px + 4, "axis");
-    if (at - half < free_from || at + half > left_px + room_px) continue;
+    if (at - half < free_from || at + half > left_px + space_px) continue;
     svg.text(at, bar + kThick_px + 16, axis.short_text(tick), "tick mid");
     free_from = at + half + 6.0;
   }

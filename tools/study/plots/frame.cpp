@@ -15,11 +15,11 @@ using tools::report::Axis;
 using tools::report::escaped;
 using tools::report::Svg;
 
-/// Ticks' texts of 12.5 px are not drawn smaller than 9 px, nor larger than 15 px.
-constexpr double kLeastScale = 9.0 / kTick_px;
-constexpr double kMostScale = 15.0 / kTick_px;
-constexpr double kTitleRoom_px = 26.0;
-/// Plots leave at least so much room to the right of an axis.
+/// Tick labels of 12.5 px are drawn with at least 9 px and at most 15 px.
+constexpr double kMinScale = 9.0 / kTick_px;
+constexpr double kMaxScale = 15.0 / kTick_px;
+constexpr double kTitleSpace_px = 26.0;
+/// Minimum space to the right of an axis.
 constexpr double kBesideAxis_px = 20.0;
 
 double widest_tick_px(const Axis& axis) {
@@ -34,8 +34,8 @@ double widest_tick_px(const Axis& axis) {
 
 Svg study_svg(double width_px, double height_px, const std::string& title) {
   return Svg(width_px, height_px, "study", title,
-             fmt::format("style=\"min-width:{:.0f}px;max-width:{:.0f}px\"", kLeastScale * width_px,
-                         kMostScale * width_px));
+             fmt::format("style=\"min-width:{:.0f}px;max-width:{:.0f}px\"", kMinScale * width_px,
+                         kMaxScale * width_px));
 }
 
 std::string study_figure(const PlotTexts& texts, const std::string& legend, const std::string& svg,
@@ -58,7 +58,7 @@ std::string legend_words(const std::string& words) {
 }
 
 double upright_axis_px(const Axis& y) {
-  return std::ceil(kTitleRoom_px + widest_tick_px(y) + 7.0);
+  return std::ceil(kTitleSpace_px + widest_tick_px(y) + 7.0);
 }
 
 void draw_upright_axis(const Axis& y, double left_px, double right_px, const std::string& title,
@@ -73,7 +73,8 @@ void draw_upright_axis(const Axis& y, double left_px, double right_px, const std
 
 void draw_level_axis(const Axis& x, double axis_px, double grid_to_px, const std::string& title,
                      Svg& svg) {
-  // Texts of a logarithmic axis differ in width; one that would touch the last is left out.
+  // Labels of a logarithmic axis differ in width; a label that would touch the previous one is left
+  // out.
   double free_from = 2.0;
   for (const double tick : x.ticks()) {
     const double at = x.px(tick), half = 0.5 * widest_px(x.short_text(tick), kTick_px);

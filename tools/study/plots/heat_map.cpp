@@ -19,14 +19,14 @@ using tools::report::Svg;
 
 constexpr double kValue_px = 12.0;
 
-/// Where everything lies, px.
+/// Layout of the plot, px.
 struct HeatLayout {
   double left = 0.0, top = 0.0;
   double tile_width = 0.0, tile_height = 0.0;
   double plot_width = 0.0, plot_height = 0.0;
   double width = 0.0, height = 0.0;
   LevelLabels x_labels;
-  bool with_values = false;  ///< written into the tiles
+  bool with_values = false;  ///< values are written into the tiles
 };
 
 double widest_value_px(const HeatMap& map, const Range& range) {
@@ -40,20 +40,20 @@ double widest_value_px(const HeatMap& map, const Range& range) {
 }
 
 HeatLayout lay_out_tiles(const HeatMap& map, const Range& range) {
-  constexpr double kTitle_px = 30.0, kRight_px = 18.0, kLeastTile_px = 3.0;
-  constexpr double kMostWidth_px = 110.0, kMostHeight_px = 36.0, kTallest_px = 520.0;
+  constexpr double kTitle_px = 30.0, kRight_px = 18.0, kMinTile_px = 3.0;
+  constexpr double kMaxWidth_px = 110.0, kMaxHeight_px = 36.0, kTallest_px = 520.0;
   const auto columns = static_cast<double>(map.x_levels.size());
   const auto rows = static_cast<double>(map.y_levels.size());
   HeatLayout at;
   at.left = std::ceil(kTitle_px + row_labels_px(map.y_levels, 190.0) + 8.0);
   at.top = kLyingBar_px + 12.0;
   const double value_px = widest_value_px(map, range);
-  // A half of the page where the values fit into its tiles, else all of it.
+  // Half of the page if the values fit into the tiles, otherwise the full width.
   const double around = at.left + kRight_px, wanted = std::max(value_px + 10.0, 36.0);
   const bool half = columns * wanted <= kHalfWidth_px - around;
   const double room = (half ? kHalfWidth_px : kFullWidth_px) - around;
-  at.tile_width = std::clamp(room / columns, kLeastTile_px, kMostWidth_px);
-  at.tile_height = std::clamp(kTallest_px / rows, kLeastTile_px, kMostHeight_px);
+  at.tile_width = std::clamp(room / columns, kMinTile_px, kMaxWidth_px);
+  at.tile_height = std::clamp(kTallest_px / rows, kMinTile_px, kMaxHeight_px);
   at.plot_width = columns * at.tile_width;
   at.plot_height = rows * at.tile_height;
   at.x_labels = fit_level_labels(map.x_levels, at.tile_width, at.left + 0.5 * at.tile_width);
@@ -71,12 +71,12 @@ std::string heat_tip(const HeatMap& map, std::size_t x, std::size_t y, const Hea
       tile.cell);
 }
 
-/// Slanted lines inside a tile.
+/// Draws slanted lines inside a tile.
 void draw_hatch(double left, double top, double width, double height, Svg& svg) {
   constexpr double kPitch_px = 7.0;
   std::string path;
   for (double along = kPitch_px; along < width + height; along += kPitch_px) {
-    // From the left or the lower side up to the upper or the right one.
+    // From the left or lower side to the upper or right side.
     const double from_x = std::max(0.0, along - height), to_x = std::min(width, along);
     path += fmt::format("M{} {}L{} {}", px(left + from_x), px(top + along - from_x),
                         px(left + to_x), px(top + along - to_x));
@@ -95,7 +95,7 @@ void draw_tile(const HeatMap& map, const HeatLayout& at, const Range& range, std
     attributes +=
         fmt::format("{}fill=\"{}\"", attributes.empty() ? "" : " ", colour_of(tile.value, range));
   }
-  // A gap between tiles that are large enough.
+  // Gaps only between tiles that are large enough.
   const bool large = std::min(at.tile_width, at.tile_height) >= 10.0;
   const double gap = !large ? 0.0 : at.tile_height < 20.0 ? 0.5 : 0.75;
   svg.rect(left + gap, top + gap, at.tile_width - 2.0 * gap, at.tile_height - 2.0 * gap,
@@ -124,9 +124,9 @@ void draw_y_labels(const HeatMap& map, const HeatLayout& at, Svg& svg) {
 
 std::string heat_map(const HeatMap& map) {
   if (map.x_levels.empty() || map.y_levels.empty()) return "";
-  if (map.tiles.size() > kMostTiles) {
-    return empty_figure(map.texts, fmt::format("{} tiles are too many to draw; the most is {}.",
-                                               map.tiles.size(), kMostTiles));
+  if (map.tiles.size() > kMaxTiles) {
+    return empty_figure(map.texts, fmt::format("{} tiles are too many to draw; the maximum is {}.",
+                                               map.tiles.size(), kMaxTiles));
   }
   Range values;
   bool missing = false;
@@ -134,7 +134,7 @@ std::string heat_map(const HeatMap& map) {
     if (can_draw(tile.value)) values.include(tile.value);
     missing = missing || !can_draw(tile.value);
   }
-  // Colours span the values themselves.
+  // The colour range is exactly the range of the values.
   const Range range = axis_range(values, map.value, 0.0);
   const HeatLayout at = lay_out_tiles(map, range);
   Svg svg = study_svg(at.width, at.height, map.texts.title);

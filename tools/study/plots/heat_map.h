@@ -1,5 +1,5 @@
 #pragma once
-/// A metric over two factors: a tile for each pair of levels, coloured by its value.
+/// Heat map of a metric over two factors: one tile per pair of levels, coloured by its value.
 
 #include <cstdint>
 #include <string>
@@ -11,11 +11,11 @@
 
 namespace vinerow::study {
 
-/// One pair of levels.
+/// Tile of one pair of levels.
 struct HeatTile {
   double value = kNoValue;                 ///< NaN: hatched
-  double low = kNoValue, high = kNoValue;  ///< its interval, where known
-  std::string note;                        ///< why there is no value, or more about it
+  double low = kNoValue, high = kNoValue;  ///< its interval, if known
+  std::string note;                        ///< reason of a missing value, or a note
   std::int64_t cell = kNoCell;
 };
 
@@ -27,10 +27,10 @@ struct HeatMap {
   std::vector<HeatTile> tiles;        ///< tiles[y * x_levels.size() + x]
 };
 
-/// More tiles than this are not drawn: the figure says so.
-inline constexpr std::size_t kMostTiles = 20'000;
+/// Maximum number of tiles; beyond it the figure contains a sentence instead.
+inline constexpr std::size_t kMaxTiles = 20'000;
 
-/// <figure>; "" where a factor has no level.
+/// <figure>; "" if a factor has no level.
 /// @pre tiles.size() == x_levels.size() * y_levels.size()
 std::string heat_map(const HeatMap& map);
 

@@ -15,24 +15,24 @@ using tools::report::Range;
 using tools::report::Svg;
 
 constexpr double kRowsTop_px = 26.0, kRowsBottom_px = 50.0, kDot_px = 4.6;
-constexpr double kText_px = 15.0;  ///< from row to row, for their texts
+constexpr double kText_px = 15.0;  ///< minimum row pitch for labels
 
 struct IntervalLayout {
-  double left = 0.0, right = 0.0;  ///< of the plot
+  double left = 0.0, right = 0.0;  ///< edges of the plot
   double row = 0.0, bottom = 0.0, width = 0.0, height = 0.0;
-  std::size_t stride = 1;  ///< every how many rows has its texts
+  std::size_t stride = 1;  ///< every stride-th row has labels
 
   double middle(std::size_t i) const { return kRowsTop_px + (static_cast<double>(i) + 0.5) * row; }
 };
 
-/// Numbers alone: the axis has the unit.
+/// Value and interval without the unit, which is on the axis.
 std::string numbers_text(const IntervalRow& row, const Range& range) {
   return even_interval_text(row.value, row.low, row.high, range);
 }
 
 IntervalLayout lay_out_rows(const IntervalPlot& plot, const Range& range) {
-  constexpr double kMostLabel_px = 250.0, kLeastPlot_px = 220.0;
-  constexpr double kTallest_px = 3000.0, kLeastRow_px = 5.0, kRow_px = 24.0;
+  constexpr double kMaxLabel_px = 250.0, kMinPlot_px = 220.0;
+  constexpr double kTallest_px = 3000.0, kMinRow_px = 5.0, kRow_px = 24.0;
   std::vector<std::string> names = {plot.rows_title}, numbers;
   for (const IntervalRow& row : plot.rows) {
     names.push_back(row.label);
@@ -40,11 +40,11 @@ IntervalLayout lay_out_rows(const IntervalPlot& plot, const Range& range) {
   }
   const auto count = static_cast<double>(plot.rows.size());
   IntervalLayout at;
-  at.row = std::clamp(kTallest_px / count, kLeastRow_px, kRow_px);
+  at.row = std::clamp(kTallest_px / count, kMinRow_px, kRow_px);
   at.stride = label_stride(at.row, kText_px);
-  at.left = std::ceil(row_labels_px(names, kMostLabel_px) * kLabel_px / kTick_px + 20.0);
+  at.left = std::ceil(row_labels_px(names, kMaxLabel_px) * kLabel_px / kTick_px + 20.0);
   const double numbers_px = std::ceil(row_labels_px(numbers, 220.0) + 24.0);
-  const bool half = at.left + kLeastPlot_px + numbers_px <= kHalfWidth_px;
+  const bool half = at.left + kMinPlot_px + numbers_px <= kHalfWidth_px;
   at.width = half ? kHalfWidth_px : kFullWidth_px;
   at.right = at.width - numbers_px;
   at.bottom = kRowsTop_px + count * at.row;
@@ -74,7 +74,7 @@ void draw_interval(const IntervalRow& row, const Axis& x, double y, double cap, 
     return x.px(std::clamp(bound, x.range().low, x.range().high));
   };
   svg.line(place(row.low), y, place(row.high), y, "whisker s0");
-  // An end without a cap goes on.
+  // No cap where the interval continues beyond the plot.
   for (const double bound : {row.low, row.high}) {
     if (can_draw(bound)) svg.line(place(bound), y - cap, place(bound), y + cap, "whisker s0");
   }
@@ -92,7 +92,7 @@ void draw_row(const IntervalPlot& plot, std::size_t i, const IntervalLayout& at,
        row.note},
       row.cell);
   svg.raw("<title>" + tools::report::escaped(tip) + "</title>\n");
-  // All of the row answers to the pointer.
+  // The whole row reacts to the pointer.
   svg.rect(0, y - 0.5 * at.row, at.width, at.row, "reach");
   if (can_draw(row.value)) {
     draw_interval(row, x, y, 4.0 * size, svg);

@@ -1,5 +1,5 @@
 #pragma once
-/// Values with their intervals, a row each: probabilities of settings, sizes of effects.
+/// Plot of values with intervals, one row each: probabilities of settings, sizes of effects.
 
 #include <cstdint>
 #include <optional>
@@ -14,13 +14,13 @@ namespace vinerow::study {
 
 struct IntervalRow {
   std::string label;
-  double value = kNoValue;                 ///< NaN: the row says that it is not measured
-  double low = kNoValue, high = kNoValue;  ///< its interval, where known; may be infinite
+  double value = kNoValue;                 ///< NaN: the row shows "not measured"
+  double low = kNoValue, high = kNoValue;  ///< its interval, if known; may be infinite
   std::string note;
   std::int64_t cell = kNoCell;
 };
 
-/// A value to compare with: no effect, or what is required.
+/// Reference value: no effect, or the requirement.
 struct IntervalReference {
   double value = 0.0;
   std::string label;
@@ -29,14 +29,13 @@ struct IntervalReference {
 struct IntervalPlot {
   PlotTexts texts;
   Quantity value;
-  std::string rows_title;         ///< what the rows are: "setting"
+  std::string rows_title;         ///< kind of the rows: "setting"
   std::string spread_label;       ///< "95 % interval"
   std::vector<IntervalRow> rows;  ///< from top to bottom
   std::optional<IntervalReference> reference;
 };
 
-/// <figure>; "" where there are no rows. With a reference, dots are hollow where the interval
-/// contains it.
+/// <figure>; "" without rows. A dot is hollow if its interval contains the reference.
 std::string interval_plot(const IntervalPlot& plot);
 
 }  // namespace vinerow::study

@@ -11,29 +11,29 @@ namespace {
 
 constexpr double kGap_px = 8.0;
 constexpr double kLineHeight_px = 15.0;
-/// Slanted texts are no longer than this.
+/// Maximum length of slanted labels.
 constexpr double kLongestSlanted_px = 150.0;
-/// Texts up to this wide are thinned rather than slanted.
+/// Labels up to this width are thinned rather than slanted.
 constexpr double kShort_px = 46.0;
 
 }  // namespace
 
-std::size_t label_stride(double pitch_px, double least_px) {
+std::size_t label_stride(double pitch_px, double min_px) {
   for (std::size_t power = 1;; power *= 10) {
     for (const std::size_t factor : {1, 2, 5}) {
-      if (static_cast<double>(factor * power) * pitch_px >= least_px) return factor * power;
+      if (static_cast<double>(factor * power) * pitch_px >= min_px) return factor * power;
     }
   }
 }
 
-double row_labels_px(const std::vector<std::string>& rows, double most_px) {
+double row_labels_px(const std::vector<std::string>& rows, double max_px) {
   double widest = 0.0;
   for (const std::string& row : rows) widest = std::max(widest, widest_px(row, kTick_px));
-  return std::min(widest, most_px);
+  return std::min(widest, max_px);
 }
 
 LevelLabels fit_level_labels(const std::vector<std::string>& levels, double pitch_px,
-                             double room_px) {
+                             double space_px) {
   LevelLabels labels;
   labels.texts.resize(levels.size());
   const double widest = row_labels_px(levels, 1e9);
@@ -45,9 +45,9 @@ LevelLabels fit_level_labels(const std::vector<std::string>& levels, double pitc
   }
   double longest = 0.0;
   for (std::size_t i = 0; i < levels.size(); i += stride) {
-    // A slanted text ends below its level and begins to the left of it.
+    // A slanted label ends below its level and starts to the left of it.
     const double room =
-        (room_px + static_cast<double>(i) * pitch_px - kGap_px) * std::numbers::sqrt2;
+        (space_px + static_cast<double>(i) * pitch_px - kGap_px) * std::numbers::sqrt2;
     labels.texts[i] = labels.slanted
                           ? shortened(levels[i], std::min(kLongestSlanted_px, room), kTick_px)
                           : levels[i];

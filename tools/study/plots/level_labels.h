@@ -1,5 +1,5 @@
 #pragma once
-/// Texts of levels along an axis: as many, and as long, as fit without touching.
+/// Labels of levels along an axis, thinned and shortened so that they do not touch.
 
 #include <string>
 #include <vector>
@@ -8,27 +8,27 @@
 
 namespace vinerow::study {
 
-/// How the texts of levels stand below a plot.
+/// Layout of the labels below a plot.
 struct LevelLabels {
-  std::vector<std::string> texts;  ///< one for each level, "" where there is no room
-  bool slanted = false;            ///< reading upwards to the right, else level
+  std::vector<std::string> texts;  ///< one per level, "" if there is no space
+  bool slanted = false;            ///< reads upwards to the right; otherwise horizontal
   double height_px = 0.0;          ///< from the axis down to the lowest letter
 };
 
 /// @param pitch_px  > 0, from level to level
-/// @param room_px   to the left of the first level's place, for slanted texts
+/// @param space_px  space to the left of the first level, for slanted labels
 LevelLabels fit_level_labels(const std::vector<std::string>& levels, double pitch_px,
-                             double room_px);
+                             double space_px);
 
 /// @param first_px  x of the first level @param axis_px  y of the axis
 void draw_level_labels(const LevelLabels& labels, double first_px, double pitch_px, double axis_px,
                        tools::report::Svg& svg);
 
-/// Every how many levels one has its text, so that texts lie `least_px` apart: 1, 2, 5, 10, ...
+/// Stride of labels that keeps them at least `min_px` apart: 1, 2, 5, 10, ...
 /// @pre pitch_px > 0
-std::size_t label_stride(double pitch_px, double least_px);
+std::size_t label_stride(double pitch_px, double min_px);
 
-/// Room that the texts of rows take beside a plot, at most `most_px`.
-double row_labels_px(const std::vector<std::string>& rows, double most_px);
+/// Width of the row labels next to a plot, at most `max_px`.
+double row_labels_px(const std::vector<std::string>& rows, double max_px);
 
 }  // namespace vinerow::study

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kRadius_px = 4.2;
 
-/// A regular polygon whose first corner lies at an angle. @param first_rad  0 right, clockwise
+/// Corners of a regular polygon. @param first_rad  angle of the first corner, 0: right, clockwise
 std::vector<Eigen::Vector2d> corners(int count, double first_rad, double radius_px, double x,
                                      double y) {
   std::vector<Eigen::Vector2d> points;

@@ -19,12 +19,12 @@ using tools::report::px;
 using tools::report::Range;
 using tools::report::Svg;
 
-constexpr double kWays_px = 330.0, kBar_px = 13.0;
+constexpr double kPaths_px = 330.0, kBar_px = 13.0;
 constexpr std::size_t kTitleLines = 3;
 constexpr double kTitleLine_px = 16.0;
-constexpr double kWaysTop_px = kTitleLines * kTitleLine_px + 14.0;
+constexpr double kPathsTop_px = kTitleLines * kTitleLine_px + 14.0;
 
-/// An axis where it stands.
+/// Axis and its position.
 struct Upright {
   const ParallelAxis* what;
   Axis axis;
@@ -44,7 +44,7 @@ Range parallel_range(const ParallelPlot& plot, std::size_t index) {
   return axis_range(values, axis.quantity, 0.0);
 }
 
-/// Texts beside an axis: heights and words.
+/// Labels next to an axis: heights and texts.
 struct SideText {
   double y = 0.0;
   std::string text;
@@ -59,7 +59,7 @@ std::vector<SideText> side_texts(const Upright& upright) {
     }
     return out;
   }
-  const double pitch = kWays_px / static_cast<double>(std::max<std::size_t>(1, levels.size() - 1));
+  const double pitch = kPaths_px / static_cast<double>(std::max<std::size_t>(1, levels.size() - 1));
   const std::size_t stride = label_stride(pitch, 16.0);
   for (std::size_t i = 0; i < levels.size(); i += stride) {
     out.push_back({upright.axis.px(static_cast<double>(i)), levels[i]});
@@ -81,37 +81,37 @@ struct ParallelLayout {
 };
 
 ParallelLayout lay_out_axes(const ParallelPlot& plot) {
-  constexpr double kLeastPitch_px = 118.0, kMostSide_px = 130.0;
+  constexpr double kMinPitch_px = 118.0, kMaxSide_px = 130.0;
   constexpr std::size_t kHalfAxes = 4;
   ParallelLayout at;
   for (std::size_t i = 0; i < plot.axes.size(); ++i) {
-    at.uprights.push_back({&plot.axes[i], Axis(parallel_range(plot, i), kWaysTop_px + kWays_px,
-                                               kWaysTop_px, ticks_for(kWays_px, false))});
+    at.uprights.push_back({&plot.axes[i], Axis(parallel_range(plot, i), kPathsTop_px + kPaths_px,
+                                               kPathsTop_px, ticks_for(kPaths_px, false))});
   }
   const auto room = [&](const Upright& upright) {
-    return std::max(60.0, std::min(widest_side_px(upright), kMostSide_px) + 16.0);
+    return std::max(60.0, std::min(widest_side_px(upright), kMaxSide_px) + 16.0);
   };
   const double left = room(at.uprights.front()), right = room(at.uprights.back()) + kBar_px;
   const double gaps = static_cast<double>(plot.axes.size()) - 1.0;
   const double page = plot.axes.size() <= kHalfAxes ? kHalfWidth_px : kFullWidth_px;
-  at.pitch = std::max((page - left - right) / gaps, kLeastPitch_px);
+  at.pitch = std::max((page - left - right) / gaps, kMinPitch_px);
   for (std::size_t i = 0; i < at.uprights.size(); ++i) {
     at.uprights[i].x = left + static_cast<double>(i) * at.pitch;
   }
   at.width = left + gaps * at.pitch + right;
-  at.height = kWaysTop_px + kWays_px + 16.0;
+  at.height = kPathsTop_px + kPaths_px + 16.0;
   return at;
 }
 
-/// @param middle_px  of the title @param edge_px  the picture's edge that is nearest to it
+/// @param middle_px  centre of the title @param edge_px  nearest edge of the picture
 void draw_upright_title(const Quantity& quantity, double middle_px, double edge_px, double pitch,
                         Svg& svg) {
-  // Titles touch neither each other nor the edge.
+  // Limit the width so that titles touch neither each other nor the edge.
   const double room = std::min(pitch - 14.0, 2.0 * std::abs(middle_px - edge_px) - 4.0);
   const std::size_t for_unit = quantity.unit.empty() ? 0 : 1;
   std::vector<std::string> lines = wrapped(quantity.label, room, kLabel_px, kTitleLines - for_unit);
   if (for_unit > 0) lines.push_back(shortened(quantity.unit, room, kLabel_px));
-  double y = kWaysTop_px - 14.0 - kTitleLine_px * (static_cast<double>(lines.size()) - 1.0);
+  double y = kPathsTop_px - 14.0 - kTitleLine_px * (static_cast<double>(lines.size()) - 1.0);
   for (std::size_t i = 0; i < lines.size(); ++i, y += kTitleLine_px) {
     const bool unit = for_unit > 0 && i + 1 == lines.size();
     svg.text(middle_px, y, lines[i], unit ? "tick mid" : "label mid");
@@ -142,7 +142,7 @@ std::string told(const Upright& upright, double value) {
   return quantity.label + ": " + value_text(value, quantity);
 }
 
-void draw_way(const ParallelLine& line, const ParallelLayout& at, Svg& svg) {
+void draw_path(const ParallelLine& line, const ParallelLayout& at, Svg& svg) {
   std::string path, tip;
   bool joined = false;
   for (std::size_t i = 0; i < at.uprights.size(); ++i) {
@@ -164,7 +164,7 @@ void draw_way(const ParallelLine& line, const ParallelLayout& at, Svg& svg) {
                       escaped(tip_text({tip.substr(0, tip.size() - 1), line.note}, line.cell))));
 }
 
-/// Many lines are transparent, so that the eye sees where they are dense.
+/// Opacity of the lines: many lines are transparent, which shows their density.
 double opacity_for(std::size_t lines) {
   return lines <= 40 ? 0.9 : lines <= 200 ? 0.6 : lines <= 800 ? 0.4 : 0.28;
 }
@@ -175,10 +175,10 @@ std::string parallel_plot(const ParallelPlot& plot) {
   if (plot.axes.size() < 2 || plot.lines.empty()) return "";
   const ParallelLayout at = lay_out_axes(plot);
   Svg svg = study_svg(at.width, at.height, plot.texts.title);
-  const std::size_t shown = std::min(plot.lines.size(), plot.most_lines);
+  const std::size_t shown = std::min(plot.lines.size(), plot.max_lines);
   svg.open_group(fmt::format("class=\"ways\" stroke-opacity=\"{}\"", opacity_for(shown)));
   for (std::size_t i = 0; i < shown; ++i) {
-    draw_way(plot.lines[i * plot.lines.size() / shown], at, svg);
+    draw_path(plot.lines[i * plot.lines.size() / shown], at, svg);
   }
   svg.close_group();
   for (std::size_t i = 0; i < at.uprights.size(); ++i) {
@@ -198,7 +198,7 @@ std::string parallel_plot(const ParallelPlot& plot) {
   }
   PlotTexts texts = plot.texts;
   if (shown < plot.lines.size()) {
-    texts.caption += fmt::format("{}Of {} lines {} are drawn, evenly chosen.",
+    texts.caption += fmt::format("{}Of {} lines {} evenly chosen ones are drawn.",
                                  texts.caption.empty() ? "" : " ", plot.lines.size(), shown);
   }
   return study_figure(texts, "", svg.finish(), at.width);

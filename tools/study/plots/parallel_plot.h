@@ -1,5 +1,5 @@
 #pragma once
-/// All factors and metrics of many settings at once: an axis for each, a line for each setting.
+/// Parallel plot of all factors and metrics: one axis each, one line per setting.
 
 #include <cstdint>
 #include <string>
@@ -13,26 +13,26 @@ namespace vinerow::study {
 
 struct ParallelAxis {
   Quantity quantity;
-  /// Texts of the levels, from bottom to top; a line's value is then an index into them. Empty for
-  /// an axis of numbers.
+  /// Texts of the levels, from bottom to top; a line's value is then an index. Empty for a numeric
+  /// axis.
   std::vector<std::string> levels;
 };
 
 struct ParallelLine {
-  std::vector<double> values;  ///< one for each axis; NaN: the line has a gap there
+  std::vector<double> values;  ///< one per axis; NaN: gap in the line
   std::int64_t cell = kNoCell;
   std::string note;
 };
 
 struct ParallelPlot {
   PlotTexts texts;
-  std::vector<ParallelAxis> axes;  ///< the last one colours the lines
+  std::vector<ParallelAxis> axes;  ///< the last axis colours the lines
   std::vector<ParallelLine> lines;
-  std::size_t most_lines = 2000;  ///< of more, so many are chosen evenly; the caption says so
+  std::size_t max_lines = 2000;  ///< of more lines, this many are drawn, evenly chosen
 };
 
-/// <figure>; "" where there are fewer than two axes or no line.
-/// @pre each line has as many values as there are axes; most_lines > 0
+/// <figure>; "" with fewer than two axes or without lines.
+/// @pre each line has as many values as there are axes; max_lines > 0
 std::string parallel_plot(const ParallelPlot& plot);
 
 }  // namespace vinerow::study

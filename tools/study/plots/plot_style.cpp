@@ -3,7 +3,7 @@
 namespace vinerow::study {
 
 std::string study_plot_style() {
-  // Rules that begin with "svg" also hold in files of single plots; the others need a page.
+  // Rules that begin with "svg" also apply to files of single plots; the others need a page.
   return R"(
 .study-scroll { overflow-x: auto; }
 figure.study { min-width: 0; }

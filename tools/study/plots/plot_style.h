@@ -1,11 +1,11 @@
 #pragma once
-/// How the plots of a study look: rules beside those of page_style() of the report.
+/// Style of the plots of a study, in addition to page_style() of the report.
 
 #include <string>
 
 namespace vinerow::study {
 
-/// Content of <style>, behind page_style(). plot_files_of() takes it, too.
+/// Content of <style>, after page_style(); also for plot_files_of().
 std::string study_plot_style();
 
 }  // namespace vinerow::study

@@ -18,7 +18,7 @@ std::string with_unit(const std::string& number, const std::string& unit) {
   return number + (unit == "°" ? "" : " ") + unit;
 }
 
-/// " (0.71 to 0.91)"; nothing where the interval is not known.
+/// " (0.71 to 0.91)"; "" if the interval is unknown.
 template <typename Text>
 std::string in_brackets(double low, double high, const Text& text) {
   if (std::isnan(low) || std::isnan(high)) return "";
@@ -42,11 +42,11 @@ bool can_draw(double value) {
 Range axis_range(const Range& values, const Quantity& quantity, double share) {
   if (values.empty()) return {0.0, 1.0};
   const double size = std::max(std::abs(values.low), std::abs(values.high));
-  // Differences that are rounding alone are none.
-  constexpr double kRounding = 1e-9, kRoom = 0.2, kSmallest = 1e-290;
+  // Differences within rounding count as zero.
+  constexpr double kRounding = 1e-9, kMargin = 0.2, kSmallest = 1e-290;
   const bool equal = values.span() <= kRounding * size || values.span() < kSmallest;
   Range range = values.padded(share, 0.0);
-  if (equal) range = values.padded(0.0, size < kSmallest ? 1.0 : kRoom * size);
+  if (equal) range = values.padded(0.0, size < kSmallest ? 1.0 : kMargin * size);
   if (values.low >= quantity.least) range.low = std::max(range.low, quantity.least);
   if (values.high <= quantity.most) range.high = std::min(range.high, quantity.most);
   return range;
@@ -54,11 +54,11 @@ Range axis_range(const Range& values, const Quantity& quantity, double share) {
 
 Range logarithmic_range(const Range& values) {
   if (values.empty()) return {1.0, 10.0};
-  constexpr double kLeastRatio = 1.5;
+  constexpr double kMinRatio = 1.5;
   const double ratio = std::max(std::pow(values.high / values.low, 0.04), 1.0);
   Range range = {values.low / ratio, values.high * ratio};
-  if (range.high < kLeastRatio * range.low) {
-    range = {values.low / kLeastRatio, values.high * kLeastRatio};
+  if (range.high < kMinRatio * range.low) {
+    range = {values.low / kMinRatio, values.high * kMinRatio};
   }
   return range;
 }

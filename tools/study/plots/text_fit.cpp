@@ -8,14 +8,14 @@
 namespace vinerow::study {
 namespace {
 
-/// Width of a letter over the size of the text: groups of Helvetica's, rounded up.
+/// Width of a letter relative to the font size: groups of Helvetica's widths, rounded up.
 double letter_width(char32_t letter) {
   constexpr std::u32string_view kNarrow = U"fijlrtI.,:;'!|()[]/\\ -";
   constexpr std::u32string_view kWide = U"mwMW%@…−—";
   if (kNarrow.find(letter) != std::u32string_view::npos) return 0.36;
   if (kWide.find(letter) != std::u32string_view::npos) return 1.0;
   if (letter >= U'A' && letter <= U'Z') return 0.76;
-  // From here on, scripts whose letters are as wide as high.
+  // From here on, scripts with square letters.
   if (letter >= 0x1100) return letter < 0x2E80 && letter >= 0x2000 ? 0.7 : 1.05;
   return 0.59;
 }
@@ -62,15 +62,15 @@ std::string shortened(const std::string& text, double width_px, double size_px) 
 }
 
 std::vector<std::string> wrapped(const std::string& text, double width_px, double size_px,
-                                 std::size_t most_lines) {
+                                 std::size_t max_lines) {
   std::vector<std::string> lines;
   std::string_view rest = text;
   while (!rest.empty()) {
-    if (lines.size() + 1 == most_lines) {
+    if (lines.size() + 1 == max_lines) {
       lines.push_back(shortened(std::string(rest), width_px, size_px));
       return lines;
     }
-    // As many words as fit, and at least one.
+    // As many words as fit, but at least one.
     std::size_t end = std::min(rest.find(' '), rest.size());
     while (end < rest.size()) {
       const std::size_t next = std::min(rest.find(' ', end + 1), rest.size());

@@ -1,6 +1,5 @@
 #pragma once
-/// Reads JSON whose writer may have been anyone: what is wrong is said in one sentence with the
-/// file and the place.
+/// Reader of JSON from any source. Errors are one sentence with the file and the place.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -11,17 +10,17 @@
 
 namespace vinerow::mapping {
 
-/// A value with its place in the file. Refers to the parsed file, which must outlive it.
+/// Value with its place in the file. Refers to the parsed file, which must outlive it.
 class JsonReader {
  public:
-  /// @param subject  begins every sentence, like "map file 'x.json'"
+  /// @param subject  start of every error sentence, like "map file 'x.json'"
   JsonReader(const nlohmann::json& value, std::string subject, std::string place = "")
       : value_(value), subject_(std::move(subject)), place_(std::move(place)) {}
 
-  /// The value under a key of a mapping. @throws ConfigError where there is none
+  /// Value under a key of a mapping. @throws ConfigError if it is missing
   JsonReader at(const std::string& key) const;
   bool has(const std::string& key) const;
-  /// Nothing where the value is null.
+  /// Empty if the value is null.
   std::optional<JsonReader> optional_at(const std::string& key) const;
   /// Entries of a list.
   std::vector<JsonReader> items() const;
@@ -37,7 +36,7 @@ class JsonReader {
     return Eigen::Map<const Eigen::Matrix<double, size, 1>>(numbers.data());
   }
 
-  /// "map file 'x.json': rows[3].line_m sentence" as ConfigError.
+  /// Throws the ConfigError "map file 'x.json': rows[3].line_m sentence".
   [[noreturn]] void fail(const std::string& sentence) const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-/// Row meshes as files.
+/// Files of row meshes.
 
 #include <string>
 #include <vector>
@@ -8,13 +8,13 @@
 
 namespace vinerow::mapping {
 
-/// One PLY file per mesh, "row_03_hull_00.ply", into a folder that is made if need be; what it
-/// holds of such files is replaced.
-/// @throws ConfigError naming the file where it cannot be written
+/// Writes one PLY file per mesh, "row_03_hull_00.ply", to a folder, which is created if necessary.
+/// Files of such names in it are replaced.
+/// @throws ConfigError naming a file that cannot be written
 void save_meshes(const std::vector<RowMesh>& meshes, const std::string& folder);
 
-/// What save_meshes() wrote, or your own files of such names. @throws ConfigError where there are
-/// none, a name tells no row, or a file is broken
+/// Reads the files of save_meshes(), or others of such names.
+/// @throws ConfigError if there are no files, a name contains no row, or a file is broken
 std::vector<RowMesh> load_meshes(const std::string& folder);
 
 }  // namespace vinerow::mapping

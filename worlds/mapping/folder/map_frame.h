@@ -1,5 +1,5 @@
 #pragma once
-/// Brings a map from its own local frame to a world's.
+/// Transformation of a map from its own local frame to that of a world.
 
 #include <string>
 #include <vector>
@@ -8,16 +8,15 @@
 
 namespace vinerow::mapping {
 
-/// Moves everything of a map to the local East-North-Up frame of another origin. Lines, boundary
-/// and meshes are turned and shifted as the two frames lie to each other on the ellipsoid; the
-/// terrain is sampled anew at its own cell; the occupancy grid is shifted, and drawn anew where the
-/// frames are turned against each other so much that its rim would be off by a quarter of a cell.
-/// Equal origins change nothing.
+/// Moves a map to the local East-North-Up frame of another origin. Lines, boundary and meshes are
+/// rotated and shifted by the transformation between the two frames on the ellipsoid. The terrain
+/// is resampled at its own cell. The occupancy grid is shifted; if the rotation would displace its
+/// rim by a quarter of a cell, it is resampled. Equal origins change nothing.
 /// @pre map.has_origin
 void move_map(const GeoOrigin& to, CloudMap& map);
 
-/// How far apart two blocks are: between the boxes around their rows, horizontally, m; 0 where the
-/// boxes overlap. @pre both have rows
+/// Horizontal distance of two blocks, between the boxes around their rows, m; 0 if the boxes
+/// overlap. @pre both have rows
 double distance_between_m(const std::vector<PlantRow>& a, const std::vector<PlantRow>& b);
 
 }  // namespace vinerow::mapping

@@ -102,9 +102,9 @@ Rasters make_rasters(const CloudMap& map, const ParcelCloud& cloud, const GisFra
     places.push_back(frame.from_W(cloud.point_W(k)));
     box.extend(Vector2d(places.back().head<2>()));
   }
-  constexpr double kMostPixels = 100e6;
+  constexpr double kMaxPixels = 100e6;
   double cell_m = pixel_m(map.report.density_per_m2);
-  while (box.sizes().prod() / std::pow(cell_m * frame.unit(), 2) > kMostPixels) cell_m *= 2.0;
+  while (box.sizes().prod() / std::pow(cell_m * frame.unit(), 2) > kMaxPixels) cell_m *= 2.0;
   Rasters made;
   io::CrsRaster& dsm = made.dsm;
   dsm.crs = gis_crs(map);

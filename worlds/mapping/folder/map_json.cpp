@@ -30,7 +30,7 @@ json json_of(const std::vector<Point>& points) {
   return list;
 }
 
-/// Degrees that rad_from_deg() gives back to the same bits, where there are any.
+/// Degrees from which rad_from_deg() returns the same bits, if there are any.
 double exact_deg(double angle_rad) {
   const double middle_deg = deg_from_rad(angle_rad);
   double up = middle_deg, down = middle_deg;
@@ -67,7 +67,7 @@ json figures_json(const MappedRowFigures& f) {
 MappedRowFigures read_figures(const JsonReader& in) {
   MappedRowFigures f;
   f.row = static_cast<int>(in.at("row").whole(0));
-  // Maps made before there were blocks do not tell.
+  // Maps of versions without blocks lack the key.
   if (in.has("block")) f.block = static_cast<int>(in.at("block").whole(0));
   f.first_W = in.at("first_m").vector<3>();
   f.last_W = in.at("last_m").vector<3>();
@@ -261,7 +261,7 @@ CloudMap map_from_json(const std::string& text, const std::filesystem::path& fil
   try {
     parsed = nlohmann::json::parse(text);
   } catch (const nlohmann::json::exception&) {
-    // Where reading stopped is told by the lines before it.
+    // The number of lines before the position gives the line of the error.
     throw ConfigError(fmt::format("{} is not valid JSON, or cut off", subject));
   }
   const JsonReader in(parsed, subject);

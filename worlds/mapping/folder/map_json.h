@@ -1,7 +1,7 @@
 #pragma once
-/// map.json and report.json of a Vinerow map's folder (map_folder.h).
+/// Files map.json and report.json of a Vinerow map's folder (map_folder.h).
 ///
-/// Lengths in m in W, angles in degrees, as the keys say; map_json_schema() tells every key.
+/// Lengths are in m in W, angles in degrees, as the keys show; map_json_schema() lists every key.
 /// Numbers are written with the fewest digits that read back to the same bits.
 
 #include <filesystem>
@@ -13,7 +13,7 @@ namespace vinerow::mapping {
 
 inline constexpr int kMapVersion = 1;  ///< of the folder's format
 
-/// What map.json tells of the files beside it.
+/// Contents of map.json about the other files.
 struct MapFiles {
   struct Grid {
     int columns = 0, rows = 0;
@@ -22,14 +22,14 @@ struct MapFiles {
   };
   std::optional<Grid> terrain;             ///< terrain.tif, samples
   std::optional<Grid> occupancy;           ///< occupancy.yaml, cells
-  std::vector<std::pair<int, int>> hulls;  ///< row and how many meshes it has, rows that have any
+  std::vector<std::pair<int, int>> hulls;  ///< row and number of its meshes, if any
 };
 
-/// Everything but meshes, heights and grid cells, which are files of their own; no phases, which
+/// Everything except meshes, heights and grid cells, which are separate files, and phases, which
 /// differ from run to run. @pre check_map(map) passed
 std::string map_to_json(const CloudMap& map);
 
-/// The report alone, for people and programs that want figures.
+/// The report alone.
 std::string report_to_json(const CloudMapReport& report);
 
 /// @param text  of a map.json. @param file  named in errors
@@ -37,9 +37,9 @@ std::string report_to_json(const CloudMapReport& report);
 /// of another version, a key that is missing, of the wrong kind or out of range
 CloudMap map_from_json(const std::string& text, const std::filesystem::path& file, MapFiles& files);
 
-/// What a map must keep to be written or flown on: rows with ids of their own, lines of at least
-/// two points apart from each other, sizes > 0, finite numbers, meshes of rows that are there.
-/// @param name  the sentence's subject, like "map 'MAP'". @throws ConfigError
+/// Checks the conditions for a map to be written or used: rows with unique ids, lines of at least
+/// two distinct points, sizes > 0, finite numbers, meshes of existing rows.
+/// @param name  subject of the error sentence, like "map 'MAP'". @throws ConfigError
 void check_map(const CloudMap& map, const std::string& name);
 
 /// JSON Schema (draft 2020-12) of map.json and of report.json.

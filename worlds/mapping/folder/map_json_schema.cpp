@@ -60,24 +60,24 @@ json line_schema() {
 }
 
 json row_figures() {
-  return object({{"row", whole("its id")},
-                 {"block", whole("of rows side by side, the largest is 0")},
-                 {"first_m", point(3, "the canopy's first point on the ground, W, m")},
-                 {"last_m", point(3, "the canopy's last point on the ground, W, m")},
-                 {"length_m", at_least_zero("along the line")},
-                 {"bearing_deg", number("first to last point, clockwise from north")},
-                 {"spacing_m", at_least_zero("mean distance to the next row; 0: the last row")},
-                 {"canopy_base_m", number("above the ground, mean over the row")},
-                 {"canopy_top_m", number("above the ground, mean over the row")},
-                 {"canopy_width_m", at_least_zero("mean over the row")},
-                 {"volume_m3", at_least_zero("inside its meshes")},
-                 {"seen_volume_m3",
-                  number("estimate of the canopy that was seen, which noise does not swell")},
-                 {"containment", share("of its points within 1 cm of the inside of its meshes")},
-                 {"points", whole("of canopy")},
-                 {"triangles", whole("of its meshes")},
-                 {"gaps_m", list(point(2, "from, to"), 0, "without canopy, along the line")}},
-                "what was measured of a row");
+  return object(
+      {{"row", whole("its id")},
+       {"block", whole("of rows side by side, the largest is 0")},
+       {"first_m", point(3, "the canopy's first point on the ground, W, m")},
+       {"last_m", point(3, "the canopy's last point on the ground, W, m")},
+       {"length_m", at_least_zero("along the line")},
+       {"bearing_deg", number("first to last point, clockwise from north")},
+       {"spacing_m", at_least_zero("mean distance to the next row; 0: the last row")},
+       {"canopy_base_m", number("above the ground, mean over the row")},
+       {"canopy_top_m", number("above the ground, mean over the row")},
+       {"canopy_width_m", at_least_zero("mean over the row")},
+       {"volume_m3", at_least_zero("inside its meshes")},
+       {"seen_volume_m3", number("estimate of the seen canopy without the bias of noise")},
+       {"containment", share("of its points within 1 cm of the inside of its meshes")},
+       {"points", whole("of canopy")},
+       {"triangles", whole("of its meshes")},
+       {"gaps_m", list(point(2, "from, to"), 0, "without canopy, along the line")}},
+      "figures of a row");
 }
 
 json report_properties() {
@@ -110,10 +110,10 @@ json report_properties() {
                {"reduction", number("1 - mesh bytes / cloud bytes")},
                {"containment", share("of all canopy points within 1 cm of their row's meshes")},
                {"section_excess",
-                number("cross-sections' area over the least of as many corners, - 1")}},
+                number("area of cross-sections over the smallest with as many corners, - 1")}},
               "the low-complexity meshes")},
       {"rows", list(row_figures(), 0, "row by row")},
-      {"notes", list(text("a sentence"), 0, "what the user should know")}};
+      {"notes", list(text("a sentence"), 0, "sentences for the user")}};
 }
 
 json head(const char* title) {
@@ -139,7 +139,7 @@ std::string map_json_schema() {
                            {"canopy_width_m", positive("of its cross-section")},
                            {"canopy_base_m", number("lowest leaves above the ground")},
                            {"canopy_top_m", number("highest leaves above the ground")},
-                           {"hulls", whole("how many files meshes/row_<id>_hull_*.ply it has")},
+                           {"hulls", whole("number of its files meshes/row_<id>_hull_*.ply")},
                            {"line_m", line_schema()}},
                           "a plant row");
   const json alley = object({{"id", whole("number of the alley")},
@@ -161,14 +161,14 @@ std::string map_json_schema() {
       {"boundary_m", boundary},
       {"accuracy",
        object({{"surface_std_m", positive("1 sigma of the meshes' surface along its normals")},
-               {"correlation_length_m", positive("along the row, over which such an error stays")},
+               {"correlation_length_m", positive("correlation length of that error along the row")},
                {"offset_std_m", offset}},
-              "what the map states of its own errors")},
+              "errors that the map states")},
       {"terrain", grid("terrain.tif", 2, "samples of the ground; corner: the south-western one")},
       {"occupancy", grid("occupancy.yaml", 1, "ROS map; corner: of the south-western cell")},
       {"report", object(report_properties(), "figures")}};
   json schema = head("Vinerow map: map.json");
-  schema.update(object(properties, "A low-complexity map of a vineyard, made of a point cloud"));
+  schema.update(object(properties, "A low-complexity map of a vineyard, made from a point cloud"));
   return schema.dump(2);
 }
 
@@ -176,7 +176,7 @@ std::string report_json_schema() {
   json properties = {{"vinerow_map_report", {{"const", kMapVersion}}}};
   properties.update(report_properties());
   json schema = head("Vinerow map: report.json");
-  schema.update(object(properties, "How a map was made and how good it is"));
+  schema.update(object(properties, "Making and quality of a map"));
   return schema.dump(2);
 }
 

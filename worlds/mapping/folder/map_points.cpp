@@ -22,7 +22,7 @@ nlohmann::json parse_points(const std::filesystem::path& file) {
   try {
     return nlohmann::json::parse(in);
   } catch (const nlohmann::json::exception&) {
-    throw ConfigError(fmt::format("points of a map '{}' are no JSON", file.string()));
+    throw ConfigError(fmt::format("points of a map '{}' are not valid JSON", file.string()));
   }
 }
 
@@ -37,7 +37,7 @@ PointClass point_class(char byte, const std::filesystem::path& file) {
       return of;
   }
   throw ConfigError(
-      fmt::format("'{}' holds {}, which is no class of a point", file.string(), int{byte}));
+      fmt::format("'{}' contains {}, which is not a point class", file.string(), int{byte}));
 }
 
 void write_bytes(const std::filesystem::path& file, const char* bytes, std::size_t count) {
@@ -102,7 +102,7 @@ std::optional<MapPoints> load_map_points(const std::filesystem::path& folder) {
   const std::string all{std::istreambuf_iterator<char>(bytes), {}};
   const std::int64_t count = in.at("points").whole(0);
   if (static_cast<std::int64_t>(all.size()) != count) {
-    throw ConfigError(fmt::format("'{}' holds {} classes, by points.json they are {}",
+    throw ConfigError(fmt::format("'{}' contains {} classes, but points.json states {}",
                                   classes.string(), all.size(), count));
   }
   points.classes.reserve(all.size());
@@ -114,7 +114,7 @@ ParcelCloud read_classified_cloud(const MapPoints& points, const std::filesystem
   CloudReadReport report;
   ParcelCloud read = read_parcel_cloud(cloud, points.reading, report);
   if (read.points.size() != points.classes.size()) {
-    throw ConfigError(fmt::format("point cloud '{}' gives {} points, its map was made of {}",
+    throw ConfigError(fmt::format("point cloud '{}' gives {} points, its map was made from {}",
                                   cloud.string(), read.points.size(), points.classes.size()));
   }
   read.classes = points.classes;

@@ -1,9 +1,9 @@
 #pragma once
-/// What a map's folder keeps of the points that it was made of: enough to show them again without
-/// making the map a second time. The points themselves stay in their cloud.
+/// Record of a map's points in its folder, with which they can be shown without making the map
+/// again. The points themselves stay in their cloud.
 ///
-///     points.json      how the cloud was read, how the grid was made
-///     points.classes   a byte for each point, its class, in the cloud's order
+///     points.json      options with which the cloud was read and the grid was made
+///     points.classes   class of each point, one byte, in the order of the cloud
 
 #include <filesystem>
 #include <optional>
@@ -16,21 +16,21 @@
 namespace vinerow::mapping {
 
 struct MapPoints {
-  CloudReadOptions reading;    ///< crs, origin and thin are kept, all else is as usual
+  CloudReadOptions reading;    ///< crs, origin and thin are kept; others have defaults
   OccupancyOptions occupancy;  ///< cell_m, virtual_walls and first_wall are kept
   std::vector<PointClass> classes;
 };
 
-/// @param folder  of the map, which is there
-/// @throws ConfigError where a file cannot be written
+/// @param folder  existing folder of the map
+/// @throws ConfigError if a file cannot be written
 void save_map_points(const MapPoints& points, const std::filesystem::path& folder);
 
-/// The same bits; nothing where the folder keeps none.
-/// @throws ConfigError in one sentence: a file missing, of another version or not as it was written
+/// Reads the same bits; null if the folder has no such files.
+/// @throws ConfigError in one sentence: a file missing, of another version, or altered
 std::optional<MapPoints> load_map_points(const std::filesystem::path& folder);
 
-/// The points with their classes and colours. @param cloud  that the map was made of
-/// @throws ConfigError as read_parcel_cloud(), and where it has another number of points
+/// Points with their classes and colours. @param cloud  from which the map was made
+/// @throws ConfigError as read_parcel_cloud(), and if it has another number of points
 ParcelCloud read_classified_cloud(const MapPoints& points, const std::filesystem::path& cloud);
 
 }  // namespace vinerow::mapping

@@ -11,20 +11,20 @@ namespace {
 constexpr double kBeyondEnds_m = 2.0;
 constexpr double kFindStep_m = 0.1;      // gaps shorter than this are not seen
 constexpr double kMeasureStep_m = 0.15;  // half the wavelength of the shortest shoots' lumps
-constexpr std::size_t kLeastSections = 4;
+constexpr std::size_t kMinSections = 4;
 
 struct Stretch {
   double from_m, to_m;
 };
 
-/// Rays at one row.
+/// Ray measurements of one row.
 class Scanner {
  public:
   Scanner(const SceneQuery& scene, const RowCurve& row, const GroundHeight& ground,
           const RowSurroundings& surroundings)
       : scene_(scene), row_(row), ground_(ground), around_(surroundings) {}
 
-  /// Lowest and highest leaves on the line, above the ground; nothing where there are none.
+  /// Lowest and highest leaves on the line, above the ground; null without leaves.
   std::optional<std::pair<double, double>> heights_m(double s_m) const {
     const Eigen::Vector2d p = row_.point_W(s_m);
     const double ground_m = ground_(p.x(), p.y());
@@ -35,8 +35,8 @@ class Scanner {
     return std::pair(up.value_or(0.0), around_.height_m - *down);
   }
 
-  /// From the line to the leaves' outer surface. @param side  1: left, -1: right @returns 0 where
-  /// there are none
+  /// Distance from the line to the leaves' outer surface, 0 without leaves.
+  /// @param side  1: left, -1: right
   double width_m(double s_m, double height_m, double side) const {
     const Eigen::Vector2d p = row_.point_W(s_m), ahead = row_.direction_W(s_m);
     const Eigen::Vector3d out(-side * ahead.y(), side * ahead.x(), 0.0);
@@ -58,7 +58,7 @@ class Scanner {
   RowSurroundings around_;
 };
 
-/// Where canopy ends between a place that has it and one that has not.
+/// End of the canopy between a place with and a place without it.
 double find_edge(const Scanner& scanner, double with_m, double without_m) {
   for (int k = 0; k < 10; ++k) {
     const double middle_m = 0.5 * (with_m + without_m);
@@ -83,11 +83,11 @@ std::vector<Stretch> find_stretches(const Scanner& scanner, double length_m) {
     inside = now;
     before_m = s_m;
   }
-  std::erase_if(stretches, [](const Stretch& s) { return s.to_m - s.from_m < kLeastStretch_m; });
+  std::erase_if(stretches, [](const Stretch& s) { return s.to_m - s.from_m < kMinStretch_m; });
   return stretches;
 }
 
-/// Weights of the nodes at each place for a line that is straight between nodes.
+/// Weights of the nodes at each place, for linear interpolation.
 Eigen::MatrixXd hat_weights(const std::vector<double>& places, const std::vector<double>& nodes) {
   Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(places.size()),
                                                   static_cast<Eigen::Index>(nodes.size()));
@@ -102,7 +102,7 @@ Eigen::MatrixXd hat_weights(const std::vector<double>& places, const std::vector
   return weights;
 }
 
-/// Values at the nodes that fit values at the places best: solves A^T A X = A^T Y.
+/// Least-squares values at the nodes for values at the places: solves A^T A X = A^T Y.
 Eigen::MatrixXd fit(const Eigen::MatrixXd& A, const Eigen::MatrixXd& Y) {
   return (A.transpose() * A).ldlt().solve(A.transpose() * Y);
 }
@@ -110,7 +110,7 @@ Eigen::MatrixXd fit(const Eigen::MatrixXd& A, const Eigen::MatrixXd& Y) {
 SectionChain measure(const Scanner& scanner, const Stretch& stretch,
                      const CanopySurveyOptions& options, RandomStream& random) {
   const std::vector<double> stations =
-      draw_stations(stretch.from_m, stretch.to_m, options, kLeastSections, random);
+      draw_stations(stretch.from_m, stretch.to_m, options, kMinSections, random);
   const std::vector<double> levels = level_shares(options.levels);
   const double length_m = stretch.to_m - stretch.from_m;
   const auto count = static_cast<Eigen::Index>(

@@ -37,7 +37,7 @@ void remove_stretch(std::vector<SectionChain>& chains, double from_m, double to_
   const auto keep = [&](const SectionChain& chain, double low_m, double high_m) {
     low_m = std::max(low_m, chain.front().s_m);
     high_m = std::min(high_m, chain.back().s_m);
-    if (high_m - low_m < kLeastStretch_m) return;
+    if (high_m - low_m < kMinStretch_m) return;
     SectionChain piece{cut_at(chain, low_m)};
     for (const CanopyCut& cut : chain) {
       if (cut.s_m > low_m + 1e-6 && cut.s_m < high_m - 1e-6) piece.push_back(cut);

@@ -14,21 +14,21 @@
 namespace vinerow::mapping {
 namespace {
 
-constexpr std::int64_t kMostCells = 8'000'000;
+constexpr std::int64_t kMaxCells = 8'000'000;
 
 void give_boundary(WorldModel& world) {
-  constexpr double kHeadland_m = 10.0, kBeside_m = 3.0;
+  constexpr double kHeadland_m = 10.0, kLateralOffset_m = 3.0;
   std::vector<RowCurve> rows;
   for (const PlantRow& row : world.rows->rows) {
     std::vector<Eigen::Vector2d> line;
     for (const Eigen::Vector3d& p : row.line_W) line.push_back(p.head<2>());
     rows.emplace_back(std::move(line));
   }
-  world.rows->boundary_W = parcel_boundary(rows, kHeadland_m, kBeside_m);
-  world.notes.push_back(fmt::format(
-      "the parcel has no boundary; a box {:g} m beyond the row ends and {:g} m beside the outer "
-      "rows stands in",
-      kHeadland_m, kBeside_m));
+  world.rows->boundary_W = parcel_boundary(rows, kHeadland_m, kLateralOffset_m);
+  world.notes.push_back(
+      fmt::format("the parcel has no boundary; a box {:g} m beyond the row ends and {:g} m beside "
+                  "the outer rows is used instead",
+                  kHeadland_m, kLateralOffset_m));
 }
 
 }  // namespace
@@ -39,14 +39,14 @@ const ParameterTable<MapParams>& map_table() {
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .number("occupancy_cell_m", "m", inside(&P::grid, &Grid::cell_m), between(0.0, 10.0),
-                  "cell of the occupancy grid that vehicles are told; 0: no grid")
+                  "cell of the vehicles' occupancy grid; 0: no grid")
           .boolean("virtual_walls", inside(&P::grid, &Grid::virtual_walls),
                    "walls on the map from row ends to the boundary, so that only the "
                    "serpentine is free")
           .choice("first_wall", inside(&P::grid, &Grid::first_wall),
                   {{"auto", std::nullopt}, {"first", RowEnd::kFirst}, {"last", RowEnd::kLast}},
                   "point of row 0 that is closed by a virtual wall, the ends of the others "
-                  "alternate; auto: open for a serpentine that begins at alley 0's first point")
+                  "alternate; auto: open for a serpentine that starts at alley 0's first point")
           .path("occupancy_file", &P::occupancy_file,
                 "ROS map (YAML with a PGM beside it) that vehicles are given instead of "
                 "the true rows");
@@ -76,11 +76,11 @@ void fill_occupancy(const MapParams& params, WorldModel& world,
   if (options.cell_m == 0.0 || world.rows->rows.empty()) return;
   if (world.rows->boundary_W.empty()) give_boundary(world);
   const double wanted_m = options.cell_m;
-  options.cell_m = cell_that_fits_m(world.rows->boundary_W, wanted_m, kMostCells);
+  options.cell_m = cell_that_fits_m(world.rows->boundary_W, wanted_m, kMaxCells);
   if (options.cell_m != wanted_m) {
     world.notes.push_back(fmt::format(
         "occupancy_cell_m = {:g} m would make more than {} million cells; {:g} m is used", wanted_m,
-        kMostCells / 1'000'000, options.cell_m));
+        kMaxCells / 1'000'000, options.cell_m));
   }
   options.obstacles_W = obstacles_W;
   options.row_end_margin_m = row_end_margin_m;

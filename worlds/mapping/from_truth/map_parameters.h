@@ -1,5 +1,5 @@
 #pragma once
-/// The parameters of the map that a world hands to its vehicles, shared by all worlds with rows.
+/// Parameters of the map that a world gives to its vehicles, common to all worlds with rows.
 
 #include <Eigen/Core>
 #include <filesystem>
@@ -14,22 +14,22 @@ namespace vinerow::mapping {
 
 struct MapParams {
   OccupancyOptions grid;                 ///< cell_m, virtual_walls and first_wall; cell_m = 0: none
-  std::filesystem::path occupancy_file;  ///< ROS map that is told instead, or empty
+  std::filesystem::path occupancy_file;  ///< ROS map that replaces the grid, or empty
 };
 /// `occupancy_cell_m`, `virtual_walls`, `first_wall`, `occupancy_file`.
 const ParameterTable<MapParams>& map_table();
 
-/// Whether a set has the parameters of map_table() (worlds of plug-ins may not).
+/// True if a set has the parameters of map_table() (worlds of plug-ins may not).
 bool has_map_parameters(const ParameterSet& parameters);
 
-/// MapParams::grid as the parameters say. @pre has_map_parameters(parameters)
+/// MapParams::grid from the parameters. @pre has_map_parameters(parameters)
 OccupancyOptions read_map_options(const ParameterSet& parameters);
 
 /// Fills `world.rows->occupancy` from the file, or from rows and boundary. A block without boundary
-/// gets one around its rows; a grid of more than 8 million cells gets larger cells; both are noted.
-/// Nothing happens where there are neither rows nor file, or where the cell is 0.
+/// gets one around its rows, and a grid of more than 8 million cells gets larger cells; notes
+/// report both. Does nothing if there are neither rows nor a file, or if the cell is 0.
 /// @param obstacles_W       areas that are on the map besides the rows
-/// @param row_end_margin_m  rows reach so far beyond their ends (leaning posts)
+/// @param row_end_margin_m  extension of rows beyond their ends (leaning posts)
 /// @throws ConfigError as io::load_ros_map
 void fill_occupancy(const MapParams& params, WorldModel& world,
                     const std::vector<std::vector<Eigen::Vector2d>>& obstacles_W,

@@ -158,11 +158,11 @@ class Surveyor {
   void draw_missing(const std::vector<std::vector<SectionChain>>& chains, RowMeshReport& report) {
     const double length_m = params_.random_missing->length_m;
     // Evenly over all places where a gap fits into canopy.
-    struct Room {
+    struct FreeSpace {
       int row;
       double from_m, room_m;
     };
-    std::vector<Room> rooms;
+    std::vector<FreeSpace> rooms;
     double all_m = 0.0;
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       for (const SectionChain& chain : chains[k]) {
@@ -216,7 +216,7 @@ std::unique_ptr<RowMap> make_row_mesh_map(const ParameterSet& parameters, const 
   }
   if (!made.unseen_rows.empty()) {
     log_note(fmt::format(
-        "map of {}: no canopy on row{} {}, whose mesh is as wide and high as the row says",
+        "map of {}: no canopy on row{} {}, whose mesh has the row's own width and height",
         context.vehicle, made.unseen_rows.size() == 1 ? "" : "s",
         fmt::join(made.unseen_rows, ", ")));
   }
@@ -260,7 +260,7 @@ void register_row_mesh_map(Registry& registry) {
   spec.name = "row_mesh";
   spec.description =
       "the true rows with meshes of few triangles fitted to their canopy, after papers A, section "
-      "3.2, and C, section 2.2, and with errors of their own";
+      "3.2, and C, section 2.2, and with configurable errors";
   spec.parameters = row_mesh_table().specs();
   registry.add_map(std::move(spec), [](const ParameterSet& parameters, const MapContext& context) {
     return make_row_mesh_map(parameters, context);

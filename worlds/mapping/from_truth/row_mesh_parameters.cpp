@@ -54,34 +54,35 @@ const ParameterTable<RowMeshParams>& row_mesh_table() {
                 "name of the survey: vehicles that name the same one have the same map; "
                 "without a name each has its own")
           .numbers("offset_m", "m", &P::offset_m, kAnyNumber,
-                   "the map lies so far east, north and up of the truth; it does not say so")
+                   "shift of the map from the truth, east, north, up, which the map does not state")
           .numbers("offset_std_m", "m", &P::offset_std_m, kNotNegative,
-                   "1 sigma of a further shift that is drawn, east, north, up; the map states it")
+                   "1 sigma of a further random shift, east, north, up, which the map states")
           .number("scale", "", &P::scale, between(0.9, 1.1),
                   "of the map about the middle of its rows")
           .degrees("rotation_deg", &P::rotation_rad, between(-180.0, 180.0),
                    "of the map about the middle of its rows, counter-clockwise")
           .boolean("move_rows", &P::move_rows,
-                   "rows, alleys, parcel and occupancy grid are shifted, turned and scaled "
-                   "with the meshes; false: they stay true")
+                   "rows, alleys, parcel and occupancy grid are shifted, rotated and scaled with "
+                   "the meshes; false: they stay true")
           .number("surface_noise_std_m", "m", &P::surface_noise_std_m, between(0.0, 1.0),
                   "1 sigma of an error of the half widths at every section and level")
           .number("surface_noise_length_m", "m", &P::surface_noise_length_m, kPositive,
                   "correlation length of that error along the row and over height")
           .groups("missing", &P::missing, missing_stretch_table(),
-                  "gaps in the map where vines may stand")
+                  "gaps in the map; the true row may have vines there")
           .group("random_missing", &P::random_missing, random_missing_table(),
-                 "such gaps at places that are drawn")
+                 "such gaps at random places")
           .boolean("fill_gaps", &P::fill_gaps,
                    "the map has vines where the truth has gaps between vines, as an old survey")
           .number("stated_surface_std_m", "m", &P::stated_surface_std_m, between(0.0, 10.0),
-                  "what the map says of its surfaces' error; 0: as measured")
-          .number("stated_correlation_length_m", "m", &P::stated_correlation_length_m,
-                  between(0.0, 100.0),
-                  "how far along the row such an error stays, as the map says; 0: as measured")
+                  "1 sigma of its surfaces' error that the map states; 0: as measured")
+          .number(
+              "stated_correlation_length_m", "m", &P::stated_correlation_length_m,
+              between(0.0, 100.0),
+              "correlation length of that error along the row that the map states; 0: as measured")
           .path("folder", &P::folder,
-                "folder of row_<number>_hull_<number>.ply that is the map instead of a "
-                "survey; it is shifted, turned and scaled like one")
+                "folder of row_<number>_hull_<number>.ply used as the map instead of a survey; "
+                "shifted, rotated and scaled like one")
           .text("save_to", &P::save_to,
                 "folder that the finished meshes are written to as PLY; \"\": nowhere")
           .rule([](const P& p) -> std::string {

@@ -1,5 +1,5 @@
 #pragma once
-/// What can be said of the map `row_mesh` in a scenario.
+/// Parameters of the map `row_mesh`.
 
 #include <Eigen/Core>
 #include <filesystem>
@@ -12,13 +12,13 @@
 
 namespace vinerow::mapping {
 
-/// A gap in the map where vines may stand, along the row's line.
+/// Gap in the map, along the row's line; the true row may have vines there.
 struct MissingStretch {
   int row = 0;
   double from_m = 0.0, to_m = 0.0;
 };
 
-/// Such gaps at drawn places.
+/// Such gaps at random places.
 struct RandomMissing {
   int count = 0;
   double length_m = 1.0;  ///< of each gap
@@ -26,12 +26,13 @@ struct RandomMissing {
 
 struct RowMeshParams {
   CanopySurveyOptions sections;
-  std::string survey;                                      ///< vehicles that name one share its map
-  Eigen::Vector3d offset_m = Eigen::Vector3d::Zero();      ///< east, north, up; the map is silent
-  Eigen::Vector3d offset_std_m = Eigen::Vector3d::Zero();  ///< of a further shift; the map says it
-  double scale = 1.0;                                      ///< about the middle of the rows
-  double rotation_rad = 0.0;                               ///< likewise, counter-clockwise
-  bool move_rows = true;                                   ///< with the meshes
+  std::string survey;                                  ///< vehicles that name one share its map
+  Eigen::Vector3d offset_m = Eigen::Vector3d::Zero();  ///< east, north, up; not stated by the map
+  Eigen::Vector3d offset_std_m =
+      Eigen::Vector3d::Zero();  ///< of a further shift; the map states it
+  double scale = 1.0;           ///< about the middle of the rows
+  double rotation_rad = 0.0;    ///< likewise, counter-clockwise
+  bool move_rows = true;        ///< with the meshes
   double surface_noise_std_m = 0.0;
   double surface_noise_length_m = 0.3;
   std::vector<MissingStretch> missing;
@@ -45,7 +46,8 @@ struct RowMeshParams {
 
 const ParameterTable<RowMeshParams>& row_mesh_table();
 
-/// Refuses with a folder of meshes what only a survey can do. @throws ConfigError naming it
+/// Rejects options that need a survey if a folder of meshes is given. @throws ConfigError naming
+/// the option
 void check_folder_parameters(const RowMeshParams& params);
 
 }  // namespace vinerow::mapping

@@ -45,11 +45,11 @@ CanopyCut cut_at(const SectionChain& chain, double s_m) {
 }
 
 void keep_open(SectionChain& chain) {
-  constexpr double kLeastWidth_m = 0.04, kLeastHeight_m = 0.1;
+  constexpr double kMinWidth_m = 0.04, kMinHeight_m = 0.1;
   for (CanopyCut& cut : chain) {
-    cut.top_m = std::max(cut.top_m, cut.base_m + kLeastHeight_m);
+    cut.top_m = std::max(cut.top_m, cut.base_m + kMinHeight_m);
     for (std::size_t k = 0; k < cut.left_m.size(); ++k) {
-      const double lacks_m = kLeastWidth_m - (cut.left_m[k] + cut.right_m[k]);
+      const double lacks_m = kMinWidth_m - (cut.left_m[k] + cut.right_m[k]);
       if (lacks_m > 0.0) {
         cut.left_m[k] += 0.5 * lacks_m;
         cut.right_m[k] += 0.5 * lacks_m;

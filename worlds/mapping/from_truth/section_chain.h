@@ -1,5 +1,5 @@
 #pragma once
-/// A row's canopy as a chain of cross-sections, and the closed hull of few triangles they make.
+/// Chain of cross-sections of a row's canopy, and the closed hull of few triangles made from it.
 /// Source: papers A, section 3.2, and C, section 2.2 (low-complexity georeferenced maps).
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace vinerow::mapping {
 
-/// Across the row at s: half widths to both sides at levels between base and top.
+/// Cross-section at s: half widths to both sides at levels between base and top.
 struct CanopyCut {
   double s_m = 0.0;     ///< along the row's line
   double base_m = 0.0;  ///< above the ground on the row's line
@@ -20,18 +20,18 @@ struct CanopyCut {
 /// Canopy without a gap: >= 2 cuts, s rising.
 using SectionChain = std::vector<CanopyCut>;
 
-/// A stretch of canopy that is shorter is left out.
-inline constexpr double kLeastStretch_m = 0.3;
+/// Shorter stretches of canopy are left out.
+inline constexpr double kMinStretch_m = 0.3;
 
-/// Where the levels lie between base (0) and top (1): `count` >= 2, as a cosine, so closer together
-/// where the canopy rounds off below and above. On Parcel F with four levels that leaves 28 mm rms
-/// to the truth, even steps leave 31 mm.
+/// Levels between base (0) and top (1), `count` >= 2, spaced as a cosine and so denser near base
+/// and top, where the canopy is rounded. With four levels on Parcel F the error is 28 mm rms; with
+/// even steps it is 31 mm.
 std::vector<double> level_shares(int count);
 
-/// The cut at s between those of a chain, linear. @pre not empty; the ends' cuts beyond them
+/// Cut at s by linear interpolation; beyond the ends the end's cut. @pre the chain is not empty
 CanopyCut cut_at(const SectionChain& chain, double s_m);
 
-/// Keeps widths and heights of every cut large enough for a hull that does not turn inside out:
+/// Enforces widths and heights of every cut with which the hull does not turn inside out:
 /// left + right >= 4 cm, top - base >= 10 cm.
 void keep_open(SectionChain& chain);
 

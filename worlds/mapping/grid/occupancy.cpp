@@ -98,14 +98,14 @@ OccupancyGrid make_occupancy_grid(const RowMap& map, const OccupancyOptions& opt
 }
 
 double cell_that_fits_m(const std::vector<Vector2d>& boundary_W, double cell_m,
-                        std::int64_t most_cells) {
+                        std::int64_t max_cells) {
   const Eigen::AlignedBox2d box = box_around(boundary_W);
   const auto fits = [&](double cell) {
-    return cell_count(box, cell) <= static_cast<double>(most_cells);
+    return cell_count(box, cell) <= static_cast<double>(max_cells);
   };
   if (fits(cell_m)) return cell_m;
   const double area_m2 = box.sizes().prod();
-  double millimetres = std::ceil(1e3 * std::sqrt(area_m2 / static_cast<double>(most_cells)));
+  double millimetres = std::ceil(1e3 * std::sqrt(area_m2 / static_cast<double>(max_cells)));
   millimetres = std::max(millimetres, std::floor(1e3 * cell_m) + 1.0);
   while (!fits(1e-3 * millimetres)) millimetres = std::ceil(1.001 * millimetres);
   return 1e-3 * millimetres;

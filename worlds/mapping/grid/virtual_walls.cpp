@@ -7,6 +7,7 @@
 
 #include "engine/api/map.h"
 #include "engine/math/planar.h"
+#include "engine/math/polygon.h"
 
 namespace vinerow::mapping {
 
@@ -33,18 +34,6 @@ std::optional<Vector2d> nearest_forward_hit(const Vector2d& from_W, const Vector
   return from_W + nearest_m * direction;
 }
 
-bool is_inside(const Vector2d& p_W, const std::vector<Vector2d>& polygon_W) {
-  bool inside = false;
-  for (std::size_t k = 0; k < polygon_W.size(); ++k) {
-    const Vector2d& a = polygon_W[k];
-    const Vector2d& b = polygon_W[(k + 1) % polygon_W.size()];
-    if ((a.y() <= p_W.y()) == (b.y() <= p_W.y())) continue;
-    const double x = a.x() + (p_W.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
-    if (p_W.x() < x) inside = !inside;
-  }
-  return inside;
-}
-
 RowEnd first_wall_of(const RowMap& map) {
   const bool alley_before_row_0 = map.alleys.size() > map.rows.size();
   return alley_before_row_0 ? RowEnd::kFirst : RowEnd::kLast;
@@ -62,7 +51,7 @@ std::vector<VirtualWall> make_virtual_walls(const RowMap& map, RowEnd first_wall
     wall.from_W = (last ? line.back() : line.front()).head<2>();
     const Vector2d before_W = (last ? line[line.size() - 2] : line[1]).head<2>();
     const Vector2d outward = (wall.from_W - before_W).normalized();
-    const auto hit = is_inside(wall.from_W, map.boundary_W)
+    const auto hit = contains(map.boundary_W, wall.from_W)
                          ? nearest_forward_hit(wall.from_W, outward, map.boundary_W)
                          : std::nullopt;
     if (!hit) {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/api/map.h"
+#include "engine/math/polygon.h"
 #include "worlds/mapping/grid/virtual_walls.h"
 
 namespace vinerow::mapping {
@@ -81,7 +82,7 @@ std::vector<Vector2d> area_between(const VirtualWall& a, const VirtualWall& b,
   std::vector<Vector2d> ahead = close(vertices_between(from, to, boundary));
   std::vector<Vector2d> back = vertices_between(to, from, boundary);
   std::reverse(back.begin(), back.end());
-  return is_inside(row_middle_W, ahead) ? close(back) : ahead;
+  return contains(ahead, row_middle_W) ? close(back) : ahead;
 }
 
 /// Beside an outer row: the boundary abreast of its open end, from there to where it ends the area.

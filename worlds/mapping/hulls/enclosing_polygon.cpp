@@ -139,15 +139,15 @@ class Sides {
 /// The cheapest way around the hull in steps from one kept side to the next.
 class Search {
  public:
-  /// @param most_m2  added area; what adds more is not looked at
-  Search(const Polygon& hull, int corners, double most_m2)
-      : sides_(hull), n_(sides_.count()), steps_(corners), best_m2_(most_m2), free_(n_) {
+  /// @param max_m2  added area; what adds more is not looked at
+  Search(const Polygon& hull, int corners, double max_m2)
+      : sides_(hull), n_(sides_.count()), steps_(corners), best_m2_(max_m2), free_(n_) {
     // Pockets lie in each other, so the first that is too large ends the row.
     for (int i = 0; i < n_; ++i) {
       pockets_.emplace_back(1, 0.0);
       for (int far = 1; far < n_; ++far) {
         const double pocket_m2 = sides_.pocket_m2(i, i + far);
-        if (!(pocket_m2 <= most_m2) || pocket_m2 == kInfinity) break;
+        if (!(pocket_m2 <= max_m2) || pocket_m2 == kInfinity) break;
         pockets_.back().push_back(pocket_m2);
       }
     }
@@ -156,7 +156,7 @@ class Search {
       for (int k = i + 2; k <= i + 1 + reach(i); ++k) {
         for (int j = k + 1; j <= std::min(k + reach(k), i + n_ - 1); ++j) {
           const std::optional<FreeSide> free = sides_.free_side(i, k, j);
-          if (free && free->added_m2 < most_m2) free_[j % n_].push_back(*free);
+          if (free && free->added_m2 < max_m2) free_[j % n_].push_back(*free);
         }
       }
     }
@@ -249,14 +249,14 @@ Polygon greedy(const Polygon& hull, int corners) {
     const auto side = [&](std::size_t k) {
       return k < left ? kept[k] : kept[k - left] + sides.count();
     };
-    double least_m2 = kInfinity;
+    double min_m2 = kInfinity;
     std::size_t out = 0;
     for (std::size_t k = 0; k < left; ++k) {
       const int before = side(k), middle = side(k + 1), behind = side(k + 2);
       const double added_m2 = sides.pocket_m2(before, behind) - sides.pocket_m2(before, middle) -
                               sides.pocket_m2(middle, behind);
-      if (!(added_m2 < least_m2)) continue;
-      least_m2 = added_m2;
+      if (!(added_m2 < min_m2)) continue;
+      min_m2 = added_m2;
       out = (k + 1) % left;
     }
     kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(out));
@@ -296,8 +296,8 @@ Result<Polygon> smallest_enclosing_polygon(const Polygon& points, int corners) {
   const Polygon fast = greedy(*hull, corners);
   // Up to rounding, so that the search may find the same.
   const double hull_m2 = signed_area_m2(*hull), fast_m2 = signed_area_m2(fast);
-  const double most_m2 = (fast_m2 - hull_m2) + 1e-12 * fast_m2;
-  const Polygon best = Search(*hull, corners, most_m2).run();
+  const double max_m2 = (fast_m2 - hull_m2) + 1e-12 * fast_m2;
+  const Polygon best = Search(*hull, corners, max_m2).run();
   return !best.empty() && signed_area_m2(best) < fast_m2 ? best : fast;
 }
 

@@ -39,13 +39,13 @@ Eigen::Vector2d HullDirections::corner(const double* h, int k) const {
          Eigen::Vector2d(h[k] * b.y() - h[next] * a.y(), h[next] * a.x() - h[k] * b.x());
 }
 
-void HullDirections::repair(double* h, double least_m) const {
+void HullDirections::repair(double* h, double min_m) const {
   // A side beyond the corner of its neighbours moves in to it, which changes nothing. A few rounds,
   // since that shortens the neighbours.
   for (int pass = 0; pass < 4; ++pass) {
     bool whole = true;
     for (int k = 0; k < count(); ++k) {
-      const double lacks_m = least_m - side_m(h, k);
+      const double lacks_m = min_m - side_m(h, k);
       if (lacks_m <= 1e-12) continue;
       whole = false;
       if (shrink_[k] > 1e-3) h[k] -= lacks_m / shrink_[k];
@@ -55,7 +55,7 @@ void HullDirections::repair(double* h, double least_m) const {
   // Then part of a polygon around a circle, whose sides are long, since side lengths are linear in
   // h. Its middle is that of the corners, or what is nearest to one.
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-  double radius_m = 2.0 * least_m;
+  double radius_m = 2.0 * min_m;
   for (int k = 0; k < count(); ++k) middle += corner(h, k) / count();
   for (int k = 0; k < count(); ++k) {
     radius_m = std::max(radius_m, std::abs(h[k] - normals_[k].dot(middle)));
@@ -64,17 +64,17 @@ void HullDirections::repair(double* h, double least_m) const {
   std::vector<double> round(count());
   for (int k = 0; k < count(); ++k) round[k] = normals_[k].dot(middle) + radius_m;
   while (true) {
-    double shortest_m = 2.0 * least_m;
+    double shortest_m = 2.0 * min_m;
     for (int k = 0; k < count(); ++k) {
       shortest_m = std::min(shortest_m, side_m(round.data(), k));
     }
-    if (shortest_m >= 2.0 * least_m) break;
+    if (shortest_m >= 2.0 * min_m) break;
     for (int k = 0; k < count(); ++k) round[k] += radius_m;
   }
   for (int k = 0; k < count(); ++k) {
     const double own_m = side_m(h, k);
-    if (own_m < least_m) {
-      part = std::max(part, (least_m - own_m) / (side_m(round.data(), k) - own_m));
+    if (own_m < min_m) {
+      part = std::max(part, (min_m - own_m) / (side_m(round.data(), k) - own_m));
     }
   }
   for (int k = 0; k < count(); ++k) h[k] += part * (round[k] - h[k]);

@@ -1,10 +1,10 @@
 #pragma once
-/// A hull along a row: convex sections whose sides all look in the same directions, joined straight
-/// from one to the next.
+/// Hull along a row: convex sections whose sides share the same directions, joined by straight
+/// lines.
 ///
 /// Frame: (s, y, z) of RowCanopy: along the row's line, to the left, above the ground on the line.
 /// A section is the part of the plane at s where n_k . (y, z) <= h_k for every k. Between sections
-/// h runs linearly, and with it every corner: side faces are plane.
+/// h is linear, and so is every corner: side faces are plane.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -15,8 +15,8 @@
 
 namespace vinerow::mapping {
 
-/// Unit vectors (y, z) counter-clockwise (y left, z up), neighbours less than pi apart. Made by
-/// angles, with the numbers that every section needs.
+/// Unit vectors (y, z) counter-clockwise (y left, z up), neighbours less than pi apart, with
+/// constants that every section needs.
 class HullDirections {
  public:
   /// @param angles_rad  3 or more, rising, all turns between neighbours in (0, pi) (demanded)
@@ -28,7 +28,7 @@ class HullDirections {
   int before(int k) const { return k == 0 ? count() - 1 : k - 1; }
   int behind(int k) const { return k + 1 == count() ? 0 : k + 1; }
 
-  /// Length of side k, negative where its neighbours meet inside it.
+  /// Length of side k, negative if its neighbours meet inside it.
   /// dl_k/dh_k = -shrink(k), dl_k/dh_neighbour = 1 / sin(turn).
   double side_m(const double* h, int k) const {
     return h[before(k)] * inverse_sin_[before(k)] + h[behind(k)] * inverse_sin_[k] -
@@ -39,11 +39,11 @@ class HullDirections {
   double inverse_sin(int k) const { return inverse_sin_[k]; }
   /// 1/2 sum h_k l_k. @pre no side is negative
   double area_m2(const double* h) const;
-  /// Where sides k and k + 1 meet.
+  /// Intersection of sides k and k + 1.
   Eigen::Vector2d corner(const double* h, int k) const;
-  /// Gives the section count() corners: pulls a side that is shorter than `least_m` in to where its
-  /// neighbours meet, and moves all sides out where that leaves nothing.
-  void repair(double* h, double least_m) const;
+  /// Ensures that the section has count() corners: moves a side shorter than `min_m` in to the
+  /// intersection of its neighbours, and all sides out if nothing is left.
+  void repair(double* h, double min_m) const;
 
  private:
   std::vector<double> angles_rad_;
@@ -66,7 +66,7 @@ struct HullChain {
   double to_m() const { return s_m.back(); }
 };
 
-/// Exact for the straight row.
+/// Volume, exact for a straight row.
 double volume_m3(const HullChain& chain);
 
 /// Corners and plane sides in W, capped, 2 c (sections - 1) + 2 (c - 2) triangles.

@@ -100,8 +100,8 @@ bool HullContainment::contains(const Eigen::Vector3d& p) const {
   while (at + 1 < intervals_.size() && ends_m(at) < p.x()) ++at;
   // Between two chains: near enough to the one before, or to the one behind.
   if (contains_near(intervals_[at], p)) return true;
-  const double begins_m = intervals_[at].chain->s_m[intervals_[at].section];
-  return p.x() < begins_m && at > 0 && contains_near(intervals_[at - 1], p);
+  const double starts_m = intervals_[at].chain->s_m[intervals_[at].section];
+  return p.x() < starts_m && at > 0 && contains_near(intervals_[at - 1], p);
 }
 
 bool HullContainment::contains_near(const Interval& interval, const Eigen::Vector3d& p) const {
@@ -111,18 +111,18 @@ bool HullContainment::contains_near(const Interval& interval, const Eigen::Vecto
   const bool beyond_end = p.x() < chain.from_m() || p.x() > chain.to_m();
   const auto h = section_at(chain, interval.section, p.x());
   const Eigen::Vector2d q = p.tail<2>();
-  double most_m = -std::numeric_limits<double>::infinity();
+  double max_m = -std::numeric_limits<double>::infinity();
   int side = 0;
   for (int k = 0; k < c; ++k) {
     const double excess_m = chain.directions.normal(k).dot(q) - h[k];
-    if (excess_m > most_m) {
-      most_m = excess_m;
+    if (excess_m > max_m) {
+      max_m = excess_m;
       side = k;
     }
   }
-  if (most_m <= 0.0) return true;  // beyond an end: within the tolerance of its cap
+  if (max_m <= 0.0) return true;  // beyond an end: within the tolerance of its cap
   // Within the tolerance d along the row a side rises by at most steepest * d.
-  if (most_m > tolerance_m_ * std::hypot(1.0, interval.steepest)) return false;
+  if (max_m > tolerance_m_ * std::hypot(1.0, interval.steepest)) return false;
   if (!beyond_end && distance_in_plane_m(chain.directions, h.data(), side, q) <= tolerance_m_) {
     return true;
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// What a row's hulls contain and how wide and high they are.
+/// Figures of a row's hulls: points inside, widths and heights, volume.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -9,15 +9,15 @@
 
 namespace vinerow::mapping {
 
-/// Tells which points lie inside of hulls or at most a distance outside of them: exactly, with the
-/// distance to the nearest point of the surface.
+/// Exact test for points inside hulls or at most a distance outside their surface.
 ///
-/// Most points need c comparisons: inside the section at their s is inside; a point as near to that
-/// section, in its plane, is near enough; and by more than the steepest side nearby a point may not
-/// be above it. Only what is left is measured against triangles.
+/// Most points need c comparisons. A point inside the section at its s is inside; a point within
+/// the distance of that section, in its plane, is near enough; a point farther above it than the
+/// steepest side nearby allows is outside. Only the remaining points are measured against
+/// triangles.
 class HullContainment {
  public:
-  /// @param chains  of one row, in order, not overlapping along it; outlive this
+  /// @param chains  of one row, in order, not overlapping along it; must outlive this object
   HullContainment(const std::vector<HullChain>& chains, double tolerance_m);
 
   /// @param p  (s, y, z)
@@ -27,7 +27,7 @@ class HullContainment {
  private:
   struct Interval {
     const HullChain* chain;
-    int section;      ///< its first
+    int section;      ///< first section of the interval
     double steepest;  ///< |dh/ds| of it and of those within the tolerance
   };
   bool contains_near(const Interval& interval, const Eigen::Vector3d& p) const;
@@ -43,8 +43,8 @@ class HullContainment {
 double distance_to_triangle_m(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
                               const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 
-/// Signed volume of a closed mesh by the divergence theorem, positive where the outside is
-/// counter-clockwise.
+/// Signed volume of a closed mesh by the divergence theorem, positive if triangles are
+/// counter-clockwise seen from outside.
 double mesh_volume_m3(const TriangleMesh& mesh);
 
 /// Means along the chains, m.

@@ -9,15 +9,46 @@
 #include "engine/core/check.h"
 #include "worlds/mapping/hulls/section_directions.h"
 
+// Derivation. Sections j at s_j have offsets h_jk along the normals n_k. Between neighbours a and b
+//
+//   h_k(s) = h_ak + rise (s - s_a),   rise = (h_bk - h_ak) / (s_b - s_a),
+//
+// and a point p is outside side k if v = n_k . (y, z) > h_k(s) + tolerance. With l_jk the length of
+// side k of section j (HullDirections::side_m), moving h_jk out by d changes the volume by
+//
+//   dV = slope d + O(d^2),   slope = sum over neighbours o of |s_j - s_o| (l_jk / 3 + l_ok / 6),
+//
+// the integral of the linear weight (1 at j, 0 at o) times the side's length. A point at s has the
+// weight  w = (s - s_o) / (s_j - s_o)  and leaves the outside at
+//
+//   d = (v - tolerance - h_jk - (1 - w) (h_ok - h_jk)) / w                         (a "break").
+//
+// cost(d) = slope d + price * (number of breaks above d) is increasing in d between breaks. Its
+// minimum over [low, high] is at a break or at an end, found by going through the sorted breaks.
+//
+// Sections are removed greedily by a priority queue (find_removals): the cost of a removal is the
+// change of  volume + price * outside  after its two neighbours have been improved once. Entries
+// that a removal nearby has made stale carry an old version and are skipped.
+
 namespace vinerow::mapping {
 namespace {
 
-constexpr double kLeastSide_m = 0.005;
-constexpr double kDownPrice = 20.0;  // of points below: few see them, and the base must not rise
+// Chosen: a shorter side would be a degenerate face.
+constexpr double kMinSide_m = 0.005;
+// Price of a point below the hull, in points. Chosen: pictures show few low points, and the lower
+// edge must not rise above them.
+constexpr double kDownPrice = 20.0;
+// Vertical part of the normal below which a side looks down: 17 degrees below the horizontal.
+// Chosen.
+constexpr double kLooksDown = -0.3;
+// Most sides of a section; RowHullOptions::corners allows no more.
+constexpr std::size_t kMaxSides = 16;
+// Below this a side does not become shorter when it or its neighbour moves.
+constexpr double kNoShrink = 1e-9;
 
-/// The sides of the hull between two sections as functions of s, in the points' precision.
+/// Sides of the hull between two sections as functions of s, in the points' precision.
 struct SideLines {
-  std::array<float, 16> ny{}, nz{}, at{}, rise{};
+  std::array<float, kMaxSides> ny{}, nz{}, at{}, rise{};
 
   explicit SideLines(const HullDirections& directions) {
     for (int k = 0; k < directions.count(); ++k) {
@@ -25,14 +56,15 @@ struct SideLines {
       nz[k] = static_cast<float>(directions.normal(k).y());
     }
   }
-  /// @param h_a,h_b  sides of the sections at a_m and b_m  @param out_m  how far all are moved out
+  /// Sets at + rise s to h_k(s) + out_m.
+  /// @param h_a,h_b  offsets of the sections at a_m and b_m
   void span(const double* h_a, const double* h_b, double a_m, double b_m, int sides, double out_m) {
     for (int k = 0; k < sides; ++k) {
       rise[k] = static_cast<float>((h_b[k] - h_a[k]) / (b_m - a_m));
       at[k] = static_cast<float>(h_a[k] + out_m) - rise[k] * static_cast<float>(a_m);
     }
   }
-  /// n_k . (y, z), and where the side lies at s.
+  /// n_k . (y, z) of a point, and the side's value at s.
   float value(int k, const Eigen::Vector3f& p) const { return ny[k] * p.y() + nz[k] * p.z(); }
   float level(int k, float s) const { return at[k] + rise[k] * s; }
 };
@@ -48,13 +80,14 @@ HullFit::HullFit(const RowStretch& stretch, const HullDirections& directions)
     prev_.push_back(j - 1);
     next_.push_back(j < slices ? j + 1 : -1);
   }
-  // Of each slice the level, of each knot the outer one of its two slices.
+  // Each slice gives a level; a knot takes the outer one of its two slices.
   constexpr double kNone = -std::numeric_limits<double>::infinity();
+  constexpr std::size_t kMinPoints = 3;  // chosen: fewer give no section
   h_.assign(static_cast<std::size_t>(left_) * c_, kNone);
   std::vector<float> values;
   for (int i = 0; i < slices; ++i) {
     const std::size_t begin = stretch.first[i], end = stretch.first[i + 1];
-    if (end - begin < 3) continue;
+    if (end - begin < kMinPoints) continue;
     for (int k = 0; k < c_; ++k) {
       const Eigen::Vector2f n = directions.normal(k).cast<float>();
       values.clear();
@@ -66,7 +99,7 @@ HullFit::HullFit(const RowStretch& stretch, const HullDirections& directions)
       h(i + 1)[k] = std::max(h(i + 1)[k], level_m);
     }
   }
-  // Between empty slices as it was last, at the beginning as it is first.
+  // Knots between empty slices repeat the last section, those at the start the first.
   int last = -1;
   for (int j = 0; j <= slices; ++j) {
     if (h(j)[0] == kNone) {
@@ -79,7 +112,7 @@ HullFit::HullFit(const RowStretch& stretch, const HullDirections& directions)
     last = j;
   }
   VINEROW_DEMAND(last >= 0);
-  for (int j = 0; j <= slices; ++j) directions_.repair(h(j), kLeastSide_m);
+  for (int j = 0; j <= slices; ++j) directions_.repair(h(j), kMinSide_m);
 }
 
 double HullFit::volume_m3() const {
@@ -134,7 +167,7 @@ void HullFit::collect(double reach_m) {
   begins_.back() = static_cast<std::uint32_t>(candidates_.size());
 }
 
-/// Volume per metre that side k of section j moves out.
+/// dV/dh_jk. @returns area, m2
 double HullFit::slope_m2(int j, int k) const {
   const double own_m = directions_.side_m(h(j), k);
   double slope = 0.0;
@@ -146,20 +179,23 @@ double HullFit::slope_m2(int j, int k) const {
   return slope;
 }
 
-void HullFit::improve(int j, int k, double price_m3, double tolerance_m, double most_m) {
-  // No side becomes shorter than kLeastSide_m.
+/// Moves side k of section j to the minimum of cost(d).
+void HullFit::improve(int j, int k, double price_m3, double tolerance_m, double max_m) {
+  // [low, high]: no farther than max_m, not in below what collect() has looked at, and no side
+  // shorter than kMinSide_m. Moving in by d shortens the neighbours by d inverse_sin, moving out
+  // shortens the side itself by d shrink.
   const int before = directions_.before(k), behind = directions_.behind(k);
   const auto room = [&](double side_m, double per_m) {
-    return per_m > 1e-9 ? std::max(0.0, side_m - kLeastSide_m) / per_m : most_m;
+    return per_m > kNoShrink ? std::max(0.0, side_m - kMinSide_m) / per_m : max_m;
   };
   double low =
-      -std::min({most_m, std::max(0.0, h(j)[k] - floor_[static_cast<std::size_t>(j) * c_ + k]),
+      -std::min({max_m, std::max(0.0, h(j)[k] - floor_[static_cast<std::size_t>(j) * c_ + k]),
                  room(directions_.side_m(h(j), before), directions_.inverse_sin(before)),
                  room(directions_.side_m(h(j), behind), directions_.inverse_sin(k))});
-  const double high = std::min(most_m, room(directions_.side_m(h(j), k), directions_.shrink(k)));
+  const double high = std::min(max_m, room(directions_.side_m(h(j), k), directions_.shrink(k)));
   const double slope = slope_m2(j, k);
-  if (directions_.normal(k).y() < -0.3) price_m3 *= kDownPrice;
-  // How far the side may move in before a point is outside.
+  if (directions_.normal(k).y() < kLooksDown) price_m3 *= kDownPrice;
+  // Breaks between low and high.
   breaks_.clear();
   const double own_m = h(j)[k];
   for (const int other : {prev_[j], next_[j]}) {
@@ -177,9 +213,9 @@ void HullFit::improve(int j, int k, double price_m3, double tolerance_m, double 
       }
     }
   }
-  // From the outermost place inwards every break costs one point.
+  // Going inwards from high, every break passed costs one point. More breaks than `enough` cost
+  // more than all the volume that can be won, so that only the outermost of them are sorted.
   double best = high, least = slope * high;
-  // So many points cost more than all the volume there is to win.
   const auto enough = static_cast<std::size_t>(slope * (high - low) / price_m3) + 1;
   const bool may_stop = breaks_.size() > enough;
   if (may_stop) {
@@ -199,14 +235,17 @@ void HullFit::improve(int j, int k, double price_m3, double tolerance_m, double 
   h(j)[k] += best;
 }
 
-void HullFit::sweep(double price_m3, double tolerance_m, double most_m) {
+void HullFit::sweep(double price_m3, double tolerance_m, double max_m) {
   for (int j = 0; j >= 0; j = next_[j]) {
-    for (int k = 0; k < c_; ++k) improve(j, k, price_m3, tolerance_m, most_m);
+    for (int k = 0; k < c_; ++k) improve(j, k, price_m3, tolerance_m, max_m);
   }
 }
 
-void HullFit::even_the_foot() {
+void HullFit::smooth_lower_edge() {
+  // Chosen: less than half the distance between vines, so that the gap between two trunks stays;
+  // a band of some leaves; fewer points than a dense cloud shows on one side of a row.
   constexpr double kReach_m = 0.4, kBand_m = 0.1, kFew_per_m = 50.0;
+  // The side that looks down most.
   int k = 0;
   for (int other = 1; other < c_; ++other) {
     if (directions_.normal(other).y() < directions_.normal(k).y()) k = other;
@@ -217,11 +256,11 @@ void HullFit::even_the_foot() {
   const int reach = std::max(1, static_cast<int>(std::lround(kReach_m / stretch_.slice_m())));
   const auto few_were_seen = [&](int j) {
     const int from = std::max(0, j - reach), to = std::min(stretch_.slices(), j + reach);
-    const double least_m = level_m(j) - kBand_m;
+    const double min_m = level_m(j) - kBand_m;
     std::int64_t seen = 0;
     for (std::size_t p = stretch_.first[from]; p < stretch_.first[to]; ++p) {
       const Eigen::Vector3f& point = stretch_.points[p];
-      seen += n.x() * point.y() + n.y() * point.z() > least_m ? 1 : 0;
+      seen += n.x() * point.y() + n.y() * point.z() > min_m ? 1 : 0;
     }
     return static_cast<double>(seen) <= kFew_per_m * (to - from) * stretch_.slice_m();
   };
@@ -234,21 +273,23 @@ void HullFit::even_the_foot() {
     for (int i = next_[j]; i >= 0 && knots_[i] - knots_[j] <= kReach_m; i = next_[i]) {
       lowest_m = std::max(lowest_m, level_m(i));
     }
-    const double room_m = directions_.side_m(h(j), k) - kLeastSide_m;
+    const double room_m = directions_.side_m(h(j), k) - kMinSide_m;
     const double shrink = directions_.shrink(k);
-    const double most_m = shrink > 1e-9 ? std::max(0.0, room_m) / shrink : lowest_m - level_m(j);
-    h(j)[k] += std::min(lowest_m - level_m(j), most_m);
+    const double max_m =
+        shrink > kNoShrink ? std::max(0.0, room_m) / shrink : lowest_m - level_m(j);
+    h(j)[k] += std::min(lowest_m - level_m(j), max_m);
   }
 }
 
 void HullFit::offset(double out_m) {
   for (int j = 0; j >= 0; j = next_[j]) {
     for (int k = 0; k < c_; ++k) h(j)[k] += out_m;
-    if (out_m < 0.0) directions_.repair(h(j), kLeastSide_m);
+    if (out_m < 0.0) directions_.repair(h(j), kMinSide_m);
   }
 }
 
 void HullFit::count_excess(ExcessCounts& counts) const {
+  constexpr float kBelowAll_m = -1e9f;
   SideLines sides(directions_);
   const auto from_m = static_cast<float>(stretch_.from_m);
   const auto to_m = static_cast<float>(stretch_.to_m - stretch_.from_m);
@@ -257,7 +298,7 @@ void HullFit::count_excess(ExcessCounts& counts) const {
     for (std::size_t p = stretch_.first[a]; p < stretch_.first[b]; ++p) {
       const Eigen::Vector3f& point = stretch_.points[p];
       const float s = std::clamp(point.x() - from_m, 0.0f, to_m);
-      float most = -1e9f;
+      float most = kBelowAll_m;
       int side = 0;
       for (int k = 0; k < c_; ++k) {
         const float excess = sides.value(k, point) - sides.at[k] - sides.rise[k] * s;
@@ -284,7 +325,7 @@ void HullFit::find_above(double excess_m, std::vector<Eigen::Vector3f>& points) 
     sides.span(h(a), h(b), knots_[a], knots_[b], c_, excess_m);
     for (std::size_t p = stretch_.first[a]; p < stretch_.first[b]; ++p) {
       const Eigen::Vector3f& point = stretch_.points[p];
-      // Those beyond an end may be too far from it.
+      // Points beyond an end may be too far from the end face: the caller has to look at them all.
       const float beyond = point.x() - from_m;
       const float s = std::clamp(beyond, 0.0f, to_m);
       bool above = s != beyond;
@@ -296,6 +337,8 @@ void HullFit::find_above(double excess_m, std::vector<Eigen::Vector3f>& points) 
   }
 }
 
+/// Number of pairs (point, side) outside between sections a and b, those below weighted by
+/// kDownPrice.
 std::int64_t HullFit::outside(int a, int b, double tolerance_m) const {
   std::int64_t count = 0;
   const double per_m = 1.0 / (knots_[b] - knots_[a]);
@@ -309,13 +352,16 @@ std::int64_t HullFit::outside(int a, int b, double tolerance_m) const {
         own += candidates_[p].v_m > at + rise * candidates_[p].s_m;
       }
     }
-    count += directions_.normal(k).y() < -0.3 ? static_cast<std::int64_t>(kDownPrice) * own : own;
+    count +=
+        directions_.normal(k).y() < kLooksDown ? static_cast<std::int64_t>(kDownPrice) * own : own;
   }
   return count;
 }
 
+/// Volume between sections a and b plus price of the points outside. The area is quadratic in s, so
+/// that Simpson's rule  (s_b - s_a) / 6 (A_a + 4 A_middle + A_b)  is exact.
 double HullFit::cost(int a, int b, double price_m3, double tolerance_m) const {
-  std::array<double, 16> middle{};
+  std::array<double, kMaxSides> middle{};
   for (int k = 0; k < c_; ++k) middle[k] = 0.5 * (h(a)[k] + h(b)[k]);
   const double volume = (knots_[b] - knots_[a]) / 6.0 *
                         (directions_.area_m2(h(a)) + 4.0 * directions_.area_m2(middle.data()) +
@@ -329,8 +375,11 @@ void HullFit::drop(int j) {
   --left_;
 }
 
+/// Cost of removing section j, over the up to four spans around it. The hull is restored.
+/// @param made  if not null: the removal
 double HullFit::try_without(int j, double price_m3, double tolerance_m, Removal* made) {
-  constexpr double kMost_m = 0.05;
+  // Chosen: largest move of a neighbour's side, a third of the depth that collect() has looked at.
+  constexpr double kMax_m = 0.05;
   const int a = prev_[j], b = next_[j];
   const auto sum = [&] {
     double total = cost(a, b, price_m3, tolerance_m);
@@ -342,14 +391,15 @@ double HullFit::try_without(int j, double price_m3, double tolerance_m, Removal*
   if (prev_[a] >= 0) with += cost(prev_[a], a, price_m3, tolerance_m);
   if (next_[b] >= 0) with += cost(b, next_[b], price_m3, tolerance_m);
 
-  std::array<double, 32> kept{};
+  // Join a and b, improve both once, compare, and undo.
+  std::array<double, 2 * kMaxSides> kept{};
   std::copy_n(h(a), c_, kept.begin());
   std::copy_n(h(b), c_, kept.begin() + c_);
   next_[a] = b;
   prev_[b] = a;
   for (int k = 0; k < c_; ++k) {
-    improve(a, k, price_m3, tolerance_m, kMost_m);
-    improve(b, k, price_m3, tolerance_m, kMost_m);
+    improve(a, k, price_m3, tolerance_m, kMax_m);
+    improve(b, k, price_m3, tolerance_m, kMax_m);
   }
   const double without = sum();
   if (made != nullptr) {
@@ -363,7 +413,7 @@ double HullFit::try_without(int j, double price_m3, double tolerance_m, Removal*
   return without - with;
 }
 
-std::vector<Removal> HullFit::find_removals(double price_m3, double tolerance_m, double most_m3,
+std::vector<Removal> HullFit::find_removals(double price_m3, double tolerance_m, double max_m3,
                                             int fewest,
                                             const std::function<bool(double, double)>& may_join) {
   const auto kept_h = h_;
@@ -372,7 +422,7 @@ std::vector<Removal> HullFit::find_removals(double price_m3, double tolerance_m,
   struct Entry {
     double added_m3;
     int knot, version;
-    bool operator<(const Entry& other) const {  // the cheapest is on top, of equal ones the first
+    bool operator<(const Entry& other) const {  // the cheapest is on top, ties by knot
       if (added_m3 != other.added_m3) return added_m3 > other.added_m3;
       return knot > other.knot;
     }
@@ -392,10 +442,10 @@ std::vector<Removal> HullFit::find_removals(double price_m3, double tolerance_m,
     const Entry entry = queue.top();
     queue.pop();
     if (entry.version != versions[entry.knot]) continue;
-    if (entry.added_m3 > most_m3 && left_ <= fewest) break;
+    if (entry.added_m3 > max_m3 && left_ <= fewest) break;
     Removal removal;
     try_without(entry.knot, price_m3, tolerance_m, &removal);
-    // A cheap one that only an expensive one made possible comes with it.
+    // A cheap removal that only an expensive one made possible counts as expensive as that one.
     level_m3 = std::max(level_m3, removal.added_m3);
     removal.added_m3 = level_m3;
     drop(entry.knot);

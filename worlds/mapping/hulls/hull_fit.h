@@ -1,10 +1,11 @@
 #pragma once
-/// Where the faces of a hull along a row lie: least volume for the points that it leaves outside.
+/// Fit of a hull to the points of a stretch of row: least volume for a number of points outside.
 ///
-/// Minimised is  volume + price * (points farther than the tolerance outside a face)  over the
-/// offsets h of every side of every section, one at a time and exactly, since the volume is linear
-/// in one offset (its slope is the side's area) and the points outside change only where a point
-/// passes a face. The price is set so that as many points are outside as are allowed.
+/// The cost  volume + price * (points farther than the tolerance outside a face)  is minimised over
+/// the offsets h of every side of every section, one at a time. The volume is linear in a small
+/// change of one offset (its slope is an area of the side), and the points outside change only
+/// where a point passes a face, so that the minimum is at one of these places. The caller sets the
+/// price so that as many points are outside as are allowed.
 
 #include <cstdint>
 #include <functional>
@@ -16,59 +17,59 @@
 
 namespace vinerow::mapping {
 
-/// Leaving out of one section.
+/// Removal of one section.
 struct Removal {
-  double added_m3 = 0.0;  ///< volume and price of points that it cost, or a later one less than it
+  double added_m3 = 0.0;  ///< cost in volume and price of points; never falls in the order of
+                          ///< removals
   int knot = 0, before = 0, behind = 0;
-  std::vector<double> h_m;  ///< of the sections before and behind, afterwards
+  std::vector<double> h_m;  ///< offsets of the sections before and behind, after it
 };
 
-/// The hull of one stretch while it is being fitted.
+/// Hull of one stretch during the fit.
 class HullFit {
  public:
-  /// Starts from the level of each slice that one point in a hundred is outside of.
-  /// @param stretch  outlives this
+  /// Starts with the offsets that leave one point in a hundred of each slice outside.
+  /// @param stretch  must outlive this object
   HullFit(const RowStretch& stretch, const HullDirections& directions);
 
   int sections() const { return left_; }
   double length_m() const { return stretch_.to_m - stretch_.from_m; }
-  /// Area of all sides.
+  /// Area of all sides, and of side k.
   double side_area_m2() const;
   double side_area_m2(int k) const;
   double volume_m3() const;
 
-  /// Finds which points may come to lie outside which side. After that sides move in by no more
-  /// than `reach_m` before the next time.
+  /// Collects the points that are outside each side, or may be once it has moved in by `reach_m`.
+  /// Until the next call, sides move in by no more than that.
   void collect(double reach_m);
-  /// Every side of every section once. @param most_m  farthest that one moves
-  void sweep(double price_m3, double tolerance_m, double most_m);
+  /// Improves every side of every section once. @param max_m  largest move of a side
+  void sweep(double price_m3, double tolerance_m, double max_m);
   void count_excess(ExcessCounts& counts) const;
-  /// Appends the points whose excess is more than that.
+  /// Appends the points with a larger excess, and all points beyond the stretch's ends.
   void find_above(double excess_m, std::vector<Eigen::Vector3f>& points) const;
-  /// Where few low points were seen (50 in a metre of row at most within 0.1 m of it) the side that
-  /// looks down goes out to where it lies farthest out within 0.4 m along the row, as far as the
-  /// section stays convex: pictures from above do not see the lowest leaves of every slice, and the
-  /// underside is even over some slices all the same.
-  void even_the_foot();
-  /// All sides out, or in.
+  /// Moves the lowest side out to its outermost offset within 0.4 m along the row, if few low
+  /// points were seen there (at most 50 per metre of row within 0.1 m of the side) and as far as
+  /// the section stays convex. Pictures from above do not show the lowest leaves of every slice,
+  /// but the underside of a canopy is even over a few slices.
+  void smooth_lower_edge();
+  /// Moves all sides out, or in if negative.
   void offset(double out_m);
   const std::vector<double>& offsets() const { return h_; }
   void set_offsets(const std::vector<double>& h_m) { h_ = h_m; }
 
-  /// Sections left out in the order of what that costs, until `fewest` are left or the next costs
-  /// more than `most_m3`, whichever comes last. Nothing of this is kept.
-  /// @param may_join  whether the line between two knots stays close to the row's
-  std::vector<Removal> find_removals(double price_m3, double tolerance_m, double most_m3,
-                                     int fewest,
+  /// Removals of sections, the cheapest first, until both no more than `fewest` sections are left
+  /// and the next removal costs more than `max_m3`. The hull itself is unchanged.
+  /// @param may_join  true if the straight line between two knots stays close to the row's line
+  std::vector<Removal> find_removals(double price_m3, double tolerance_m, double max_m3, int fewest,
                                      const std::function<bool(double, double)>& may_join);
-  /// Leaves out the sections of the first `count` removals.
+  /// Carries out the first `count` removals.
   void apply(const std::vector<Removal>& removals, std::size_t count);
 
   HullChain chain() const;
 
  private:
   struct Candidate {
-    float s_m;  ///< from the stretch's begin
+    float s_m;  ///< from the start of the stretch
     float v_m;  ///< n_k . (y, z)
   };
 
@@ -76,7 +77,7 @@ class HullFit {
   const double* h(int j) const { return h_.data() + static_cast<std::size_t>(j) * c_; }
   double at_m(int j) const { return knots_[j]; }
   double slope_m2(int j, int k) const;
-  void improve(int j, int k, double price_m3, double tolerance_m, double most_m);
+  void improve(int j, int k, double price_m3, double tolerance_m, double max_m);
   std::int64_t outside(int a, int b, double tolerance_m) const;
   double cost(int a, int b, double price_m3, double tolerance_m) const;
   double try_without(int j, double price_m3, double tolerance_m, Removal* made);
@@ -86,8 +87,8 @@ class HullFit {
   HullDirections directions_;
   int c_ = 0;
   int left_ = 0;
-  std::vector<double> knots_;     // s of each from the stretch's begin
-  std::vector<int> prev_, next_;  // sections that are left; -1 at the ends
+  std::vector<double> knots_;     // s of each section, from the start of the stretch
+  std::vector<int> prev_, next_;  // linked list of the sections that are left; -1 at the ends
   std::vector<double> h_, floor_;
   std::vector<Candidate> candidates_;  // by slice and side
   std::vector<std::uint32_t> begins_;

@@ -20,8 +20,8 @@ namespace vinerow::mapping {
 namespace {
 
 constexpr double kSweepReach_m[] = {0.03, 0.02, 0.015, 0.01, 0.01, 0.01};  // of the sweeps
-// While sections are removed, points this deep inside are watched: where the row swells between two
-// sections that stay, the straight side between them passes that far inside of what it was.
+// Depth of points considered while sections are removed: if the row is wider between two remaining
+// sections, the straight side between them is that far inside the former one.
 constexpr double kRemovalReach_m = 0.15;
 constexpr double kStraight_m = 0.01;  // a row's line may leave the mesh's between two sections
 constexpr double kSparseShare = 0.2;  // of a side's point density below which it was not seen
@@ -50,7 +50,7 @@ void check(const RowHullOptions& options) {
          ">= 0");
 }
 
-/// One row on its way from points to meshes.
+/// Processing of one row from points to meshes.
 class RowWork {
  public:
   RowWork(const RowCanopy& row, const GroundHeight& ground, const RowHullOptions& options)
@@ -118,8 +118,7 @@ class RowWork {
     hulls.figures.points = static_cast<std::int64_t>(row_.points.size());
     if (fits_.empty()) {
       hulls.notes.push_back(fmt::format(
-          "row {}: its {} canopy points leave nothing to make a mesh of once sparse ones are "
-          "dropped",
+          "row {}: its {} canopy points are too few for a mesh once sparse ones are dropped",
           row_.row, row_.points.size()));
       return hulls;
     }
@@ -127,7 +126,7 @@ class RowWork {
       adapt_price();
       sweep(0.01);
     }
-    for (const auto& fit : fits_) fit->even_the_foot();
+    for (const auto& fit : fits_) fit->smooth_lower_edge();
     settle(hulls);
     for (const auto& fit : fits_) {
       hulls.chains.push_back(fit->chain());
@@ -138,7 +137,7 @@ class RowWork {
   }
 
   double length_m() const { return length_m_; }
-  /// Removals so cheap that they are made without need.
+  /// Cost below which removals are made without need.
   double free_m3() const { return options_.simplify_m * perimeter_m_ * options_.slice_m; }
   std::int64_t bytes() const {
     std::int64_t sum = 0;
@@ -150,14 +149,14 @@ class RowWork {
  private:
   std::int64_t lost() const { return stretches_.sparse + stretches_.lone + stretches_.not_finite; }
 
-  void sweep(double most_m) {
+  void sweep(double max_m) {
     for (const auto& fit : fits_) {
-      fit->collect(most_m + 0.01);
-      fit->sweep(price_m3_, options_.tolerance_m, most_m);
+      fit->collect(max_m + 0.01);
+      fit->sweep(price_m3_, options_.tolerance_m, max_m);
     }
   }
 
-  /// So that as many points are outside as may be.
+  /// Adapts the price so that as many points are outside as allowed.
   void adapt_price() {
     const double ratio =
         (static_cast<double>(exactly_outside()) + 1.0) / (static_cast<double>(allowed_) + 1.0);
@@ -171,7 +170,7 @@ class RowWork {
     return counts;
   }
 
-  /// Of the points that the fit knows.
+  /// Number of points outside, of those in the stretches.
   std::int64_t exactly_outside() const {
     // At a corner of 90 degrees the distance is 1.41 times the excess.
     constexpr double kSurelyInside = 0.7;
@@ -201,16 +200,16 @@ class RowWork {
 
   /// Volume between the hull's sides and the middle of the points' scatter about them.
   double shell_m3(const ExcessCounts& counts) const {
-    double most_per_m2 = 0.0;
+    double max_per_m2 = 0.0;
     std::vector<double> area_m2(options_.corners, 0.0);
     for (int k = 0; k < options_.corners; ++k) {
       for (const auto& fit : fits_) area_m2[k] += fit->side_area_m2(k);
       if (area_m2[k] < 0.02 * perimeter_m_ * length_m_) continue;
-      most_per_m2 = std::max(most_per_m2, static_cast<double>(counts.count(k)) / area_m2[k]);
+      max_per_m2 = std::max(max_per_m2, static_cast<double>(counts.count(k)) / area_m2[k]);
     }
     double shell = 0.0;
     for (int k = 0; k < options_.corners; ++k) {
-      if (static_cast<double>(counts.count(k)) < kSparseShare * most_per_m2 * area_m2[k]) continue;
+      if (static_cast<double>(counts.count(k)) < kSparseShare * max_per_m2 * area_m2[k]) continue;
       const double middle_m = counts.middle_m(k);
       if (std::isfinite(middle_m)) shell -= middle_m * area_m2[k];
     }
@@ -231,8 +230,8 @@ class RowWork {
     return weight > 0.0 ? sum / weight : 0.0;
   }
 
-  /// Moves all sides so that just as many points are outside as may be, but never in so far that
-  /// less volume is left than the canopy's own.
+  /// Moves all sides so that as many points are outside as allowed, but not so far in that the
+  /// volume is below that of the canopy.
   void settle(RowHulls& hulls) {
     ExcessCounts counts = count();
     double volume = 0.0, area_m2 = 0.0;
@@ -244,10 +243,10 @@ class RowWork {
     hulls.canopy_volume_m3 = volume - shell;
     hulls.noise_m = find_noise_m(counts);
     const double own_m = -shell / area_m2;
-    // What this does not bring inside is not scatter.
-    const double most_m = std::max(0.01, 2.0 * hulls.noise_m);
-    // The excess over a section tells more points outside than the distance from the surface does:
-    // the share of them that truly are is learnt while the place is looked for.
+    // Points that this does not bring inside are not scatter.
+    const double max_m = std::max(0.01, 2.0 * hulls.noise_m);
+    // By their excess over a section more points are outside than by their distance from the
+    // surface. The search adapts the count by excess to the exact one.
     std::vector<std::vector<double>> begun;
     for (const auto& fit : fits_) begun.push_back(fit->offsets());
     const auto place = [&](double out_m) {
@@ -264,7 +263,7 @@ class RowWork {
       if (n > 0 && std::isfinite(good_m) && !(out_m > bad_m && out_m < good_m)) {
         out_m = 0.5 * (bad_m + good_m);
       }
-      out_m = std::max(std::min(out_m, most_m), own_m);
+      out_m = std::max(std::min(out_m, max_m), own_m);
       place(out_m);
       const std::int64_t outside = exactly_outside();
       if (outside <= allowed_) {
@@ -313,11 +312,11 @@ class RowWork {
                                         row_.row, stretches_.not_finite));
     }
     if (figures.containment < options_.containment) {
-      hulls.notes.push_back(fmt::format(
-          "row {}: {:.1f} % of the canopy points lie within {:g} cm of its meshes, fewer than the "
-          "{:g} % asked for; {} of {} points stand too sparse to be canopy",
-          row_.row, 100.0 * figures.containment, 100.0 * options_.tolerance_m,
-          100.0 * options_.containment, lost(), row_.points.size()));
+      hulls.notes.push_back(
+          fmt::format("row {}: {:.1f} % of the canopy points lie within {:g} cm of its meshes, "
+                      "fewer than the required {:g} %; {} of {} points are too sparse to be canopy",
+                      row_.row, 100.0 * figures.containment, 100.0 * options_.tolerance_m,
+                      100.0 * options_.containment, lost(), row_.points.size()));
     }
   }
 
@@ -333,9 +332,9 @@ class RowWork {
   double per_point_m2_ = 0.0, price_m3_ = 0.0, perimeter_m_ = 0.0, length_m_ = 0.0, worst_m3_ = 0.0;
 };
 
-/// How many removals of each stretch of each row bring the meshes into the budget.
+/// Number of removals of each stretch of each row with which the meshes meet the budget.
 std::vector<std::vector<std::size_t>> count_removals(
-    const std::vector<std::unique_ptr<RowWork>>& rows, double most_bytes, int corners) {
+    const std::vector<std::unique_ptr<RowWork>>& rows, double max_bytes, int corners) {
   struct Entry {
     double added_m3;
     bool free;
@@ -358,7 +357,7 @@ std::vector<std::vector<std::size_t>> count_removals(
                    [](const Entry& a, const Entry& b) { return a.added_m3 < b.added_m3; });
   const auto each = static_cast<double>(ply_bytes(corners, 3) - ply_bytes(corners, 2));
   for (const Entry& entry : entries) {
-    if (!entry.free && bytes <= most_bytes) break;
+    if (!entry.free && bytes <= max_bytes) break;
     bytes -= each;
     ++counts[entry.row][entry.stretch];
   }
@@ -384,14 +383,14 @@ std::vector<RowHulls> make_row_hulls(std::span<const RowCanopy> rows, const Grou
     bytes += static_cast<double>(work->bytes());
     length_m += work->length_m();
   }
-  double most_bytes = std::numeric_limits<double>::infinity();
-  if (options.budget_bytes > 0.0) most_bytes = options.budget_bytes;
+  double max_bytes = std::numeric_limits<double>::infinity();
+  if (options.budget_bytes > 0.0) max_bytes = options.budget_bytes;
   if (options.budget_bytes_per_m > 0.0) {
-    most_bytes = std::min(most_bytes, options.budget_bytes_per_m * length_m);
+    max_bytes = std::min(max_bytes, options.budget_bytes_per_m * length_m);
   }
-  const double share = bytes > most_bytes ? most_bytes / bytes : 1.0;
+  const double share = bytes > max_bytes ? max_bytes / bytes : 1.0;
   each([&](std::size_t i) { works[i]->find_removals(share); });
-  const auto counts = count_removals(works, most_bytes, options.corners);
+  const auto counts = count_removals(works, max_bytes, options.corners);
   std::vector<RowHulls> result(works.size());
   each([&](std::size_t i) {
     works[i]->apply_removals(counts[i]);

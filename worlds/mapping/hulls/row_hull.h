@@ -3,12 +3,12 @@
 ///
 /// Source: paper A, section 3.2 (Mammarella et al., Biosystems Engineering 223, 2022), after Comba
 /// et al., Biosystems Engineering 197 (2020): slices across the row, polygons of c corners, lofted
-/// to a low-complexity mesh, split at gaps. How it is solved is ours (docs/models/row_meshes.md): the
-/// sides of all polygons of a row look in the same c directions, so that corners match without
-/// twist, every side face is plane, and what is inside is told by c comparisons; where the faces
-/// lie is the least volume that leaves no more points outside than allowed.
+/// to a low-complexity mesh, split at gaps. The solution is our own (docs/models/row_meshes.md):
+/// the sides of all polygons of a row share the same c directions, so that corners match without
+/// twist, every side face is plane, and c comparisons decide whether a point is inside. The faces
+/// minimise the volume with no more points outside than allowed.
 ///
-/// Cost: linear in the points; all cores. The same bits on any number of them.
+/// Cost: linear in the points; all cores. The result has the same bits for any number of them.
 
 #include <span>
 #include <string>
@@ -24,35 +24,35 @@ namespace vinerow::mapping {
 
 struct RowHullOptions {
   int corners = 8;        ///< of each section, 5 to 16
-  double slice_m = 0.14;  ///< first distance between sections; longer where points are few
+  double slice_m = 0.14;  ///< initial distance between sections; longer if points are few
   double cell_m = 0.08;   ///< across the row, for dropping sparse cells
   double gap_m = 0.5;     ///< a longer stretch without canopy ends a mesh
-  /// Least share of a row's points within tolerance_m of the inside. Pictures see low leaves
-  /// badly; 0.98 leaves out more of those, and of the volume, than noise swells it.
+  /// Minimum share of a row's points inside or within tolerance_m. Pictures show low leaves badly:
+  /// 0.98 would lose more volume at low leaves than noise adds.
   double containment = 0.985;
   double tolerance_m = 0.01;
   double simplify_m = 0.001;  ///< sections that move the surface less than this are left out
-  /// Of all rows' meshes as binary PLY without headers, and the same per metre of mesh: more
-  /// sections are left out, those that matter least first, until both are kept. 0: no budget.
+  /// Bytes of all rows' meshes as binary PLY without headers, and the same per metre of mesh. More
+  /// sections are left out, the least important first, until both are met. 0: no budget.
   double budget_bytes = 0.0;
   double budget_bytes_per_m = 1300.0;
 };
 
-/// One row's result.
+/// Hulls of one row.
 struct RowHulls {
   int row = 0;
   std::vector<HullChain> chains;       ///< along the row's line, in order
   std::vector<TriangleMesh> meshes_W;  ///< one per chain, watertight, outside counter-clockwise
-  /// Everything but spacing_m. The volume is the meshes' own.
+  /// All figures except spacing_m. The volume is that of the meshes.
   MappedRowFigures figures;
-  /// The meshes' volume less what lies between them and the middle of the points' scatter: an
-  /// estimate of the canopy's volume that noise does not swell.
+  /// Volume of the meshes without the shell between their sides and the mean of the points' scatter
+  /// about them: an estimate of the canopy's volume without the bias of noise.
   double canopy_volume_m3 = 0.0;
   double noise_m = 0.0;  ///< 1 sigma of the points across the side faces
-  /// How much larger sections are than the smallest polygons of as many corners, before points are
-  /// left outside: what shared directions cost.
+  /// Relative excess of the sections' area over the smallest polygons with as many corners, before
+  /// points are left outside: the cost of shared directions.
   double section_excess = 0.0;
-  double simplify_error_m = 0;  ///< most that leaving out one section has moved the surface, mean
+  double simplify_error_m = 0;  ///< largest mean movement of the surface by leaving out one section
   std::int64_t dropped = 0;     ///< points in sparse cells, still counted in the containment
   std::int64_t mesh_bytes = 0;  ///< as binary PLY without headers
   std::vector<std::string> notes;  ///< whole sentences for the user
@@ -61,7 +61,7 @@ struct RowHulls {
 /// @param rows    points that are not finite are left out, with a note
 /// @param ground  height of the ground in W; called from many threads at once
 /// @returns one per row, in order; a row of too few points has no mesh and a note
-/// @throws ConfigError where an option is out of range
+/// @throws ConfigError if an option is out of range
 std::vector<RowHulls> make_row_hulls(std::span<const RowCanopy> rows, const GroundHeight& ground,
                                      const RowHullOptions& options = {});
 

@@ -6,8 +6,8 @@
 namespace vinerow::mapping {
 namespace {
 
-// Farther out nothing belongs to a plant row; so a wild point costs no memory.
-constexpr float kBeyondEnds_m = 10.0f, kMostAcross_m = 4.0f, kLowest_m = -2.0f, kHighest_m = 8.0f;
+// Points farther out belong to no plant row; the limit bounds the memory for stray points.
+constexpr float kBeyondEnds_m = 10.0f, kMaxAcross_m = 4.0f, kLowest_m = -2.0f, kHighest_m = 8.0f;
 constexpr double kLocalShare = 0.03, kRowShare = 0.01;
 constexpr float kStray = 2.5f;  // one or two points alone, unless the whole row is as sparse
 constexpr double kStrayShare = 0.15;
@@ -19,7 +19,7 @@ constexpr double kPointsPerSlice = 60.0;
 constexpr double kEndShare = 0.02;  // of the points of an end that noise has carried beyond it
 constexpr double kEnd_m = 0.3;
 
-/// Counts points in cells along and across the row and tells which cells are sparse.
+/// Counts of points in cells along and across the row, to find sparse cells.
 class CellFilter {
  public:
   CellFilter(const std::vector<Eigen::Vector3f>& points, const RowSliceOptions& options) {
@@ -31,7 +31,7 @@ class CellFilter {
     per_m_ = Eigen::Vector3f(static_cast<float>(1.0 / options.slice_m),
                              static_cast<float>(1.0 / options.cell_m),
                              static_cast<float>(1.0 / options.cell_m));
-    // A border of empty cells spares the neighbourhood its questions.
+    // A border of empty cells, so that neighbourhoods need no bounds checks.
     for (int axis = 0; axis < 3; ++axis) {
       count_[axis] = static_cast<std::size_t>((high_[axis] - low_[axis]) * per_m_[axis]) + 3;
     }
@@ -131,8 +131,8 @@ double median_of_positive(std::vector<std::uint32_t> counts) {
   return *middle;
 }
 
-/// Which steps along the row hold canopy: enough points, and not just those of a post that stands
-/// where vines are missing.
+/// Steps along the row with canopy: enough points, and not only those of a post where vines are
+/// missing.
 std::vector<std::uint8_t> occupied_steps(const std::vector<std::uint32_t>& counts) {
   constexpr std::size_t kPost = 6;   // steps that it takes up at most, with the points' noise
   constexpr std::size_t kApart = 2;  // empty ones on both sides
@@ -160,7 +160,7 @@ std::vector<std::uint8_t> occupied_steps(const std::vector<std::uint32_t>& count
   return canopy;
 }
 
-/// Where the canopy of sorted or unsorted s ends: a share of those close to the end is noise.
+/// End of the canopy from values of s in any order: a share of those close to the end is noise.
 double robust_end(std::vector<float>& s_m, bool low) {
   const auto order = [low](float a, float b) { return low ? a < b : a > b; };
   const float outermost = *std::min_element(s_m.begin(), s_m.end(), order);
@@ -215,7 +215,7 @@ RowStretches slice_row(const RowCanopy& row, const RowSliceOptions& options) {
     if (!p.allFinite()) {
       ++result.not_finite;
     } else if (p.x() < -kBeyondEnds_m || p.x() > length_m + kBeyondEnds_m ||
-               std::abs(p.y()) > kMostAcross_m || p.z() < kLowest_m || p.z() > kHighest_m) {
+               std::abs(p.y()) > kMaxAcross_m || p.z() < kLowest_m || p.z() > kHighest_m) {
       ++result.sparse;
     } else {
       points.push_back(p);
@@ -242,7 +242,7 @@ RowStretches slice_row(const RowCanopy& row, const RowSliceOptions& options) {
   std::vector<std::uint32_t> counts(static_cast<std::size_t>((high_m - low_m) / kOccupied_m) + 1);
   for (const Eigen::Vector3f& p : points) ++counts[step_of(p)];
   const std::vector<std::uint8_t> canopy = occupied_steps(counts);
-  // What stands where no canopy is, and not at its rim, would widen the stretch's last section.
+  // Points outside the canopy, and not at its rim, would widen the stretch's last section.
   const auto is_off_canopy = [&](const Eigen::Vector3f& p) {
     constexpr std::size_t kRim = 2;
     const std::size_t step = step_of(p);
@@ -257,21 +257,21 @@ RowStretches slice_row(const RowCanopy& row, const RowSliceOptions& options) {
   points.erase(on_canopy, points.end());
   // Number of the stretch that each step belongs to.
   std::vector<std::uint32_t> stretch_of(counts.size());
-  const auto most_empty = static_cast<std::size_t>(options.gap_m / kOccupied_m);
+  const auto max_empty = static_cast<std::size_t>(options.gap_m / kOccupied_m);
   std::uint32_t stretches = 0;
   std::size_t empty = 0;
   std::vector<std::pair<double, double>> occupied_m;  // from and to, of each stretch
   for (std::size_t i = 0; i < counts.size(); ++i) {
     const bool occupied = canopy[i] != 0;
     empty = occupied ? 0 : empty + 1;
-    if (empty == most_empty) ++stretches;
+    if (empty == max_empty) ++stretches;
     stretch_of[i] = stretches;
     occupied_m.resize(stretches + 1, {1.0, 0.0});
     if (!occupied) continue;
-    const double begins_m = low_m + static_cast<double>(i) * kOccupied_m;
+    const double starts_m = low_m + static_cast<double>(i) * kOccupied_m;
     auto& [from_m, to_m] = occupied_m[stretches];
-    if (from_m > to_m) from_m = begins_m;
-    to_m = begins_m + kOccupied_m;
+    if (from_m > to_m) from_m = starts_m;
+    to_m = starts_m + kOccupied_m;
   }
   std::vector<std::vector<Eigen::Vector3f>> parts(stretches + 1);
   std::vector<std::size_t> sizes(parts.size());

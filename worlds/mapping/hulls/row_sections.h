@@ -1,5 +1,5 @@
 #pragma once
-/// A row's canopy points without strays, cut at gaps and into slices along the row.
+/// Canopy points of a row without strays, divided at gaps and into slices along the row.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -18,11 +18,11 @@ struct RowSliceOptions {
 
 /// Canopy without a gap.
 struct RowStretch {
-  double from_m = 0.0, to_m = 0.0;  ///< where the canopy ends, noise left out
-  /// (s, y, z), by slices of equal length from from_m to to_m; what is beyond the ends belongs to
-  /// the first and last.
+  double from_m = 0.0, to_m = 0.0;  ///< ends of the canopy, without noise
+  /// (s, y, z), by slices of equal length from from_m to to_m. Points beyond the ends belong to the
+  /// first and last slice.
   std::vector<Eigen::Vector3f> points;
-  std::vector<std::size_t> first;  ///< point of each slice, and one behind the last
+  std::vector<std::size_t> first;  ///< index of each slice's first point, and one past the last
 
   int slices() const { return static_cast<int>(first.size()) - 1; }
   double slice_m() const { return (to_m - from_m) / slices(); }
@@ -37,12 +37,12 @@ struct RowStretches {
   std::int64_t not_finite = 0;
 };
 
-/// Sparse is a cell of cell_m x cell_m x slice_m whose neighbourhood of 3 x 3 x 3 cells holds less
-/// than 3 % of the points that it does for the median point within 1 m along the row, or 1 % of the
-/// whole row's median, or no more than two points in a row that is denser: the low parts of canopy
-/// that pictures hardly see are sparse too, and what strays is left outside by the fit. So it is
-/// the same share at 200 and at 1500 points/m2. Slices are made longer where they would hold fewer
-/// than 60 points on average.
+/// Removes sparse cells, and divides the row. A cell of cell_m x cell_m x slice_m is sparse if its
+/// neighbourhood of 3 x 3 x 3 cells contains less than 3 % of the points in that of the median
+/// point within 1 m along the row, less than 1 % of the whole row's median, or at most two points
+/// in a denser row. The thresholds are low because the low parts of a canopy, which pictures hardly
+/// show, are sparse too; the fit leaves remaining strays outside. The shares are the same at 200
+/// and at 1500 points/m2. Slices are longer if they would contain fewer than 60 points on average.
 RowStretches slice_row(const RowCanopy& row, const RowSliceOptions& options);
 
 }  // namespace vinerow::mapping

@@ -15,7 +15,7 @@ namespace {
 /// @param supports  of each slice in each direction of `fine`
 double excess_of(const std::vector<double>& supports, const HullDirections& fine,
                  const HullDirections& chosen, int corners) {
-  double own_m2 = 0.0, least_m2 = 0.0;
+  double own_m2 = 0.0, min_m2 = 0.0;
   const auto count = static_cast<std::size_t>(fine.count());
   std::vector<double> h(static_cast<std::size_t>(chosen.count()));
   for (std::size_t row = 0; row < supports.size(); row += count) {
@@ -31,9 +31,9 @@ double excess_of(const std::vector<double>& supports, const HullDirections& fine
       for (const Eigen::Vector2d& p : outline) level = std::max(level, chosen.normal(k).dot(p));
     }
     own_m2 += chosen.area_m2(h.data());
-    least_m2 += signed_area_m2(*smallest);
+    min_m2 += signed_area_m2(*smallest);
   }
-  return least_m2 > 0.0 ? own_m2 / least_m2 - 1.0 : 0.0;
+  return min_m2 > 0.0 ? own_m2 / min_m2 - 1.0 : 0.0;
 }
 
 }  // namespace
@@ -77,7 +77,7 @@ HullDirections choose_directions(const std::vector<RowStretch>& stretches, int c
   std::vector<int> kept(kFine);
   for (int k = 0; k < kFine; ++k) kept[k] = k;
   while (static_cast<int>(kept.size()) > corners) {
-    double least_m2 = std::numeric_limits<double>::infinity();
+    double min_m2 = std::numeric_limits<double>::infinity();
     std::size_t out = 0;
     const std::size_t n = kept.size();
     for (std::size_t k = 0; k < n; ++k) {
@@ -95,12 +95,12 @@ HullDirections choose_directions(const std::vector<RowStretch>& stretches, int c
                                                 h[own] * (1.0 / std::tan(a) + 1.0 / std::tan(b)));
         added_m2 += side_m * side_m * per_m2;
       }
-      if (added_m2 < least_m2) {
-        least_m2 = added_m2;
+      if (added_m2 < min_m2) {
+        min_m2 = added_m2;
         out = k;
       }
     }
-    if (least_m2 == std::numeric_limits<double>::infinity()) break;
+    if (min_m2 == std::numeric_limits<double>::infinity()) break;
     kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(out));
   }
   std::vector<double> chosen;

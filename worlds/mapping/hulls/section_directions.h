@@ -1,5 +1,5 @@
 #pragma once
-/// The directions that the sides of all of a row's sections look in.
+/// Choice of the directions that the sides of all sections of a row share.
 
 #include <vector>
 
@@ -8,15 +8,15 @@
 
 namespace vinerow::mapping {
 
-/// The level that one value in a hundred is above: where a side lies when no stray may push it out.
-/// @param values  not empty; left in another order
+/// Level that one value in a hundred exceeds: offset of a side that strays do not push out.
+/// @param values  not empty; reordered
 float upper_level(std::vector<float>& values);
 
-/// The `corners` of 32 directions whose polygons around the slices of all stretches have the least
-/// area in sum, found by taking away what adds least, again and again.
-/// @param excess  if not null: how much larger these polygons are, in sum, than the smallest ones
-/// of as many corners around the same slices (enclosing_polygon.h); what it costs that all slices
-/// share their directions. 0 where there are no slices to tell.
+/// Chooses `corners` of 32 directions for a small total area of the polygons around the slices of
+/// all stretches: greedily removes the direction that adds the least area.
+/// @param excess  if not null: relative excess of the total area over the smallest polygons with as
+/// many corners around the same slices (enclosing_polygon.h), the cost of shared directions. 0 if
+/// there are no slices with enough points.
 HullDirections choose_directions(const std::vector<RowStretch>& stretches, int corners,
                                  double* excess = nullptr);
 

@@ -9,11 +9,11 @@
 #include "engine/api/parameter_table.h"
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
-#include "worlds/mapping/jobs/cloud_map_type.h"
 #include "worlds/mapping/folder/map_folder.h"
 #include "worlds/mapping/folder/map_gis.h"
 #include "worlds/mapping/folder/map_points.h"
 #include "worlds/mapping/jobs/cloud_map_job_params.h"
+#include "worlds/mapping/jobs/cloud_map_type.h"
 #include "worlds/mapping/photogrammetry/map_comparison.h"
 #include "worlds/mapping/pipeline/make_cloud_map.h"
 #include "worlds/mapping/reading/cloud_source.h"
@@ -27,7 +27,7 @@ CloudMapJobParams read_cloud_map_job(const ParameterSet& parameters) {
   return params;
 }
 
-/// Counter-clockwise. @throws ConfigError where the world has none
+/// The world's parcel, counter-clockwise. @throws ConfigError if the world has no parcel
 Polygon parcel_of(const WorldModel& world) {
   Polygon parcel = world.rows->boundary_W;
   if (parcel.size() < 3) {
@@ -79,7 +79,7 @@ class CloudMapJob : public Job {
  private:
   JobOutcome make(const std::filesystem::path& file) const {
     const CloudMap made = make_files(file);
-    // Of several blocks the parcel's, or the one with the most metres of rows.
+    // Of several blocks that of the parcel, or the one with the largest total length of rows.
     const CloudMap& map = made.blocks.empty() ? made : made.blocks.front();
     JobOutcome outcome;
     outcome.numbers = {
@@ -98,12 +98,12 @@ class CloudMapJob : public Job {
     outcome.product.kind = ProductKind::kMap;
     outcome.product.file = context_.folder;
     outcome.product.map = std::make_shared<RowMap>(
-        told_map(made.blocks.empty() ? context_.folder : block_folder(context_.folder, 0)));
+        given_map(made.blocks.empty() ? context_.folder : block_folder(context_.folder, 0)));
     return outcome;
   }
 
-  /// The map, and the folder's files. The points are as many as the memory of a mission: they go
-  /// before the truth comes.
+  /// Makes the map and the folder's files. The points take most of the memory and are released
+  /// before the truth is read.
   CloudMap make_files(const std::filesystem::path& file) const {
     CloudReadReport read;
     ParcelCloud cloud = read_parcel_cloud(file, reading_, read);
@@ -115,8 +115,8 @@ class CloudMapJob : public Job {
     return map;
   }
 
-  /// From the folder, so that a run on the same folder later knows the same bits.
-  RowMap told_map(const std::filesystem::path& folder) const {
+  /// Reads the map from the folder, so that a later run on the same folder has the same bits.
+  RowMap given_map(const std::filesystem::path& folder) const {
     MapContext context;
     static_cast<PartContext&>(context) = context_;
     context.vehicle = context_.part;
@@ -131,11 +131,46 @@ class CloudMapJob : public Job {
   const bool like_world_;
 };
 
+std::vector<ResultSpec> cloud_map_results() {
+  using Range = ResultRange;
+  return {{"points", "1", Range::count(), "points",
+           "Number of points that the job produced or read.", ""},
+          {"rows", "1", Range::count(), "rows on map", "Number of plant rows on the resulting map.",
+           "paper A, §3"},
+          {"alleys", "1", Range::count(), "alleys on map", "Number of alleys on the resulting map.",
+           ""},
+          {"containment_share", "1", Range::share(), "canopy inside meshes",
+           "Fraction of the canopy points within 1 cm of the inside of the map's meshes. The mesh "
+           "sides are moved outwards until it reaches the setting (0.985), so it shows whether "
+           "that setting was met.",
+           "paper A, §3"},
+          {"reduction_share", "1", Range::any(), "data reduction",
+           "1 minus the size of the meshes divided by the size of the cloud.", "paper A, §3"},
+          {"mesh_MB", "MB", Range::from_zero(), "mesh size",
+           "Size of the map's meshes as binary PLY.", "paper A, §3"},
+          {"rows_found", "1", Range::count(), "true rows found",
+           "Number of true rows that have a row on the map.", "paper A, §3"},
+          {"rows_true", "1", Range::count(), "true rows", "Number of true rows with canopy.", ""},
+          {"rows_extra", "1", Range::count(), "false rows on map",
+           "Number of rows on the map where there is no true row.", ""},
+          {"direction_error_deg", "deg", Range::any(), "row direction error",
+           "Direction of the rows on the map minus the true direction.", ""},
+          {"spacing_error_m", "m", Range::any(), "row spacing error",
+           "Row spacing of the map minus the true spacing.", ""},
+          {"end_error_max_m", "m", Range::from_zero(), "max row end error",
+           "Largest horizontal distance between a row end on the map and the true row end.", ""},
+          {"volume_error_share", "1", Range::any(), "canopy volume error",
+           "Relative error of the canopy volume inside the map's meshes: estimated divided by true "
+           "volume, minus 1.",
+           ""}};
+}
+
 }  // namespace
 
 void register_cloud_map_job(Registry& registry) {
   PartSpec spec;
   spec.name = "cloud_map";
+  spec.results = cloud_map_results();
   spec.description =
       "turns a point cloud into a low-complexity map: rows, alleys, ground, row meshes and "
       "occupancy grid, after paper A, section 3";

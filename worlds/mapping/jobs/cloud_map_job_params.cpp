@@ -16,8 +16,7 @@ const ParameterTable<CloudMapJobParams>& cloud_map_job_table() {
                   "of the map: the world's parcel, as its farmer knows it from the land "
                   "register; none: a box around the rows")
           .choice("numbering", &P::like_world, {{"world", true}, {"map", false}},
-                  "rows and alleys are counted from the side, and run the way, that the "
-                  "world's do; or as they were found")
+                  "rows and alleys are numbered and directed like the world's, or as found")
           .text("crs", inside(&P::reading, &CloudReadOptions::crs),
                 "of the cloud's numbers, like EPSG:25832; none: metres of the world's frame; "
                 "default: as the file says")
@@ -25,18 +24,19 @@ const ParameterTable<CloudMapJobParams>& cloud_map_job_table() {
                    "takes every n-th point")
           .number("canopy_cut_m", "m", inside(&P::options, &Options::canopy_cut_m),
                   between(0.05, 5.0),
-                  "above the ground where canopy may begin; what is lower is grass and weeds")
+                  "height above the ground at which canopy may begin; anything lower is grass and "
+                  "weeds")
           .members("row_spacing_m", "m", between(0.1, 100.0),
-                   "least and largest distance of rows that are looked for",
+                   "smallest and largest row spacing that is searched",
                    inside(&P::options, &Options::spacing_low_m),
                    inside(&P::options, &Options::spacing_high_m))
           .number("least_row_length_m", "m", inside(&P::options, &Options::row_length_low_m),
-                  between(1.0, 1000.0), "shorter ones are no rows")
+                  between(1.0, 1000.0), "shorter lines are not rows")
           .number("terrain_cell_m", "m", inside(&P::options, &Options::terrain_cell_m),
                   between(0.1, 20.0), "between heights of the ground")
           .number("headland_m", "m", inside(&P::options, &Options::headland_m),
                   between(0.1, 1000.0),
-                  "of ground beyond row ends and outer rows, where there is no boundary")
+                  "of ground beyond row ends and outer rows, if there is no boundary")
           .integer("corners", inside(&P::options, &Options::corners), between(5, 16),
                    "of a cross-section")
           .number("slice_m", "m", inside(&P::options, &Options::slice_m), between(0.02, 5.0),
@@ -48,8 +48,8 @@ const ParameterTable<CloudMapJobParams>& cloud_map_job_table() {
           .number("occupancy_cell_m", "m", inside(&P::options, &Options::occupancy, &Grid::cell_m),
                   between(0.0, 10.0), "cell of the occupancy grid; 0: no grid")
           .boolean("virtual_walls", inside(&P::options, &Options::occupancy, &Grid::virtual_walls),
-                   "the grid has walls from row ends to the boundary that leave the "
-                   "serpentine as the only way")
+                   "the grid has walls from row ends to the boundary that leave only the "
+                   "serpentine free")
           .choice("first_wall", inside(&P::options, &Options::occupancy, &Grid::first_wall),
                   {{"auto", std::nullopt}, {"first", RowEnd::kFirst}, {"last", RowEnd::kLast}},
                   "end of row 0 that is closed by a virtual wall; the others alternate");

@@ -1,5 +1,5 @@
 #pragma once
-/// What can be said of the job `cloud_map`.
+/// Parameters of the job `cloud_map`.
 
 #include "engine/api/parameter_table_fwd.h"
 #include "worlds/mapping/pipeline/make_cloud_map.h"
@@ -10,11 +10,11 @@ namespace vinerow::mapping {
 struct CloudMapJobParams {
   CloudMapOptions options;   ///< without the boundary
   bool with_parcel = true;   ///< the boundary is the world's parcel, else a box around the rows
-  bool like_world = true;    ///< rows and alleys are numbered so
+  bool like_world = true;    ///< numbers rows and alleys like the world
   CloudReadOptions reading;  ///< crs and thin
 };
 
-/// What must fit together, check_options(CloudMapOptions) checks after reading.
+/// check_options(CloudMapOptions) checks the consistency of the options after reading.
 const ParameterTable<CloudMapJobParams>& cloud_map_job_table();
 
 }  // namespace vinerow::mapping

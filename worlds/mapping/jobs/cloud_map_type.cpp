@@ -20,17 +20,17 @@
 namespace vinerow::mapping {
 namespace {
 
-constexpr double kElsewhere_m = 50.0;  ///< a map so far beside the world's rows is of others
-constexpr double kHigh_m = 2.0;        ///< so far off the ground two height systems were mixed
+constexpr double kMaxMapOffset_m = 50.0;  ///< a map so far beside the world's rows is of others
+constexpr double kHigh_m = 2.0;           ///< so far off the ground two height systems were mixed
 
 enum class FirstWall { kAuto, kFirst, kLast };
 
 struct CloudMapParams {
   std::filesystem::path folder;
   bool like_world = true;             ///< numbered so
-  double stated_surface_std_m = 0.0;  ///< 0: what the map says
+  double stated_surface_std_m = 0.0;  ///< 0: as the map states
   std::optional<Eigen::Vector3d> offset_std_m;
-  // Any of these draws the grid anew.
+  // Any of these redraws the grid.
   std::optional<double> occupancy_cell_m;
   std::optional<bool> virtual_walls;
   std::optional<FirstWall> first_wall;
@@ -43,13 +43,12 @@ const ParameterTable<CloudMapParams>& cloud_map_table() {
           .path("folder", &P::folder, "folder that `vinerow map` wrote")
           .required()
           .choice("numbering", &P::like_world, {{"world", true}, {"map", false}},
-                  "rows and alleys are counted from the side, and run the way, that the "
-                  "world's do; or as the folder has them")
+                  "rows and alleys are numbered and directed like the world's, or as in the folder")
           .number("stated_surface_std_m", "m", &P::stated_surface_std_m, between(0.0, 1.0),
-                  "1 sigma of the meshes' surface that estimators are told; 0: what the map says")
+                  "1 sigma of the meshes' surface for estimators; 0: as the map states")
           .numbers("offset_std_m", "m", &P::offset_std_m, kNotNegative,
-                   "1 sigma of a shift of the whole map, east, north, up, that estimators are "
-                   "told; default: what the map says")
+                   "1 sigma of a shift of the whole map, east, north, up, for estimators; default: "
+                   "as the map states")
           .number("occupancy_cell_m", "m", &P::occupancy_cell_m, between(0.005, 10.0),
                   "draws the occupancy grid again from the map's rows and boundary with cells "
                   "of this size; default: the map's own grid")
@@ -64,17 +63,17 @@ const ParameterTable<CloudMapParams>& cloud_map_table() {
 }
 
 /// "1.24 km", "63 m".
-std::string shown_way(double way_m) {
+std::string shown_path(double way_m) {
   return way_m < 1000.0 ? fmt::format("{:.0f} m", way_m) : fmt::format("{:.2f} km", way_m / 1000.0);
 }
 
-/// Worlds that nobody gave a place stand at 0 deg north, 0 deg east.
+/// Worlds without a given origin are at 0 deg north, 0 deg east.
 bool has_place(const WorldModel& world) {
   return world.origin.latitude_rad != 0.0 || world.origin.longitude_rad != 0.0;
 }
 
-/// To the world's rows; to its terrain where it has no rows.
-double way_to_m(const RowMap& map, const WorldModel& world) {
+/// Distance to the world's rows, or to its terrain if it has no rows.
+double distance_to_m(const RowMap& map, const WorldModel& world) {
   if (!world.rows->rows.empty()) return distance_between_m(map.rows, world.rows->rows);
   if (!world.terrain) return 0.0;
   const HeightField& t = *world.terrain;
@@ -84,13 +83,13 @@ double way_to_m(const RowMap& map, const WorldModel& world) {
   return distance_between_m(map.rows, {diagonal});
 }
 
-void refuse_elsewhere(const CloudMap& map, bool moved, const WorldModel& world,
-                      const std::string& folder) {
-  const double apart_m = way_to_m(map.map, world);
-  if (apart_m <= kElsewhere_m) return;
+void refuse_distant_map(const CloudMap& map, bool moved, const WorldModel& world,
+                        const std::string& folder) {
+  const double apart_m = distance_to_m(map.map, world);
+  if (apart_m <= kMaxMapOffset_m) return;
   throw ConfigError(fmt::format(
       "map cloud_map: the rows of map '{}' lie {} from world '{}', must be within {:g} m: {}",
-      folder, shown_way(apart_m), world.name, kElsewhere_m,
+      folder, shown_path(apart_m), world.name, kMaxMapOffset_m,
       moved ? "it is of another place, or one of the two origins is wrong"
             : "its x and y are taken for the world's, as one of the two has no origin"));
 }
@@ -114,7 +113,7 @@ void note_heights(const RowMap& map, const MapContext& context, const std::strin
       context.vehicle, folder, std::abs(sum_m / count), sum_m > 0.0 ? "above" : "below"));
 }
 
-void draw_grid_anew(const CloudMapParams& params, RowMap& map) {
+void redraw_grid(const CloudMapParams& params, RowMap& map) {
   OccupancyOptions options;
   if (!map.occupancy.empty()) options.cell_m = map.occupancy.cell_m;
   options.cell_m = params.occupancy_cell_m.value_or(options.cell_m);
@@ -139,7 +138,7 @@ RowMap map_in_world(CloudMap map, bool like_world, const MapContext& context,
                     map.has_origin ? fmt::format("world '{}'", context.world->name)
                                    : fmt::format("map '{}'", folder)));
   }
-  refuse_elsewhere(map, moves, *context.world, folder);
+  refuse_distant_map(map, moves, *context.world, folder);
   if (like_world && !context.world->rows->rows.empty()) number_like(context.world->rows, map.map);
   note_heights(map.map, context, folder);
   return std::move(map.map);
@@ -158,7 +157,7 @@ std::unique_ptr<RowMap> make_map_of_folder(const ParameterSet& parameters,
   }
   RowMap map = map_in_world(*read, params.like_world, context, params.folder.string());
   const bool anew = params.occupancy_cell_m || params.virtual_walls || params.first_wall;
-  if (anew) draw_grid_anew(params, map);
+  if (anew) redraw_grid(params, map);
   if (params.stated_surface_std_m > 0.0) map.accuracy.surface_std_m = params.stated_surface_std_m;
   if (params.offset_std_m) map.accuracy.offset_std_m = *params.offset_std_m;
   return std::make_unique<RowMap>(std::move(map));
@@ -168,9 +167,8 @@ void register_cloud_map(Registry& registry) {
   PartSpec spec;
   spec.name = "cloud_map";
   spec.description =
-      "a map that `vinerow map` made of a point cloud: rows, alleys, parcel, ground, row meshes "
-      "and "
-      "occupancy grid, after paper A, section 3";
+      "a map that `vinerow map` made from a point cloud: rows, alleys, parcel, ground, row meshes "
+      "and occupancy grid, after paper A, section 3";
   spec.parameters = cloud_map_table().specs();
   registry.add_map(std::move(spec), make_map_of_folder);
 }

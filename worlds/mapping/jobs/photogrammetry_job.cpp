@@ -41,7 +41,7 @@ JobOutcome outcome_of(const WrittenCloud& written, const std::filesystem::path& 
                      {"file_MB", 1e-6 * static_cast<double>(written.bytes)}};
   if (written.tally.missing > 0) {
     outcome.notes.push_back(
-        fmt::format("{} canopy points of rows that no picture is to show were left out",
+        fmt::format("{} canopy points were left out because no picture shows their rows",
                     written.tally.missing));
   }
   return outcome;
@@ -81,14 +81,44 @@ class PhotogrammetryJob : public Job {
   CloudTarget target_;
 };
 
+std::vector<ResultSpec> photogrammetry_results() {
+  using Range = ResultRange;
+  return {
+      {"points", "1", Range::count(), "points", "Number of points that the job produced or read.",
+       ""},
+      {"density_per_m2", "1/m²", Range::from_zero(), "point density",
+       "Points of the cloud per square metre of covered ground.", "paper A, §3"},
+      {"pictures", "1", Range::count(), "pictures used",
+       "Number of pictures from which the cloud is made.", ""},
+      {"gsd_m", "m", Range::from_zero(), "GSD of the pictures",
+       "Ground sampling distance of the pictures from which the cloud is made.", "paper A, §2"},
+      {"mean_views", "1", Range::from_zero(), "pictures per point",
+       "Mean number of pictures that show a point.", ""},
+      {"horizontal_noise_m", "m", Range::from_zero(), "horizontal point noise",
+       "Root mean square of the horizontal errors of the points, both coordinates together.", ""},
+      {"height_noise_m", "m", Range::from_zero(), "vertical point noise",
+       "Root mean square of the height errors of the points.", ""},
+      {"georeference_shift_m", "m", Range::from_zero(), "horizontal georeferencing error",
+       "Horizontal displacement of the whole cloud.", ""},
+      {"georeference_height_m", "m", Range::any(), "vertical georeferencing error",
+       "Vertical displacement of the whole cloud, positive upwards.", ""},
+      {"georeference_tilt_deg", "deg", Range::any(), "georeferencing tilt error",
+       "Tilt of the whole cloud.", ""},
+      {"georeference_turn_deg", "deg", Range::any(), "georeferencing heading error",
+       "Rotation of the whole cloud about the vertical.", ""},
+      {"file_MB", "MB", Range::from_zero(), "cloud file size",
+       "Size of the file of the point cloud.", ""}};
+}
+
 }  // namespace
 
 void register_photogrammetry_job(Registry& registry) {
   PartSpec spec;
   spec.name = "photogrammetry";
+  spec.results = photogrammetry_results();
   spec.description =
       "turns the pictures of a survey into a point cloud: dense matching by visibility, errors of "
-      "forward intersection (Hartley, Zisserman, section 5.2); the truth is kept beside it";
+      "forward intersection (Hartley, Zisserman, section 5.2); the truth is in a file next to it";
   spec.parameters = photogrammetry_job_table().specs();
   spec.takes = {{"pictures", ProductKind::kPictures, true, "of a survey's camera_trigger"}};
   spec.gives = ProductKind::kCloud;

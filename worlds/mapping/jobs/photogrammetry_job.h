@@ -1,12 +1,12 @@
 #pragma once
-/// The job `photogrammetry`: pictures of a survey into a point cloud, as `vinerow cloud --log`
-/// makes it. What is modelled: worlds/mapping/photogrammetry/photogrammetry.h.
+/// Job `photogrammetry`: makes a point cloud from the pictures of a survey, like
+/// `vinerow cloud --log`. The model is in worlds/mapping/photogrammetry/photogrammetry.h.
 
 #include "engine/api/registry.h"
 
 namespace vinerow::mapping {
 
-/// Takes `pictures`, gives a cloud: <folder>/cloud.las with cloud.truth.json beside it.
+/// Takes `pictures`, gives a cloud: <folder>/cloud.las and cloud.truth.json.
 void register_photogrammetry_job(Registry& registry);
 
 }  // namespace vinerow::mapping

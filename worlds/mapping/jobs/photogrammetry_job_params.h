@@ -1,5 +1,5 @@
 #pragma once
-/// What can be said of the job `photogrammetry`.
+/// Parameters of the job `photogrammetry`.
 
 #include <vector>
 
@@ -10,7 +10,7 @@
 namespace vinerow::mapping {
 
 struct PhotogrammetryJobParams {
-  PhotogrammetryOptions options;  ///< all but the seed
+  PhotogrammetryOptions options;  ///< without the seed
   std::vector<double> area_m;     ///< x and y of each corner; empty: the world's parcel
   double margin_m = 0.0;          ///< around the area
   CloudFileOptions file;

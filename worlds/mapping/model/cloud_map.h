@@ -1,5 +1,5 @@
 #pragma once
-/// A low-complexity map made of a point cloud, and what is said of how good it is.
+/// Low-complexity map made from a point cloud, with a report on its quality.
 ///
 /// Source: paper A, section 3 (Mammarella et al., Biosystems Engineering 223, 2022), after Comba et
 /// al., Computers and Electronics in Agriculture 155 (2018), and Biosystems Engineering 197 (2020).
@@ -15,31 +15,30 @@
 
 namespace vinerow::mapping {
 
-/// Of one row. Lengths in m along the row's line.
+/// Figures of one row. Lengths in m along the row's line.
 struct MappedRowFigures {
   int row = 0;                                              ///< PlantRow::id
-  int block = 0;                                            ///< that it belongs to
+  int block = 0;                                            ///< block of the row
   Eigen::Vector3d first_W = {0, 0, 0}, last_W = {0, 0, 0};  ///< the canopy's ends, on the ground
   double length_m = 0.0;
   double bearing_deg = 0.0;     ///< first to last point, clockwise from north
   double spacing_m = 0.0;       ///< mean distance to the next row; 0: the last row
   double canopy_base_m = 0.0;   ///< above the ground, mean over the row
-  double canopy_top_m = 0.0;    ///< the same
-  double canopy_width_m = 0.0;  ///< the same
+  double canopy_top_m = 0.0;    ///< above the ground, mean over the row
+  double canopy_width_m = 0.0;  ///< mean over the row
   double volume_m3 = 0.0;       ///< inside its meshes
-  double seen_volume_m3 =
-      0.0;                   ///< estimate of the canopy that was seen, which noise does not swell
-  double containment = 0.0;  ///< share of its points within 1 cm of the inside of its meshes
-  std::int64_t points = 0;   ///< of canopy
+  double seen_volume_m3 = 0.0;  ///< estimate of the seen canopy without the bias of noise
+  double containment = 0.0;     ///< share of its points within 1 cm of the inside of its meshes
+  std::int64_t points = 0;      ///< of canopy
   std::int64_t triangles = 0;
   std::vector<std::pair<double, double>> gaps_m;  ///< without canopy, from and to along the line
 };
 
-/// Seconds and memory differ from run to run; nothing of the map depends on them.
+/// Time and memory of a phase. They differ from run to run; the map does not depend on them.
 struct MapPhase {
   std::string name;  ///< "read", "terrain", "rows", "meshes", "grid"
   double wall_s = 0.0;
-  double peak_memory_MB = 0.0;  ///< of the process at the phase's end
+  double peak_memory_MB = 0.0;  ///< of the process at the end of the phase
 };
 
 struct CloudMapReport {
@@ -56,7 +55,8 @@ struct CloudMapReport {
   double seen_volume_m3 = 0.0;                                       ///< sum
   double containment = 0.0;  ///< share of all canopy points within 1 cm of their row's meshes
   std::int64_t triangles = 0;
-  double section_excess = 0.0;  ///< area of cross-sections over the least of as many corners, - 1
+  double section_excess =
+      0.0;  ///< area of cross-sections over the smallest with as many corners, - 1
   std::int64_t mesh_bytes = 0;  ///< of the row meshes as binary PLY
   double reduction = 0.0;       ///< 1 - mesh_bytes / cloud_bytes
   std::vector<MappedRowFigures> rows;
@@ -65,13 +65,14 @@ struct CloudMapReport {
 };
 
 struct CloudMap {
-  GeoOrigin origin;  ///< of W; all zero where the cloud has no CRS and none was given
+  GeoOrigin origin;  ///< of W; all zero if the cloud has no CRS and none was given
   bool has_origin = false;
   RowMap map;  ///< rows, alleys, boundary, occupancy, meshes, accuracy, terrain
   CloudMapReport report;
-  /// Where the cloud holds several blocks of rows: each as a map of its own, its rows and alleys
-  /// counted from 0. `map` then has all of them, counted through, to look at and to measure: alleys
-  /// lie between rows of one block, and the grid has no virtual walls. Empty for one block.
+  /// If the cloud contains several blocks of rows: a separate map for each, with rows and alleys
+  /// counted from 0. `map` then contains all of them, numbered consecutively, for display and
+  /// measurement: alleys are between rows of one block, and the grid has no virtual walls. Empty
+  /// for one block.
   std::vector<CloudMap> blocks;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Where a map lies that is not quite where the vineyard is: shift, turn and scale of everything.
+/// Displacement of a map from the vineyard: shift, rotation and scale of everything.
 
 #include <vector>
 
@@ -24,9 +24,9 @@ Eigen::Vector3d middle_of(const std::vector<PlantRow>& rows);
 
 void place_meshes(const MapPlacement& placement, std::vector<RowMesh>& meshes);
 
-/// Rows, alleys, parcel and occupancy grid. A grid that is turned or scaled is drawn anew in
-/// squares of the same size: taken where the nearest old square or one beside it within half a
-/// square is.
+/// Rows, alleys, parcel and occupancy grid. A grid that is rotated or scaled is resampled with
+/// cells of the same size: a cell is occupied if the nearest old cell is, or one next to it within
+/// half a cell.
 void place_rows(const MapPlacement& placement, RowMap& map);
 
 }  // namespace vinerow::mapping

@@ -1,5 +1,5 @@
 #pragma once
-/// A row's line on the ground by arc length, and the frame plants stand in.
+/// Line of a row on the ground by arc length, and the frame of its plants.
 
 #include <Eigen/Core>
 #include <functional>
@@ -15,12 +15,12 @@ using GroundHeight = std::function<double(double x, double y)>;
 /// Polyline in the horizontal plane, by horizontal arc length s from its first point.
 class RowCurve {
  public:
-  /// @param points_W  >= 2, neighbours apart (demanded)
+  /// @param points_W  >= 2, neighbours distinct (demanded)
   explicit RowCurve(std::vector<Eigen::Vector2d> points_W);
 
   double length_m() const { return s_m_.back(); }
   const std::vector<Eigen::Vector2d>& points_W() const { return points_; }
-  /// Position at s; beyond the ends the first and last stretch continue.
+  /// Position at s; the line is extended straight beyond its ends.
   Eigen::Vector2d point_W(double s_m) const;
   /// Unit direction at s.
   Eigen::Vector2d direction_W(double s_m) const;
@@ -34,15 +34,15 @@ class RowCurve {
   std::vector<double> s_m_;  // of each point
 };
 
-/// A line in space seen from above, without its repeated points.
+/// Horizontal projection of a line, without repeated points.
 std::vector<Eigen::Vector2d> seen_from_above(const std::vector<Eigen::Vector3d>& line_W);
 
 /// Frame R of a row at s: origin on the ground, x along the row and the ground's slope, y level to
-/// the left, z off the ground. Vines and posts lean with the slope along their row and stay upright
-/// across it.
+/// the left, z away from the ground. Vines and posts lean with the slope along their row and are
+/// upright across it.
 Pose row_frame(const RowCurve& row, const GroundHeight& ground, double s_m);
 
-/// The same for a stretch: origin on the ground at its start, x towards the ground at its end.
+/// Frame R of a stretch: origin on the ground at its start, x towards the ground at its end.
 Pose stretch_frame(const RowCurve& row, const GroundHeight& ground, double start_m, double end_m);
 
 }  // namespace vinerow::mapping

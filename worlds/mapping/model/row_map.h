@@ -1,5 +1,5 @@
 #pragma once
-/// From the lines of a block of rows to its row map: order, alleys, the parcel around them.
+/// Row map from the lines of a block: order of rows, alleys, and the parcel around them.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -10,15 +10,15 @@
 
 namespace vinerow::mapping {
 
-/// Puts surveyed lines in order: all run the same way as the first, sorted across the block. The
-/// line that comes first in the file stays on the side it is on: the order is turned if it would
-/// otherwise be in the second half.
+/// Orders surveyed lines: all have the direction of the first and are sorted across the block. The
+/// order is reversed if the line that comes first in the file would otherwise be in the second
+/// half.
 std::vector<RowCurve> order_rows(std::vector<RowCurve> rows);
 
-/// The line midway between two rows that run the same way. Two straight rows give two points.
+/// Line midway between two rows of the same direction. Two straight rows give two points.
 std::vector<Eigen::Vector2d> middle_line(const RowCurve& left, const RowCurve& right);
 
-/// Corners of the box around the rows, turned with the mean row direction, counter-clockwise.
+/// Corners of the box around the rows, aligned with the mean row direction, counter-clockwise.
 /// @param along_m,across_m  margins beyond the row ends and the outer rows
 std::vector<Eigen::Vector2d> parcel_boundary(const std::vector<RowCurve>& rows, double along_m,
                                              double across_m);
@@ -26,7 +26,7 @@ std::vector<Eigen::Vector2d> parcel_boundary(const std::vector<RowCurve>& rows, 
 /// Axis-aligned box around a polygon.
 Eigen::AlignedBox2d box_around(const std::vector<Eigen::Vector2d>& polygon_W);
 
-/// Of all rows alike.
+/// Canopy of all rows.
 struct CanopySize {
   double width_m = 0.55;
   double base_m = 0.55;  ///< lowest leaves above ground

@@ -19,7 +19,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Which vertices hang together by triangles.
+/// Connected components of vertices by triangles.
 std::vector<std::uint32_t> find_pieces(const TriangleMesh& mesh) {
   std::vector<std::uint32_t> leader(mesh.vertices.size());
   std::iota(leader.begin(), leader.end(), 0u);
@@ -37,7 +37,8 @@ std::vector<std::uint32_t> find_pieces(const TriangleMesh& mesh) {
   return leader;
 }
 
-/// A line across meets a triangle: on which square's line, where, and whether it goes in.
+/// Intersection of a line across with a triangle: square of the line, position, and direction (in
+/// or out).
 struct Crossing {
   std::int64_t square;
   double y;

@@ -1,5 +1,5 @@
 #pragma once
-/// The part of the ground that a cloud covers.
+/// Area of the ground that a cloud covers.
 
 #include <Eigen/Geometry>
 
@@ -7,7 +7,7 @@
 
 namespace vinerow::mapping {
 
-/// A polygon and all that is at most `margin_m` outside of it.
+/// Polygon and everything within `margin_m` of it.
 class SurveyArea {
  public:
   /// @throws ConfigError: fewer than three corners, a corner that is not finite, a polygon that
@@ -15,9 +15,9 @@ class SurveyArea {
   SurveyArea(Polygon polygon_W, double margin_m);
 
   bool contains(const Eigen::Vector2d& p_W) const { return contains(p_W, 0.0); }
-  /// With so much more margin.
+  /// The same area with a larger margin.
   bool contains(const Eigen::Vector2d& p_W, double further_m) const;
-  /// Axis-aligned, around it.
+  /// Axis-aligned bounding box.
   Eigen::AlignedBox2d box_W() const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-/// A point cloud of a world on its way into a file.
+/// Writer of a world's point cloud.
 
 #include <cstdint>
 #include <filesystem>
@@ -19,10 +19,10 @@ struct CloudFileOptions {
   bool truth_classes = false;  ///< points carry their true classes
 };
 
-/// What is not finished is removed again.
+/// An unfinished file is removed.
 class CloudFile {
  public:
-  /// @param near_W  a place in the cloud
+  /// @param near_W  any point near the cloud
   /// @throws ConfigError as create_point_cloud() and LocalToCrs
   CloudFile(const std::filesystem::path& file, const CloudFileOptions& options,
             const GeoOrigin& origin, const Eigen::Vector3d& near_W);

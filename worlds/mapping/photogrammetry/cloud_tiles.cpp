@@ -12,16 +12,16 @@
 namespace vinerow::mapping {
 
 CloudTiles::CloudTiles(const SurveyArea& area, double further_m, double density_per_m2) {
-  constexpr double kMostPerM2 = 1e6, kWidest_m = 6.0;
-  constexpr int kMostCells = 128;
-  if (!(density_per_m2 > 0.0 && density_per_m2 <= kMostPerM2)) {
+  constexpr double kMaxPerM2 = 1e6, kWidest_m = 6.0;
+  constexpr int kMaxCells = 128;
+  if (!(density_per_m2 > 0.0 && density_per_m2 <= kMaxPerM2)) {
     throw ConfigError(
         fmt::format("the cloud's density is {} points per square metre, must be above 0 and at "
                     "most {:.0f}",
-                    density_per_m2, kMostPerM2));
+                    density_per_m2, kMaxPerM2));
   }
   cell_m_ = 1.0 / std::sqrt(density_per_m2);
-  side_ = std::clamp(static_cast<int>(kWidest_m / cell_m_), 1, kMostCells);
+  side_ = std::clamp(static_cast<int>(kWidest_m / cell_m_), 1, kMaxCells);
   const Eigen::AlignedBox2d box = area.box_W();
   corner_W_ = box.min() - Eigen::Vector2d(further_m, further_m);
   const Eigen::Vector2d size = box.sizes() + 2.0 * Eigen::Vector2d(further_m, further_m);

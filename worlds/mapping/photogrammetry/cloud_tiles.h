@@ -1,6 +1,6 @@
 #pragma once
-/// An area cut into square tiles of square cells, and work on the tiles whose points leave in their
-/// order.
+/// Division of an area into square tiles of square cells, and parallel work on tiles with points in
+/// the order of the tiles.
 
 #include <cstdint>
 #include <functional>
@@ -15,7 +15,7 @@ class CloudTiles {
  public:
   /// One cell for each point of the density. A tile has up to 128 x 128 cells and is at most 6 m
   /// wide.
-  /// @param further_m  beyond the area
+  /// @param further_m  extension beyond the area
   /// @throws ConfigError: the density is not above zero and at most 1e6 per square metre
   CloudTiles(const SurveyArea& area, double further_m, double density_per_m2);
 
@@ -36,8 +36,8 @@ class CloudTiles {
   std::int64_t columns_, rows_;
 };
 
-/// Calls make(k, points) for k = 0 to count - 1 on all cores, then sink(points) in the order of k,
-/// and done(k) after it. Points of a few dozen k are in memory at once.
+/// Calls make(k, points) for k = 0 to count - 1 on all cores, then sink(points) and done(k) in the
+/// order of k. Points of a few dozen k are in memory at once.
 /// @param make  appends to `points`, which is empty; thread safe
 void stream_points(
     std::int64_t count,

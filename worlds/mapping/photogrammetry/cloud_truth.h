@@ -1,6 +1,6 @@
 #pragma once
-/// What is true of the parcel that a synthetic cloud shows: kept beside the cloud, read by tests
-/// and comparisons, never by the mapping.
+/// Truth about the parcel of a synthetic cloud, in a file next to the cloud. Tests and comparisons
+/// read it, but never the mapping.
 
 #include <cstdint>
 #include <filesystem>
@@ -16,23 +16,23 @@
 
 namespace vinerow::mapping {
 
-/// Of one row. Lengths in m; the same words as MappedRowFigures.
+/// Truth about one row. Lengths in m; names as in MappedRowFigures.
 struct RowTruth {
   int row = 0;
   std::vector<Eigen::Vector3d> line_W;                      ///< of the plants, on the ground
   Eigen::Vector3d first_W = {0, 0, 0}, last_W = {0, 0, 0};  ///< the canopy's ends, on the ground
-  double length_m = 0.0;        ///< between them, along the line; 0: no canopy stands on it
+  double length_m = 0.0;        ///< between them, along the line; 0: no canopy on it
   double bearing_deg = 0.0;     ///< first to last, clockwise from north
   double spacing_m = 0.0;       ///< mean distance to the next row's line; 0: the last row
   double canopy_base_m = 0.0;   ///< lowest, above the ground on the line, mean over the row
   double canopy_top_m = 0.0;    ///< highest, likewise
   double canopy_width_m = 0.0;  ///< of cross-sections, likewise
   double volume_m3 = 0.0;
-  /// Without canopy on the line and longer than 0.5 m, from and to along the line, from first_W.
+  /// Gaps in the canopy on the line longer than 0.5 m, from and to along the line, from first_W.
   std::vector<std::pair<double, double>> gaps_m;
 };
 
-/// How the cloud was made.
+/// Record of how the cloud was made.
 struct CloudSampling {
   std::string method;  ///< "photogrammetry" or "uniform"
   std::string file, crs;
@@ -47,8 +47,8 @@ struct CloudSampling {
   double views_mean = 0.0;
   double horizontal_noise_rms_m = 0.0;  ///< of the errors drawn, both coordinates together
   double height_noise_rms_m = 0.0;
-  /// What the whole cloud has in common: by which means (georeference.h), the error in the area's
-  /// middle, the turn about a horizontal axis and about the vertical, the scale less 1.
+  /// Common error of the whole cloud: method (georeference.h), error in the middle of the area,
+  /// rotation about a horizontal axis and about the vertical, scale less 1.
   std::string georeference = "none";
   double georeference_east_m = 0.0, georeference_north_m = 0.0, georeference_up_m = 0.0;
   double georeference_tilt_deg = 0.0, georeference_turn_deg = 0.0, georeference_scale = 0.0;
@@ -65,14 +65,15 @@ struct CloudTruth {
   CloudSampling sampling;
 };
 
-/// Ends and gaps by rays down on the line every 2 cm, ends to 0.1 mm; cross-sections by cutting the
-/// canopy's meshes across the line every 5 cm; volumes as enclosed_volume_m3() on 2 cm.
-/// @returns everything but scenario and sampling
+/// Measures a world: ends and gaps with rays down on the line every 2 cm, ends to 0.1 mm;
+/// cross-sections by cutting the canopy's meshes across the line every 5 cm; volumes with
+/// enclosed_volume_m3() on 2 cm.
+/// @returns everything except scenario and sampling
 CloudTruth measure_truth(const SceneQuery& scene, const WorldModel& world);
 
-/// As JSON, numbers to their last digit. @throws ConfigError: the file cannot be written
+/// Writes JSON with exact numbers. @throws ConfigError if the file cannot be written
 void write_cloud_truth(const CloudTruth& truth, const std::filesystem::path& file);
-/// @throws ConfigError naming the file and what of it is missing or wrong
+/// @throws ConfigError naming the file and the missing or wrong part
 CloudTruth read_cloud_truth(const std::filesystem::path& file);
 /// "parcel.truth.json" beside "parcel.las".
 std::filesystem::path truth_file_of(std::filesystem::path cloud);

@@ -149,15 +149,17 @@ CloudTruth read_cloud_truth(const std::filesystem::path& file) {
     json.at("volume_m3").get_to(truth.volume_m3);
     const Json& sampling = json.at("sampling");
     for_each_field(truth.sampling, [&](const char* key, auto& value) {
-      // Clouds made before they had an error in common do not tell of it.
+      // Files of versions without a common error lack these keys.
       const bool is_new = std::string_view(key).starts_with("georeference");
       if (!is_new || sampling.contains(key)) sampling.at(key).get_to(value);
     });
     for (const Json& row : json.at("rows")) truth.rows.push_back(row_of(row));
   } catch (const nlohmann::json::exception& error) {
-    throw ConfigError(fmt::format("'{}' is no truth of a cloud: {}", file.string(), error.what()));
+    throw ConfigError(
+        fmt::format("'{}' is not a truth file of a cloud: {}", file.string(), error.what()));
   } catch (const ConfigError& error) {
-    throw ConfigError(fmt::format("'{}' is no truth of a cloud: {}", file.string(), error.what()));
+    throw ConfigError(
+        fmt::format("'{}' is not a truth file of a cloud: {}", file.string(), error.what()));
   }
   return truth;
 }

@@ -16,14 +16,14 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Vector7d = Eigen::Matrix<double, 7, 1>;
 
-/// Places nearer than this to one line (rms) do not tell how the block is turned about it.
-constexpr double kLeastSpread_m = 3.0;
+/// Positions closer than this to one line (rms) leave the block's rotation about it undetermined.
+constexpr double kMinSpread_m = 3.0;
 /// Pictures flown at one height do: they spread in the plane.
 constexpr int kFewestPlaces = 4;
-/// Share of white noise in the variance of a post-processed place.
+/// Share of white noise in the variance of a post-processed position.
 constexpr double kWhiteShare = 1.0 / 3.0;
 
-/// Rms of the places off the line that fits them best, in the plane.
+/// Rms distance of the positions from their best line, in the plane.
 double spread_m(const std::vector<KnownPlace>& places, const Vector3d& centre_W) {
   Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
   for (const KnownPlace& place : places) {
@@ -66,36 +66,36 @@ const ParameterTable<GeoreferenceOptions>& georeference_table() {
                    {"ppk", P::Method::kPpk},
                    {"control_points", P::Method::kControlPoints},
                    {"truth", P::Method::kTruth}},
-                  "what puts the block of pictures into the world: the cameras' places as the "
-                  "vehicle estimated them, the same post-processed, marks on the ground, or the "
-                  "truth, for studies")
+                  "source of the georeferencing: camera positions as the vehicle estimated them, "
+                  "the same post-processed, marks on the ground, or the truth, for studies")
           .numbers("ppk_std_m", "m", &P::ppk_std_m, between(0.0, 10.0),
-                   "1 sigma of a post-processed camera place: each axis of the plane, height")
+                   "1 sigma of a post-processed camera position: each axis of the plane, height")
           .integer("control_points", &P::control_points, between(4, 1000),
                    "marks on the ground, around the area and in its middle")
           .numbers("control_std_m", "m", &P::control_std_m, between(0.0, 10.0),
                    "1 sigma of a surveyed mark: each axis of the plane, height")
           .number("principal_distance_std", "", &P::principal_distance_std, between(0.0, 0.1),
-                  "1 sigma of the lens's principal distance, as a share of it, which heights "
-                  "follow where no control points tell it");
+                  "relative 1 sigma of the lens's principal distance, which scales heights without "
+                  "control points");
   return table;
 }
 
 Result<Georeference> fit_georeference(const std::vector<KnownPlace>& places,
                                       const std::array<double, 2>& std_m) {
   if (places.size() < kFewestPlaces) {
-    return Failure{fmt::format("{} places are known, a block of pictures needs {} at least",
+    return Failure{fmt::format("{} positions are known, a block of pictures needs at least {}",
                                places.size(), kFewestPlaces)};
   }
   Georeference fit;
   for (const KnownPlace& place : places) fit.centre_W += place.true_W;
   fit.centre_W /= static_cast<double>(places.size());
   const double off_line_m = spread_m(places, fit.centre_W);
-  if (off_line_m < kLeastSpread_m) {
-    return Failure{fmt::format(
-        "the known places lie {:.1f} m (rms) off one line, must be {} m at least: they do not tell "
-        "how the block is turned about it; fly another lane or use georeference: control_points",
-        off_line_m, kLeastSpread_m)};
+  if (off_line_m < kMinSpread_m) {
+    return Failure{
+        fmt::format("the known positions are {:.1f} m (rms) off one line, must be at least {} m: "
+                    "they leave the block's rotation about it undetermined; fly another lane or "
+                    "use georeference: control_points",
+                    off_line_m, kMinSpread_m)};
   }
   // e = J x with x = (t, w, k); w x a = -[a]x w.
   Eigen::Matrix<double, 7, 7> normal = Eigen::Matrix<double, 7, 7>::Zero();
@@ -112,7 +112,7 @@ Result<Georeference> fit_georeference(const std::vector<KnownPlace>& places,
     J.col(6) = a;
     const Eigen::Matrix<double, 7, 3> JtW = J.transpose() * weights.asDiagonal();
     normal += JtW * J;
-    right += JtW * (place.told_W - place.true_W);
+    right += JtW * (place.estimated_W - place.true_W);
   }
   const Vector7d x = normal.ldlt().solve(right);
   fit.shift_m = x.head<3>();
@@ -132,10 +132,10 @@ std::vector<Vector2d> control_places(const Eigen::AlignedBox2d& box, int count) 
     if (count == 5) at_m = std::array{0.0, size.x(), size.sum(), size.sum() + size.x()}[k];
     Vector2d p = box.min();
     const double steps[4] = {size.x(), size.y(), size.x(), size.y()};
-    const Vector2d ways[4] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+    const Vector2d paths[4] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
     for (int edge = 0; edge < 4; ++edge) {
       const double way_m = std::min(at_m, steps[edge]);
-      p += way_m * ways[edge];
+      p += way_m * paths[edge];
       at_m -= way_m;
     }
     places.push_back(p);
@@ -148,14 +148,14 @@ Result<Georeference> georeference(const GeoreferenceRequest& request,
   using Method = GeoreferenceOptions::Method;
   const bool by_cameras = options.method == Method::kDirect || options.method == Method::kPpk;
   if (options.method == Method::kTruth) return Georeference{};
-  if (options.method == Method::kDirect && request.told_W.empty()) return Georeference{};
+  if (options.method == Method::kDirect && request.estimated_W.empty()) return Georeference{};
   RandomStream random(request.seed, "cloud", "georeference");
   std::vector<KnownPlace> places;
   std::array<double, 2> std_m = options.control_std_m;
   if (options.method == Method::kDirect) {
     std_m = options.ppk_std_m;  // as weights: height against plane
     for (std::size_t i = 0; i < request.cameras_W.size(); ++i) {
-      places.push_back({request.cameras_W[i], request.told_W[i]});
+      places.push_back({request.cameras_W[i], request.estimated_W[i]});
     }
   } else if (options.method == Method::kPpk) {
     std_m = options.ppk_std_m;

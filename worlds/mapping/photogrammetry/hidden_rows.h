@@ -1,5 +1,5 @@
 #pragma once
-/// Rows whose canopy no picture shows: a fault of a survey, as under a cloud's shadow, or of a
+/// Rows whose canopy no picture shows: a fault of a survey, as in the shadow of a cloud, or of a
 /// vineyard whose vines were uprooted before the flight.
 
 #include <Eigen/Core>
@@ -17,11 +17,11 @@ class HiddenRows {
   /// @throws ConfigError: the world has no such row
   HiddenRows(const WorldModel& world, const std::vector<int>& hidden);
 
-  /// Whether a place on a plant belongs to one of them: of all rows' lines theirs is the nearest.
+  /// True if a point on a plant belongs to one of them: of all rows' lines theirs is the nearest.
   bool hide(const Eigen::Vector3d& p_W, PointClass truth) const;
 
  private:
-  std::vector<RowCurve> lines_;  ///< of all rows; none where nothing is hidden
+  std::vector<RowCurve> lines_;  ///< of all rows; empty if none is hidden
   std::vector<bool> hidden_;     ///< of each line
 };
 

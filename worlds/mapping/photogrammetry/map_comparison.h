@@ -1,5 +1,5 @@
 #pragma once
-/// How far a map that was made of a synthetic cloud is from what is true of its parcel.
+/// Comparison of a map from a synthetic cloud with the truth about its parcel.
 
 #include <vector>
 
@@ -8,10 +8,10 @@
 
 namespace vinerow::mapping {
 
-/// A true row and the map's row that lies on it. Errors are the map's figure less the true one.
+/// True row and the row of the map that matches it. Errors are the map's figure less the true one.
 struct RowComparison {
   int true_row = 0;
-  int mapped_row = -1;  ///< -1: not found; then all else is 0
+  int mapped_row = -1;  ///< -1: not found, and all other figures are 0
   double bearing_deg = 0.0;
   double first_m = 0.0, last_m = 0.0;  ///< distance of the ends from the true ones, horizontally
   double length_m = 0.0, base_m = 0.0, top_m = 0.0, width_m = 0.0;
@@ -21,7 +21,7 @@ struct RowComparison {
 
 struct MapComparison {
   std::vector<RowComparison> rows;  ///< one per true row that has canopy
-  std::vector<int> extra_rows;      ///< of the map, where no true row is
+  std::vector<int> extra_rows;      ///< rows of the map that match no true row
   double bearing_deg = 0.0, spacing_m = 0.0, volume_share = 0.0;
   double seen_volume_share = 0.0;  ///< the estimate without noise, of the true volume
 
@@ -30,7 +30,7 @@ struct MapComparison {
   double mean_end_m() const;
 };
 
-/// @param map  moved to the truth's origin where it has one of its own
+/// @param map  is moved to the truth's origin if it has its own
 MapComparison compare_with_truth(const CloudMap& map, const CloudTruth& truth);
 
 }  // namespace vinerow::mapping

@@ -27,8 +27,8 @@ constexpr double kRim_m = 1.5;
 constexpr double kFarthest_m = 1e4;
 /// A ray starts so far off its surface: more than single precision of the ray caster blurs it.
 constexpr double kLift_m = 2e-3;
-constexpr int kMostPartners = 24;
-constexpr double kLeastAngle_rad = 0.01;  ///< partners nearer than that add no depth
+constexpr int kMaxPartners = 24;
+constexpr double kMinAngle_rad = 0.01;  ///< partners nearer than that add no depth
 
 /// What every tile needs.
 struct Survey {
@@ -68,7 +68,7 @@ class Matcher {
     p_W_ = view.p_WS() + hit_.distance_m * dir;
     if (!s_.area.contains(p_W_.head<2>())) return false;
     ++tally.aims;
-    if (-dir.dot(hit_.normal_W) < least_cosine_) {
+    if (-dir.dot(hit_.normal_W) < min_cosine_) {
       ++tally.unseen;
       return false;
     }
@@ -80,7 +80,7 @@ class Matcher {
       const SurveyView& partner = view_of(k);
       if (!sees(partner)) continue;
       triangulation_.add(partner, p_W_);
-      wide = wide || (p_W_ - partner.p_WS()).normalized().dot(dir) <= most_baseline_cosine_;
+      wide = wide || (p_W_ - partner.p_WS()).normalized().dot(dir) <= max_baseline_cosine_;
     }
     if (triangulation_.views() < s_.options.min_views) {
       ++tally.unseen;
@@ -104,14 +104,14 @@ class Matcher {
     const Vector3d way = view.p_WS() - p_W_;
     const double distance_m = way.norm();
     const Vector3d dir = way / distance_m;
-    if (dir.dot(hit_.normal_W) < least_cosine_) return false;
+    if (dir.dot(hit_.normal_W) < min_cosine_) return false;
     return !s_.scene.cast_ray(p_W_ + kLift_m * hit_.normal_W, dir, distance_m, kSeen);
   }
 
   const Survey& s_;
   const TileViews& tile_;
-  const double least_cosine_ = std::cos(s_.options.max_incidence_rad);
-  const double most_baseline_cosine_ = std::cos(s_.options.min_baseline_rad);
+  const double min_cosine_ = std::cos(s_.options.max_incidence_rad);
+  const double max_baseline_cosine_ = std::cos(s_.options.min_baseline_rad);
   RayHit hit_;
   Vector3d p_W_ = Vector3d::Zero();
   Triangulation triangulation_;
@@ -142,7 +142,7 @@ void sample_tile(const Survey& survey, std::int64_t tile, std::vector<SampledPoi
   const auto ball = ball_of(survey, tile);
   if (!ball) return;
   const TileViews views =
-      find_tile_views(survey.views, ball->first, ball->second, kLeastAngle_rad, kMostPartners);
+      find_tile_views(survey.views, ball->first, ball->second, kMinAngle_rad, kMaxPartners);
   if (views.shown_in.empty()) return;
   RandomStream random(survey.options.seed, "cloud", fmt::format("photogrammetry.tile_{}", tile));
   Matcher matcher(survey, views);

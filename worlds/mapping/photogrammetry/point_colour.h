@@ -1,9 +1,9 @@
 #pragma once
-/// What colour a point of a world's surface has in a picture taken by daylight.
+/// Colour of a point of a world's surface in a picture taken in daylight.
 ///
 /// Plants, posts and obstacles have the mean of their mesh's vertex colours times the material's;
-/// textures are not looked up. Ground is a mixture of grass and soil in patches of one metre and
-/// less. Light is the sun's on a matt surface and an even sky; nothing casts a shadow.
+/// textures are ignored. Ground is a mixture of grass and soil in patches of one metre and less.
+/// Light is the sun on a matt surface and a uniform sky; there are no shadows.
 
 #include <Eigen/Core>
 #include <array>
@@ -19,11 +19,11 @@ class PointColour {
  public:
   explicit PointColour(const WorldModel& world);
 
-  /// @param hit  with the normal towards who looks @param p_W  where it is
-  /// @param grain  in [0, 1): the pixel's own brightness
+  /// @param hit  with the normal towards the viewer @param p_W  its position
+  /// @param grain  in [0, 1): brightness of the pixel
   /// @returns sRGB. No heap, thread safe.
   std::array<std::uint8_t, 3> of(const RayHit& hit, const Eigen::Vector3d& p_W, double grain) const;
-  /// Of weeds on the ground, likewise.
+  /// Colour of weeds on the ground, likewise.
   std::array<std::uint8_t, 3> of_weed(double grain) const;
 
  private:

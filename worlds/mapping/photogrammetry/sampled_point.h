@@ -1,5 +1,5 @@
 #pragma once
-/// Points that a survey of a world gives, with what nobody but the world knows of them.
+/// Points from a survey of a world, with their true classes.
 
 #include <Eigen/Core>
 #include <array>
@@ -15,13 +15,13 @@ namespace vinerow::mapping {
 struct SampledPoint {
   Eigen::Vector3d p_W = {0, 0, 0};               ///< with its error
   std::array<std::uint8_t, 3> rgb{};             ///< sRGB
-  PointClass truth = PointClass::kUnclassified;  ///< what it is a point of
+  PointClass truth = PointClass::kUnclassified;  ///< true class
 };
 
-/// Takes points as they come, a few square metres of ground at a time, always in the same order.
+/// Receives points in batches of a few square metres of ground, always in the same order.
 using CloudSink = std::function<void(std::span<const SampledPoint>)>;
 
-/// The class of a surface's points; posts and trunks are part of a plant row.
+/// Class of a surface's points; posts and trunks belong to a plant row.
 constexpr PointClass class_of(SurfaceClass surface) {
   switch (surface) {
     case SurfaceClass::kTerrain:

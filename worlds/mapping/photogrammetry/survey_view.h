@@ -1,5 +1,5 @@
 #pragma once
-/// One picture of a survey: a pinhole camera at a place, with its full attitude.
+/// Picture of a survey: a pinhole camera with its pose.
 ///
 /// S as in CameraShot: x along the optical axis, y to the picture's left, z up in it. A point
 /// (x, y, z) in S is at u = -f_u y / x, v = -f_v z / x, pixels from the picture's middle to the
@@ -18,11 +18,11 @@ class SurveyView {
 
   const Eigen::Vector3d& p_WS() const { return p_WS_; }
   Eigen::Vector3d axis_W() const { return R_SW_.row(0).transpose(); }
-  /// Whether the point is in front of the camera and within the picture.
+  /// True if the point is in front of the camera and within the picture.
   bool shows(const Eigen::Vector3d& p_W) const;
-  /// Whether a ball may be in the picture: false only if it is not.
+  /// False only if no part of the ball is in the picture.
   bool may_show(const Eigen::Vector3d& centre_W, double radius_m) const;
-  /// Whether the whole ball is in the picture: true only if it is.
+  /// True only if the whole ball is in the picture.
   bool shows_all(const Eigen::Vector3d& centre_W, double radius_m) const;
   /// Pixels from the picture's middle. @pre in front of the camera
   Eigen::Vector2d pixel(const Eigen::Vector3d& p_W) const;
@@ -30,7 +30,8 @@ class SurveyView {
   Eigen::Matrix<double, 2, 3> jacobian(const Eigen::Vector3d& p_W) const;
 
  private:
-  /// Distance outwards from the planes through the camera and the picture's edges, the larger one.
+  /// Larger one of the outward distances from the planes through the camera and the picture's
+  /// edges.
   double outside_m(const Eigen::Vector3d& p_S) const;
 
   Eigen::Matrix3d R_SW_;

@@ -7,7 +7,7 @@
 namespace vinerow::mapping {
 
 TileViews find_tile_views(const std::vector<SurveyView>& views, const Eigen::Vector3d& centre_W,
-                          double radius_m, double least_angle_rad, int most) {
+                          double radius_m, double min_angle_rad, int most) {
   TileViews tile;
   std::vector<Eigen::Vector3d> rays;
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -16,13 +16,13 @@ TileViews find_tile_views(const std::vector<SurveyView>& views, const Eigen::Vec
     tile.whole.push_back(views[i].shows_all(centre_W, radius_m));
     rays.push_back((centre_W - views[i].p_WS()).normalized());
   }
-  const double most_cosine = std::cos(least_angle_rad);
+  const double max_cosine = std::cos(min_angle_rad);
   std::vector<std::pair<double, std::uint16_t>> order;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     order.clear();
     for (std::size_t k = 0; k < rays.size(); ++k) {
       const double cosine = rays[i].dot(rays[k]);
-      if (k != i && cosine <= most_cosine)
+      if (k != i && cosine <= max_cosine)
         order.emplace_back(-cosine, static_cast<std::uint16_t>(k));
     }
     const std::size_t count = std::min(order.size(), static_cast<std::size_t>(most));

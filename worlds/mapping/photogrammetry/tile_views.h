@@ -1,5 +1,5 @@
 #pragma once
-/// Which pictures show a small piece of ground, and which of them a dense matcher puts beside each.
+/// Pictures that show a small piece of ground, and the partners of each in dense matching.
 
 #include <cstdint>
 #include <vector>
@@ -10,17 +10,16 @@ namespace vinerow::mapping {
 
 struct TileViews {
   std::vector<int> shown_in;  ///< indices of views that may show the tile, ascending
-  std::vector<bool> whole;    ///< of each of them: that it shows all of the ball
-  /// For each of `shown_in`: its partners (places in `shown_in`), those with the smallest angle
-  /// between both rays first, and by index where two angles are equal.
+  std::vector<bool> whole;    ///< of each of them: true if it shows the whole ball
+  /// For each of `shown_in`: its partners (positions in `shown_in`) by rising angle between both
+  /// rays, equal angles by index.
   std::vector<std::vector<std::uint16_t>> partners;
 };
 
 /// @param centre_W,radius_m  of a ball around the tile
-/// @param least_angle_rad    between the rays of two pictures to the centre, for them to be
-/// partners
+/// @param min_angle_rad    smallest angle between the rays of partners to the centre
 /// @param most               partners of one picture
 TileViews find_tile_views(const std::vector<SurveyView>& views, const Eigen::Vector3d& centre_W,
-                          double radius_m, double least_angle_rad, int most);
+                          double radius_m, double min_angle_rad, int most);
 
 }  // namespace vinerow::mapping

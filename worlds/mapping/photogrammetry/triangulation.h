@@ -1,5 +1,5 @@
 #pragma once
-/// How well rays of several pictures fix a point.
+/// Triangulation accuracy: covariance of a point from the rays of several pictures.
 ///
 /// Each picture measures the point's pixel with independent errors of `match_px` in u and v. The
 /// least-squares point then has the covariance match_px^2 (sum J^T J)^-1, J = d pixel / d point:
@@ -19,8 +19,8 @@ class Triangulation {
   int views() const { return views_; }
   /// 3x3, m^2. @pre two views or more from different places
   Eigen::Matrix3d covariance_m2(double match_px) const;
-  /// The error that independent standard normals stand for: its covariance is covariance_m2().
-  /// @pre as there
+  /// Error from independent standard normals, with the covariance covariance_m2().
+  /// @pre as covariance_m2()
   Eigen::Vector3d error_m(double match_px, const Eigen::Vector3d& normals) const;
 
  private:

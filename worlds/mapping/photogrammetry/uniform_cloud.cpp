@@ -33,7 +33,7 @@ void check_uniform_options(const UniformCloudOptions& options) {
          options.outliers, "0 to 1");
 }
 
-/// So many on the mean.
+/// Random integer with this mean.
 int draw_count(double mean, RandomStream& random) {
   return static_cast<int>(std::floor(mean + random.uniform()));
 }

@@ -1,10 +1,11 @@
 #pragma once
-/// Points spread evenly over all surfaces of a world: undersides, insides of canopies and hidden
-/// ground too. No camera has seen them; for unit tests and for clouds of a given quality.
+/// Uniform cloud: points spread evenly over all surfaces of a world, including undersides, insides
+/// of canopies and hidden ground. Visibility is ignored; for unit tests and for clouds of a given
+/// quality.
 ///
-/// Every square metre of surface gets `density_per_m2` points in the mean: the ground one in each
-/// cell of a grid (more where it is steep), a mesh the whole part of density times area in each
-/// triangle and by chance one more. What meshes hide in each other is sampled as well.
+/// Every square metre of surface gets `density_per_m2` points on average: the ground one in each
+/// cell of a grid (more if it is steep), a mesh the integer part of density times area in each
+/// triangle and one more at random. Surfaces inside other meshes are sampled as well.
 
 #include <cstdint>
 
@@ -23,8 +24,8 @@ struct UniformCloudOptions {
   std::uint64_t seed = 1;
 };
 
-/// Meshes that collide and are canopy, posts, trunks, ground or obstacles, and the terrain, where
-/// they are within the area.
+/// Samples, within the area, the terrain and the meshes that collide and are canopy, posts, trunks,
+/// ground or obstacles.
 /// @throws ConfigError: options out of range, a density as CloudTiles
 CloudTally sample_uniformly(const WorldModel& world, const SurveyArea& area,
                             const UniformCloudOptions& options, const CloudSink& sink);

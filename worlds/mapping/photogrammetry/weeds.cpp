@@ -49,7 +49,7 @@ Weeds::Weeds(const WeedsOptions& options, const std::vector<PlantRow>& rows, con
     tuft.p_W.y() = random.uniform(box.min().y(), box.max().y());
     tuft.radius_m = random.uniform(options.radius_low_m, options.radius_high_m);
     tuft.height_m = options.height_m * random.uniform(0.3, 1.0);
-    if (distance_to_rows_m(tuft.p_W, rows) >= options.beside_rows_m + tuft.radius_m) {
+    if (distance_to_rows_m(tuft.p_W, rows) >= options.offset_from_rows_m + tuft.radius_m) {
       all.push_back(tuft);
     }
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// Tufts of weeds on the ground between plant rows.
+/// Weeds: tufts on the ground between plant rows.
 
 #include <Eigen/Geometry>
 #include <cstdint>
@@ -15,17 +15,18 @@ struct WeedsOptions {
   double height_m = 0.0;  ///< of the tallest; 0: no weeds
   double tufts_per_m2 = 0.5;
   double radius_low_m = 0.1, radius_high_m = 0.35;
-  double beside_rows_m = 0.35;  ///< free strip on both sides of a row's line, where soil is worked
+  double offset_from_rows_m =
+      0.35;  ///< free strip on both sides of a row's line, where soil is worked
 };
 
-/// Round tufts, highest in the middle: h (1 - r^2 / R^2), with h even from 0.3 to 1 of height_m and
-/// R even between the radii.
+/// Round tufts, highest in the middle: h (1 - r^2 / R^2), with h uniform from 0.3 to 1 of height_m
+/// and R uniform between the radii.
 class Weeds {
  public:
   Weeds(const WeedsOptions& options, const std::vector<PlantRow>& rows, const SurveyArea& area,
         RandomStream random);
 
-  /// Of the tallest tuft at that place above the ground; 0 beside all.
+  /// Height of the tallest tuft at a point above the ground; 0 outside all tufts.
   double height_m(const Eigen::Vector2d& p_W) const;
 
  private:

@@ -10,13 +10,13 @@
 namespace vinerow::mapping {
 namespace {
 
-/// Somewhere on the ground of the area.
+/// Some point on the ground of the area.
 Eigen::Vector3d cloud_middle(const SurveyArea& area, const WorldModel& world) {
   const Eigen::Vector2d p = area.box_W().center();
   return {p.x(), p.y(), world.terrain ? world.terrain->height_m(p.x(), p.y()) : 0.0};
 }
 
-/// By the share of a fine grid's points that lie in it.
+/// Area by the share of a fine grid's points inside.
 double area_m2_of(const SurveyArea& area) {
   const Eigen::AlignedBox2d box = area.box_W();
   constexpr int kSteps = 1000;
@@ -39,8 +39,8 @@ void note_tally(const CloudTally& tally, CloudSampling& sampling) {
   sampling.density_per_m2 = static_cast<double>(tally.points) / sampling.area_m2;
 }
 
-/// @param sample  fills a cloud: (sink, what it tells of itself) -> its tally
-/// @param empty   why there is no point, of a tally
+/// @param sample  fills a cloud: (sink, its record) -> its tally
+/// @param empty   reason why there are no points, from a tally
 template <class Sample, class Empty>
 Result<WrittenCloud> write(const SceneQuery& scene, const WorldModel& world, const SurveyArea& area,
                            std::uint64_t seed, const CloudTarget& target, const Sample& sample,
@@ -68,7 +68,7 @@ GeoreferenceRequest request_of(const WorldModel& world, const PictureSet& pictur
                                const SurveyArea& area, const PhotogrammetryOptions& options) {
   GeoreferenceRequest request;
   for (const Pose& X_WS : pictures.X_WS) request.cameras_W.push_back(X_WS.p);
-  request.told_W = pictures.told_W;
+  request.estimated_W = pictures.estimated_W;
   for (const Eigen::Vector2d& p :
        control_places(area.box_W(), options.georeference.control_points)) {
     const bool on_terrain = world.terrain && world.terrain->contains(p.x(), p.y());

@@ -1,6 +1,6 @@
 #pragma once
-/// A sampled cloud of a world as a file, with the truth beside it: what `vinerow cloud` and the job
-/// `photogrammetry` have in common.
+/// Writing of a world's sampled cloud with its truth file, for `vinerow cloud` and the job
+/// `photogrammetry`.
 
 #include <cstdint>
 #include <filesystem>
@@ -17,9 +17,9 @@
 namespace vinerow::mapping {
 
 struct CloudTarget {
-  std::filesystem::path file;  ///< in a folder that is there
+  std::filesystem::path file;  ///< in an existing folder
   CloudFileOptions options;
-  std::string name;      ///< of the file, as the truth tells it
+  std::string name;      ///< of the file, for the truth file
   std::string scenario;  ///< likewise
 };
 
@@ -30,20 +30,21 @@ struct WrittenCloud {
 };
 
 /// @param corners_m  x and y of each, m in W; empty: the world's parcel
-/// @param key        what names the corners in errors
+/// @param key        name of the corners in errors
 /// @throws ConfigError: an odd count, neither corners nor a parcel, as SurveyArea
 SurveyArea make_survey_area(const std::vector<double>& corners_m, double margin_m,
                             const WorldModel& world, const std::string& key);
 
-/// The cloud that photogrammetry makes of pictures. Same arguments, same bytes.
-/// @returns what was written, or why there is no point, and then no file
+/// Writes the cloud that photogrammetry makes from pictures. The same arguments give the same
+/// bytes.
+/// @returns what was written, or the reason why there are no points, and then no file
 /// @throws ConfigError as sample_photogrammetry(), CloudFile and write_cloud_truth()
 Result<WrittenCloud> write_photogrammetry(const SceneQuery& scene, const WorldModel& world,
                                           const PictureSet& pictures, const SurveyArea& area,
                                           const PhotogrammetryOptions& options,
                                           const CloudTarget& target);
 
-/// Points spread evenly over all surfaces, likewise.
+/// Writes a uniform cloud, likewise.
 Result<WrittenCloud> write_uniform_cloud(const SceneQuery& scene, const WorldModel& world,
                                          const SurveyArea& area, const UniformCloudOptions& options,
                                          const CloudTarget& target);

@@ -46,13 +46,13 @@ std::string describe_canopy(const CanopyRaster& raster, double cut_m,
   for (const float weight : raster.weights) canopy_m2 += weight > 0.0f ? 1.0 : 0.0;
   canopy_m2 *= raster.cell_m * raster.cell_m;
   if (canopy_m2 < 1.0) {
-    return fmt::format("nothing stands more than {:g} m above the ground", cut_m);
+    return fmt::format("nothing is more than {:g} m above the ground", cut_m);
   }
   double likelihood = 0.0;
   for (const RowPatch& patch : patches) likelihood = std::max(likelihood, patch.likelihood);
   return fmt::format(
-      "{:.0f} m2 are higher than {:g} m, but no two lines of it run beside each other (likelihood "
-      "of rows {:.2f})",
+      "{:.0f} m2 are higher than {:g} m, but no two lines of it are side by side (likelihood of "
+      "rows {:.2f})",
       canopy_m2, cut_m, likelihood);
 }
 
@@ -76,31 +76,31 @@ struct FoundRows {
   }
 };
 
-/// Squares of the raster hold a point or so each: those of thin clouds are larger.
+/// Size of the raster's squares, about one point each: larger for sparse clouds.
 double raster_cell_m(double density_per_m2) {
   constexpr double kDense_per_m2 = 75.0, kLargest_m = 0.3;
   if (density_per_m2 >= kDense_per_m2) return kRasterCell_m;
   return std::min(kLargest_m, kRasterCell_m * std::sqrt(kDense_per_m2 / density_per_m2));
 }
 
-/// What stands as high as rows and is none of them.
+/// Objects as high as rows that are not rows.
 void note_canopy_left(const CanopyRaster& raster, const ParcelCloud& cloud, FoundRows& found) {
-  constexpr double kReach = 0.6, kLeast_m2 = 3.0;
+  constexpr double kReach = 0.6, kMin_m2 = 3.0;
   std::vector<double> reach_m = found.spacing_of_m();
   for (double& reach : reach_m) reach *= kReach;
   const std::vector<CanopyLeft> left =
-      find_canopy_left(raster, RowLocator(found.lines(), reach_m), kLeast_m2);
+      find_canopy_left(raster, RowLocator(found.lines(), reach_m), kMin_m2);
   if (left.empty()) return;
   double all_m2 = 0.0;
   for (const CanopyLeft& piece : left) all_m2 += piece.area_m2;
   const Eigen::Vector2d at = left.front().middle() + cloud.origin_W.head<2>();
   const Eigen::Vector2d size = left.front().high - left.front().low;
-  found.notes.push_back(fmt::format(
-      "left out: {:.0f} m2 of canopy higher than {:.1f} m, in {} place{}, in no row (trees, "
-      "hedges, or rows that were not found); the largest place, {:.0f} m2, lies about x = {:.0f}, "
-      "y = {:.0f} in {:.0f} x {:.0f} m",
-      all_m2, found.body_cut_m, left.size(), left.size() == 1 ? "" : "s", left.front().area_m2,
-      at.x(), at.y(), size.x(), size.y()));
+  found.notes.push_back(
+      fmt::format("left out: {:.0f} m2 of canopy higher than {:.1f} m, in {} place{}, in no row "
+                  "(trees, hedges, or rows that were not found); the largest place, {:.0f} m2, is "
+                  "at about x = {:.0f}, y = {:.0f} in {:.0f} x {:.0f} m",
+                  all_m2, found.body_cut_m, left.size(), left.size() == 1 ? "" : "s",
+                  left.front().area_m2, at.x(), at.y(), size.x(), size.y()));
 }
 
 FoundRows find_rows(const ParcelCloud& cloud, const HeightField& terrain, double density_per_m2,
@@ -115,8 +115,8 @@ FoundRows find_rows(const ParcelCloud& cloud, const HeightField& terrain, double
   patch_options.spacing_high_m = options.spacing_high_m;
   const std::vector<RowPatch> patches =
       find_row_patches(raster.cell_m < 0.15 ? coarsen(raster, 2) : raster, patch_options);
-  // Most windows first, then blocks that run another way or stand closer.
-  std::vector<std::vector<RowPatch>> groups{agreeing_patches(patches, patch_options)};
+  // The main block first, then blocks of another direction or spacing.
+  std::vector<std::vector<RowPatch>> groups{consistent_windows(patches, patch_options)};
   for (std::vector<RowPatch>& group : other_patches(patches, groups.front(), patch_options)) {
     groups.push_back(std::move(group));
   }
@@ -148,7 +148,7 @@ FoundRows find_rows(const ParcelCloud& cloud, const HeightField& terrain, double
   return found;
 }
 
-/// Blocks whose rows lie in the boundary come first. @returns how many
+/// Moves blocks whose rows are inside the boundary to the front. @returns their number
 std::size_t put_inside_first(std::vector<RowBlock>& blocks, const ParcelCloud& cloud,
                              const std::vector<Eigen::Vector2d>& boundary_W) {
   if (boundary_W.empty()) return 0;
@@ -164,7 +164,7 @@ std::size_t put_inside_first(std::vector<RowBlock>& blocks, const ParcelCloud& c
   return static_cast<std::size_t>(outside - blocks.begin());
 }
 
-/// Mean bearing of lines that run both ways, in [0, 180) degrees.
+/// Mean bearing of undirected lines, in [0, 180) degrees.
 double mean_bearing_deg(const std::vector<RowCurve>& lines) {
   double c = 0.0, s = 0.0;
   for (const RowCurve& line : lines) {
@@ -251,18 +251,17 @@ void note_density(CloudMapReport& report) {
   if (density_per_m2 < kThinForEnds_per_m2) {
     report.notes.push_back(
         fmt::format("the cloud is thin, {:.0f} points/m2: rows may be missed and their ends be off "
-                    "by more than "
-                    "0.3 m below {:g}, and their volume says little",
+                    "by more than 0.3 m below {:g}, and volumes are unreliable",
                     density_per_m2, kThinForEnds_per_m2));
   } else if (density_per_m2 < kThinForVolume_per_m2) {
     report.notes.push_back(fmt::format(
-        "the cloud is thin for volumes, {:.0f} points/m2: of clouds from pictures of 500 points/m2 "
-        "they came out 15 % too small, of 750 5 %, of 1000 3 %; rows and ends do not suffer",
+        "the cloud is thin for volumes, {:.0f} points/m2: in clouds from pictures they were 15 % "
+        "too small with 500 points/m2, 5 % with 750, 3 % with 1000; rows and ends are not affected",
         density_per_m2));
   }
 }
 
-/// What a block's map is made of.
+/// Input of a block's map.
 struct BlockParts {
   int block = 0;
   std::span<const RowHulls> hulls;  // of its rows
@@ -274,14 +273,14 @@ struct BlockParts {
 
 void make_grid(CloudMap& map, OccupancyOptions options) {
   if (options.cell_m == 0.0) return;
-  constexpr std::int64_t kMostCells = 30'000'000;
-  options.cell_m = cell_that_fits_m(map.map.boundary_W, options.cell_m, kMostCells);
+  constexpr std::int64_t kMaxCells = 30'000'000;
+  options.cell_m = cell_that_fits_m(map.map.boundary_W, options.cell_m, kMaxCells);
   const OccupancyReport walls = plan_occupancy(map.map, options);
   map.map.occupancy = make_occupancy_grid(map.map, options, walls);
   for (const std::string& note : walls.notes) map.report.notes.push_back(note);
 }
 
-/// Its rows, counted from 0, as a map that stands alone.
+/// Separate map of a block, with rows counted from 0.
 CloudMap make_block(const BlockParts& parts, const CloudMapOptions& options) {
   const GroundHeight ground = [&](double x, double y) { return parts.terrain.height_m(x, y); };
   CloudMap made;
@@ -298,7 +297,7 @@ CloudMap make_block(const BlockParts& parts, const CloudMapOptions& options) {
     report.notes.push_back(fmt::format(
         "{}; the parcel is the box {:g} m beyond the row ends and beside the outer rows",
         options.boundary_W.empty() ? "no boundary was given"
-                                   : "the boundary given is not of this block alone",
+                                   : "the given boundary is not that of this block alone",
         options.headland_m));
   }
   made.map = make_row_map(lines_W, ground, CanopySize{}, std::move(boundary_W));
@@ -416,7 +415,7 @@ void check_options(const CloudMapOptions& options) {
   not_negative(options.budget_MB, "budget");
   not_negative(options.occupancy.cell_m, "grid cell");
   if (!(options.spacing_low_m < options.spacing_high_m)) {
-    throw ConfigError(fmt::format("least row spacing = {:g} m, must be < the largest, {:g} m",
+    throw ConfigError(fmt::format("smallest row spacing = {:g} m, must be < the largest, {:g} m",
                                   options.spacing_low_m, options.spacing_high_m));
   }
 }

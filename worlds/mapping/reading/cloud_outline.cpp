@@ -48,7 +48,7 @@ Eigen::AlignedBox3d find_bulk(const std::filesystem::path& file, double largest_
 /// Refuses what no rows can be found in.
 void check_footprint(const std::filesystem::path& file, const CloudOutline& outline) {
   constexpr double kShortest_m = 2.0, kNarrowest_m = 0.1;
-  constexpr double kMostInSpot = 1e6, kEnoughForShares = 100;
+  constexpr double kMaxInSpot = 1e6, kEnoughForShares = 100;
   std::vector<Eigen::Vector3d> points_m;
   points_m.reserve(outline.sample.size());
   for (const Eigen::Vector3d& p : outline.sample) {
@@ -73,7 +73,7 @@ void check_footprint(const std::filesystem::path& file, const CloudOutline& outl
   }
   const auto densest = static_cast<double>(densest_square_centimetre(points_m));
   const double held = densest * static_cast<double>(outline.window);
-  if (held > kMostInSpot ||
+  if (held > kMaxInSpot ||
       (densest > kEnoughForShares && densest > 0.5 * static_cast<double>(points_m.size()))) {
     refuse_cloud(
         file, fmt::format("has about {:.0f} of its {} points within one square centimetre, which "

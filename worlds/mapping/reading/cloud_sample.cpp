@@ -24,16 +24,16 @@ std::array<double, 2> trimmed_range(std::vector<double>& values, double trim) {
 }  // namespace
 
 CloudSample::CloudSample() : random_(0, "", "cloud sample") {
-  points_.reserve(kMost);
+  points_.reserve(kMax);
 }
 
 void CloudSample::keep(const Eigen::Vector3d& point) {
-  if (points_.size() == kMost) {
+  if (points_.size() == kMax) {
     // Of each two windows that become one, either point: the later where a coin says so.
-    for (std::size_t k = 0; k < kMost / 2; ++k) {
+    for (std::size_t k = 0; k < kMax / 2; ++k) {
       points_[k] = points_[2 * k + (random_.uniform() < 0.5 ? 0 : 1)];
     }
-    points_.resize(kMost / 2);
+    points_.resize(kMax / 2);
     window_ *= 2;
     windows_ /= 2;
     // This point opens the next window of the new length, whose own one may come later.

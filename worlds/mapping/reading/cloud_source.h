@@ -1,13 +1,13 @@
 #pragma once
-/// Where the cloud of a map came from.
+/// Source of a map's cloud.
 
 #include "worlds/mapping/model/cloud_map.h"
 #include "worlds/mapping/reading/read_cloud.h"
 
 namespace vinerow::mapping {
 
-/// Adds to a map of make_cloud_map() what that leaves to its caller, but for phases: origin, file,
-/// format, crs, cloud_bytes, not_finite, reduction, and the reader's sentences before its notes.
+/// Completes a map of make_cloud_map(), except for phases: origin, file, format, crs, cloud_bytes,
+/// not_finite, reduction, and the reader's sentences before its notes.
 void add_source(const CloudReadReport& read, CloudMap& map);
 
 }  // namespace vinerow::mapping

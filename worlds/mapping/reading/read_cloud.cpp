@@ -22,21 +22,21 @@ namespace {
 
 using Path = std::filesystem::path;
 
-/// The frame of a CRS, with the file's name where it cannot be.
+/// Frame of a CRS; errors name the file.
 template <class F>
 auto named(const Path& file, F&& f) {
   try {
     return f();
   } catch (const ConfigError& error) {
-    refuse_cloud(file,
-                 fmt::format("cannot be brought to the local frame: {}; give the system of its "
-                             "coordinates by --crs EPSG:<code>, or --crs none where they are "
-                             "metres of a local frame",
-                             error.what()));
+    refuse_cloud(
+        file,
+        fmt::format("cannot be brought to the local frame: {}; give the system of its coordinates "
+                    "by --crs EPSG:<code>, or --crs none if they are metres of a local frame",
+                    error.what()));
   }
 }
 
-/// Metres of one unit along each axis, by a small step from a place.
+/// Metres of one unit along each axis, by a small step from a point.
 Eigen::Vector3d unit_at(const io::CloudFrame& frame, const Eigen::Vector3d& place) {
   constexpr double kStep = 1e-4;  // 11 m of degrees; of metres still 1e-5 of it is exact
   Eigen::Vector3d unit_m;
@@ -47,7 +47,7 @@ Eigen::Vector3d unit_at(const io::CloudFrame& frame, const Eigen::Vector3d& plac
   return unit_m;
 }
 
-/// @param anywhere  a frame at no matter what origin
+/// @param anywhere  a frame at any origin
 GeoOrigin origin_at(const io::CloudFrame& anywhere, const GeoOrigin& origin_of_it,
                     const Eigen::Vector3d& middle) {
   const Geodetic place = LocalFrame(origin_of_it).to_geodetic(anywhere.to_local(middle));
@@ -76,7 +76,7 @@ void check_memory(const Path& file, const CloudReadOptions& options, const Cloud
                   kept, megabytes(kept * bytes), megabytes(options.memory_limit), thin, thin));
 }
 
-/// What the second reading does with each block.
+/// Processing of each block in the second reading.
 class Collector {
  public:
   Collector(const CloudReadOptions& options, const CloudOutline& outline,
@@ -132,8 +132,8 @@ class Collector {
   std::uint64_t far_away_ = 0, until_next_ = 0;
 };
 
-/// How far the file's own CRS would put the cloud from where the one asked for does, in words; ""
-/// where both mean the same place. @param used  of the one asked for, about `origin`
+/// Distance, in words, between the cloud's positions by the file's own CRS and by the given one; ""
+/// if they agree. @param used  frame of the given CRS, about `origin`
 std::string conflict_of_crs(const std::string& asked, const CloudOutline& outline,
                             const io::CloudFrame& used, const GeoOrigin& origin) {
   const std::string& own = outline.info.crs;
@@ -149,11 +149,11 @@ std::string conflict_of_crs(const std::string& asked, const CloudOutline& outlin
     elsewhere = apart_m < 10e3 ? fmt::format("{:.0f} m away", apart_m)
                                : fmt::format("{:.0f} km away", 1e-3 * apart_m);
   } catch (const ConfigError&) {
-    // The file's own system has no such place, or is none that can be read.
+    // The file's own system does not cover this place, or cannot be read.
   }
   return fmt::format(
-      "The coordinates were taken as {}, as asked; the file names {}, which puts them {}.", asked,
-      own.substr(0, 60), elsewhere);
+      "The coordinates were taken as {}, as requested; the file names {}, which puts them {}.",
+      asked, own.substr(0, 60), elsewhere);
 }
 
 void add_sentences(const CloudOutline& outline, const CloudReadOptions& options,
@@ -167,12 +167,12 @@ void add_sentences(const CloudOutline& outline, const CloudReadOptions& options,
     say(fmt::format("{} points were left out: they are marked as withheld.", report.withheld));
   }
   if (report.far_away > 0) {
-    say(fmt::format("{} points were left out: they lie far from the other {}.", report.far_away,
+    say(fmt::format("{} points were left out: they are far from the other {}.", report.far_away,
                     report.given - report.far_away));
   }
   if (options.thin > 1) say(fmt::format("One of {} points was kept.", options.thin));
   if (report.repeated > report.given / 100) {
-    say(fmt::format("{}{} of {} points lie exactly where another one lies.",
+    say(fmt::format("{}{} of {} points coincide exactly with another one.",
                     report.repeated_is_exact ? "" : "About ", report.repeated, report.given));
   }
   if (!report.crs_warning.empty()) say(report.crs_warning);
@@ -230,11 +230,11 @@ ParcelCloud read_parcel_cloud(const std::filesystem::path& file, const CloudRead
   constexpr double kFarthest_m = 20'000.0;  // the vertical is 0.2 degrees off there
   if (exact && middle_W.head<2>().norm() > kFarthest_m) {
     refuse_cloud(
-        file, fmt::format("lies {:.0f} km from the origin given (latitude {:.5f} deg, longitude "
-                          "{:.5f} deg), must be within {:.0f} km; give an origin near the cloud, "
-                          "or none",
-                          middle_W.head<2>().norm() * 1e-3, deg_from_rad(anywhere.latitude_rad),
-                          deg_from_rad(anywhere.longitude_rad), kFarthest_m * 1e-3));
+        file,
+        fmt::format("is {:.0f} km from the given origin (latitude {:.5f} deg, longitude {:.5f} "
+                    "deg), must be within {:.0f} km; give an origin near the cloud, or none",
+                    middle_W.head<2>().norm() * 1e-3, deg_from_rad(anywhere.latitude_rad),
+                    deg_from_rad(anywhere.longitude_rad), kFarthest_m * 1e-3));
   }
 
   ParcelCloud cloud;

@@ -5,7 +5,7 @@
 namespace vinerow::mapping {
 namespace {
 
-constexpr std::size_t kSlots = 2 * RepeatedPlaces::kMost;
+constexpr std::size_t kSlots = 2 * RepeatedPlaces::kMax;
 constexpr int kShift = 64 - std::countr_zero(kSlots);
 
 }  // namespace
@@ -19,7 +19,7 @@ void RepeatedPlaces::remember(std::uint64_t hash, std::uint64_t points) {
   slots_[at].points += points;
   if (slots_[at].hash == hash) return;
   slots_[at].hash = hash;
-  if (++places_ > kMost) thin();
+  if (++places_ > kMax) thin();
 }
 
 /// Forgets every other place.

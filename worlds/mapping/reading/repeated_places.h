@@ -1,5 +1,5 @@
 #pragma once
-/// How many points of a cloud lie exactly where another one lies.
+/// Number of points of a cloud that coincide exactly with another one.
 
 #include <Eigen/Core>
 #include <bit>
@@ -8,17 +8,17 @@
 
 namespace vinerow::mapping {
 
-/// Counts points whose three numbers equal those of an earlier point. Up to kMost places are all
-/// remembered; beyond, those alone whose 64-bit hash ends on one, two, ... zero bits. Equal points
-/// have equal hashes, so that a remembered place knows all of its points, and the count of the rest
-/// follows from its share: 4 % off (1 sigma) where 1 % of many millions are repeated once. Memory
-/// is 4 MB (8 MB for moments), whatever comes.
+/// Counts points whose three numbers equal those of an earlier point. Up to kMax places are all
+/// remembered; beyond that, only those whose 64-bit hash ends in one, two, ... zero bits. Equal
+/// points have equal hashes, so that a remembered place counts all of its points, and the total
+/// follows from the share of remembered places: with an error of 4 % (1 sigma) if 1 % of many
+/// millions are repeated once. Memory is 4 MB (8 MB for moments) for any cloud.
 ///
 /// Source: Gibbons, "Distinct sampling for highly-accurate answers to distinct values queries",
 /// VLDB 2001.
 class RepeatedPlaces {
  public:
-  static constexpr std::size_t kMost = 1 << 17;
+  static constexpr std::size_t kMax = 1 << 17;
 
   RepeatedPlaces();
   void add(const Eigen::Vector3d& place) {

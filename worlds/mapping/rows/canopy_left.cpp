@@ -6,7 +6,7 @@
 namespace vinerow::mapping {
 
 std::vector<CanopyLeft> find_canopy_left(const CanopyRaster& raster, const RowLocator& rows,
-                                         double least_m2) {
+                                         double min_m2) {
   // Coarse squares join what gaps of a metre or two part: a row that was left out is one piece, not
   // a hundred vines. A square with less canopy than a leaf or two joins nothing.
   constexpr double kSquare_m = 2.0, kFewest_m2 = 0.1;
@@ -54,7 +54,7 @@ std::vector<CanopyLeft> find_canopy_left(const CanopyRaster& raster, const RowLo
           }
         }
       }
-      if (piece.area_m2 >= least_m2) pieces.push_back(piece);
+      if (piece.area_m2 >= min_m2) pieces.push_back(piece);
     }
   }
   std::stable_sort(pieces.begin(), pieces.end(),

@@ -1,5 +1,5 @@
 #pragma once
-/// Canopy of the raster that no row was found on: what a map must say that it leaves out.
+/// Canopy of the raster that belongs to no row; a map reports it as left out.
 
 #include <vector>
 
@@ -8,16 +8,16 @@
 
 namespace vinerow::mapping {
 
-/// One piece, as it hangs together over squares of 2 m.
+/// Piece of canopy, connected over squares of 2 m.
 struct CanopyLeft {
   double area_m2 = 0.0;
-  Eigen::Vector2d low = {0, 0}, high = {0, 0};  ///< of the box around it, from the cloud's origin
+  Eigen::Vector2d low = {0, 0}, high = {0, 0};  ///< of its bounding box, from the cloud's origin
 
   Eigen::Vector2d middle() const { return 0.5 * (low + high); }
 };
 
-/// The largest first; pieces below `least_m2` are left out.
+/// Pieces, the largest first; those below `min_m2` are left out.
 std::vector<CanopyLeft> find_canopy_left(const CanopyRaster& raster, const RowLocator& rows,
-                                         double least_m2);
+                                         double min_m2);
 
 }  // namespace vinerow::mapping

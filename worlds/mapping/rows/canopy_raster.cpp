@@ -20,8 +20,8 @@ CanopyRaster make_canopy_raster(const ParcelCloud& cloud, const HeightAbove& hei
   raster.cell_m = cell_m;
   raster.corner = {std::floor(box.min().x()), std::floor(box.min().y())};
   const Eigen::Vector2d size = box.max().head<2>().cast<double>() - raster.corner;
-  constexpr double kMostSquares = 400e6;
-  if ((size.x() / cell_m + 1.0) * (size.y() / cell_m + 1.0) > kMostSquares) {
+  constexpr double kMaxSquares = 400e6;
+  if ((size.x() / cell_m + 1.0) * (size.y() / cell_m + 1.0) > kMaxSquares) {
     throw ConfigError(
         fmt::format("the cloud is {:.0f} m x {:.0f} m, too large to look for rows in one piece; "
                     "cut it into parcels",

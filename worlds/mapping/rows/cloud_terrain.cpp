@@ -13,22 +13,38 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
 
+// Plan
+//
+//   1. Coarse surface c(x, y), cells of kCoarseCell_m: a low quantile of each cell's heights,
+//   filled
+//      in and smoothed. It removes the slope.
+//   2. r = z - c(x, y) of every point goes into the histogram of its terrain cell.
+//   3. The ground of a cell is the lowest peak of its histogram (lowest_peak), by mean shift from a
+//      low quantile: middle <- mean of the r within kReach of middle.
+//   4. Samples above the morphological opening (the largest of the smallest neighbours) by more
+//      than a step are removed: canopy, walls, hedges (remove_outliers).
+//   5. Holes are filled from their border (fill_in), all samples smoothed with their weights
+//      (smooth), and c is added again.
+//
+// Thresholds are chosen unless a source is named.
+
 namespace vinerow::mapping {
 namespace {
 
 using Eigen::Vector3f;
 
+// Chosen: wider than most row spacings, so that a cell holds a part of an alley.
 constexpr double kCoarseCell_m = 5.0;
-// Of a terrain. Its histograms then take 3.6 GB where all cells are full, and those of the coarse
-// surface 2 GB.
-constexpr double kMostCells = 4e6;
-constexpr double kMostCoarseCells = 250e3;
-// A cloud with fewer points than this has some that are not the parcel's: rows need 60 per m2.
-constexpr double kLeastPerM2 = 0.25;
-constexpr double kSmall_m2 = 1e4;  // where it does not matter
+// Limits of memory. The terrain's histograms then take 3.6 GB if all cells are full, and those of
+// the coarse surface 2 GB.
+constexpr double kMaxCells = 4e6;
+constexpr double kMaxCoarseCells = 250e3;
+// A cloud with fewer points than this contains some far from the parcel: rows need 60 per m2.
+constexpr double kMinPerM2 = 0.25;
+constexpr double kSmall_m2 = 1e4;  // clouds up to this area may be sparser
 constexpr float kNoHeight = std::numeric_limits<float>::quiet_NaN();
 
-/// Counts that many threads add to: sums of whole numbers are the same in any order.
+/// Histograms that several threads fill. Sums of integers do not depend on the order.
 class Histograms {
  public:
   Histograms(std::size_t cells, int bins)
@@ -44,7 +60,7 @@ class Histograms {
   std::vector<std::uint32_t> counts_;
 };
 
-/// Samples `columns` x `rows`, `cell` apart, each with the square around it.
+/// Grid of `columns` x `rows` samples, `cell` apart. A sample's cell is the square around it.
 struct Lattice {
   float corner_x = 0, corner_y = 0, cell = 1;  // of sample (0, 0), from the cloud's origin
   int columns = 2, rows = 2;
@@ -68,20 +84,27 @@ struct Lattice {
   }
 };
 
-/// Low and high end of the bulk of heights: what few points say is no ground.
+// Chosen: margin of the coarse histograms beyond the bulk of the heights.
+constexpr float kRangeMargin_m = 2.0f;
+
+/// Range of heights without the lowest and highest thousandth, plus a margin: those are false
+/// matches.
 std::pair<float, float> height_range(const ParcelCloud& cloud) {
-  const std::size_t step = std::max<std::size_t>(1, cloud.points.size() / 200'000);
+  // Chosen: enough for quantiles of 0.1 %, which then rest on 200 points.
+  constexpr std::size_t kSamples = 200'000, kCutOneIn = 1000;
+  const std::size_t step = std::max<std::size_t>(1, cloud.points.size() / kSamples);
   std::vector<float> heights;
   for (std::size_t k = 0; k < cloud.points.size(); k += step) {
     heights.push_back(cloud.points[k].z());
   }
   std::sort(heights.begin(), heights.end());
-  const std::size_t cut = heights.size() / 1000;
-  return {heights[cut] - 2.0f, heights[heights.size() - 1 - cut] + 2.0f};
+  const std::size_t cut = heights.size() / kCutOneIn;
+  return {heights[cut] - kRangeMargin_m, heights[heights.size() - 1 - cut] + kRangeMargin_m};
 }
 
-/// Mean of the 3 x 3 samples that have a height, round by round until all have one; 0 where none
-/// has. A round takes what stood before it, and looks at the border of what is missing only.
+/// Fills NaN samples with the mean of those of their 3 x 3 neighbours that have a height, round by
+/// round until all have one; all become 0 if none has. A round uses the heights before it, and
+/// visits the border of the holes only, so that the cost is linear in the samples.
 void fill_in(std::vector<float>& heights, int columns, int rows) {
   if (std::all_of(heights.begin(), heights.end(), [](float h) { return std::isnan(h); })) {
     std::fill(heights.begin(), heights.end(), 0.0f);
@@ -125,8 +148,8 @@ void fill_in(std::vector<float>& heights, int columns, int rows) {
   }
 }
 
-/// Weighted means with [1 4 6 4 1] / 16 along both axes; samples without weight take part only by
-/// what they are given from beside them.
+/// Smooths with the binomial kernel [1 4 6 4 1] / 16 along both axes:
+/// h <- sum k w h / sum k w, w <- sum k w / sum k. @pre weights > 0
 void smooth(std::vector<float>& heights, std::vector<float>& weights, int columns, int rows) {
   constexpr double kKernel[] = {1.0, 4.0, 6.0, 4.0, 1.0};
   const auto pass = [&](int count, int lines, std::size_t along, std::size_t across) {
@@ -161,13 +184,13 @@ void check_extent(const Eigen::AlignedBox3f& box, std::size_t points, const Latt
                   const Lattice& coarse) {
   const double width_m = box.sizes().x(), depth_m = box.sizes().y();
   const double area_m2 = width_m * depth_m;
-  if (area_m2 > kSmall_m2 && static_cast<double>(points) < kLeastPerM2 * area_m2) {
+  if (area_m2 > kSmall_m2 && static_cast<double>(points) < kMinPerM2 * area_m2) {
     throw ConfigError(
-        fmt::format("the cloud's {} points lie over {:.0f} m x {:.0f} m, less than one in {:g} m2; "
-                    "remove points that lie far off, or cut it into parcels",
-                    points, width_m, depth_m, 1.0 / kLeastPerM2));
+        fmt::format("the cloud's {} points are spread over {:.0f} m x {:.0f} m, less than one in "
+                    "{:g} m2; remove points that are far off, or cut it into parcels",
+                    points, width_m, depth_m, 1.0 / kMinPerM2));
   }
-  if (lattice.cells() > kMostCells || coarse.cells() > kMostCoarseCells) {
+  if (lattice.cells() > kMaxCells || coarse.cells() > kMaxCoarseCells) {
     throw ConfigError(
         fmt::format("the cloud is {:.0f} m x {:.0f} m, too large for a terrain of {:g} m cells; "
                     "cut it into parcels",
@@ -175,12 +198,17 @@ void check_extent(const Eigen::AlignedBox3f& box, std::size_t points, const Latt
   }
 }
 
-/// A surface that follows the ground's slope at 5 m: every cell's lowest heights.
+/// Coarse surface c: the kLowShare quantile of each cell's heights, filled in and smoothed.
 HeightField coarse_surface(const ParcelCloud& cloud, const Lattice& lattice) {
+  // Chosen: above the false matches below the ground, below the vegetation on it.
   constexpr double kLowShare = 0.03;
+  // Chosen: 0.2 m is a tenth of the margin; 2000 bins limit the memory on a steep parcel.
+  constexpr float kBin_m = 0.2f;
+  constexpr int kMaxBins = 2000;
+  constexpr std::uint64_t kMinPoints = 5;  // chosen: fewer give no quantile
   const std::pair<float, float> range = height_range(cloud);
   const float low = range.first, high = range.second;
-  const int bins = std::clamp(static_cast<int>((high - low) / 0.2f), 1, 2000);
+  const int bins = std::clamp(static_cast<int>((high - low) / kBin_m), 1, kMaxBins);
   const float per_bin = static_cast<float>(bins) / (high - low);
   Histograms histograms(lattice.size(), bins);
   for_chunks(cloud.points.size(), kPointsAtOnce,
@@ -202,7 +230,7 @@ HeightField coarse_surface(const ParcelCloud& cloud, const Lattice& lattice) {
     const std::uint32_t* counts = histograms.of(cell);
     std::uint64_t all = 0;
     for (int b = 0; b < bins; ++b) all += counts[b];
-    if (all < 5) continue;
+    if (all < kMinPoints) continue;
     std::uint64_t below = 0;
     for (int b = 0; b < bins; ++b) {
       below += counts[b];
@@ -211,10 +239,10 @@ HeightField coarse_surface(const ParcelCloud& cloud, const Lattice& lattice) {
       break;
     }
   }
-  // A cloud so thin that no cell has five points.
+  // The cloud is so sparse that no cell has kMinPoints: a level surface at its low end.
   if (std::all_of(field.heights_m.begin(), field.heights_m.end(),
                   [](float h) { return std::isnan(h); })) {
-    std::fill(field.heights_m.begin(), field.heights_m.end(), low + 2.0f);
+    std::fill(field.heights_m.begin(), field.heights_m.end(), low + kRangeMargin_m);
   }
   fill_in(field.heights_m, field.columns, field.rows);
   std::vector<float> weights(field.heights_m.size(), 1.0f);
@@ -222,22 +250,24 @@ HeightField coarse_surface(const ParcelCloud& cloud, const Lattice& lattice) {
   return field;
 }
 
-// Heights about the coarse surface.
+// Range of r. Chosen: ditches down to 1.5 m, canopy up to 3 m.
 constexpr float kLow_m = -1.5f, kHigh_m = 3.0f, kHeightBin_m = 0.02f;
-constexpr int kHeightBins = 225;
+constexpr int kHeightBins = 225;  // (kHigh_m - kLow_m) / kHeightBin_m
 
 struct Ground {
-  float height_m = kNoHeight;  // about the coarse surface
-  float weight = 0.0f;         // points
-  double square_sum = 0.0;     // of what they lie off it
+  float height_m = kNoHeight;  // r
+  float weight = 0.0f;         // number of points
+  double square_sum = 0.0;     // of their squared distances from it, m2
 };
 
-/// The mode that the lowest heights are drawn to.
+/// Mode of the histogram that mean shift reaches from a low quantile; no ground if there are too
+/// few points.
 Ground lowest_peak(const std::uint32_t* counts) {
+  constexpr std::uint64_t kMinPoints = 3;  // chosen: fewer do not share a height
   std::uint64_t all = 0;
   for (int b = 0; b < kHeightBins; ++b) all += counts[b];
-  if (all < 3) return {};
-  constexpr double kLowShare = 0.05;
+  if (all < kMinPoints) return {};
+  constexpr double kLowShare = 0.05;  // chosen: false matches below the ground are fewer
   std::uint64_t below = 0;
   int start = 0;
   while (start < kHeightBins) {
@@ -245,9 +275,14 @@ Ground lowest_peak(const std::uint32_t* counts) {
     if (static_cast<double>(below) >= kLowShare * static_cast<double>(all)) break;
     ++start;
   }
-  constexpr double kReach = 7.5;  // bins: 0.15 m
-  double middle = start + 2.0, sum = 0.0, squares = 0.0;
-  for (int round = 0; round < 6; ++round) {
+  // Mean shift. The reach of 7.5 bins is 0.15 m: it spans the noise of the ground and not the
+  // canopy above it. The quantile is on the lower flank of the peak, so that the start is 2 bins
+  // above it.
+  constexpr double kReach = 7.5, kAboveQuantile = 2.0;
+  constexpr int kRounds = 6;
+  constexpr double kSettled = 0.02;  // bins: 0.4 mm
+  double middle = start + kAboveQuantile, sum = 0.0, squares = 0.0;
+  for (int round = 0; round < kRounds; ++round) {
     double moment = 0.0;
     sum = squares = 0.0;
     const int from = std::max(0, static_cast<int>(std::ceil(middle - kReach)));
@@ -259,7 +294,7 @@ Ground lowest_peak(const std::uint32_t* counts) {
     }
     if (sum == 0.0) break;
     middle += moment / sum;
-    if (std::abs(moment / sum) < 0.02) break;
+    if (std::abs(moment / sum) < kSettled) break;
   }
   Ground ground;
   ground.height_m = kLow_m + (static_cast<float>(middle) + 0.5f) * kHeightBin_m;
@@ -268,10 +303,9 @@ Ground lowest_peak(const std::uint32_t* counts) {
   return ground;
 }
 
-/// The lower envelope that a disc of `radius` cells can reach from below: what stands out of it by
-/// more than `step` is no ground.
-void drop_what_stands_out(std::vector<Ground>& ground, int columns, int rows, int radius,
-                          float step) {
+/// Removes samples that are more than `step` above the morphological opening of the heights with a
+/// square of 2 radius + 1 cells: the maximum of the minimum, each as a pass along both axes.
+void remove_outliers(std::vector<Ground>& ground, int columns, int rows, int radius, float step) {
   const auto filter = [&](const std::vector<float>& from, bool is_lowest) {
     const auto pass = [&](const std::vector<float>& in, int count, int lines, std::size_t along,
                           std::size_t across) {
@@ -349,13 +383,19 @@ CloudTerrain fit_terrain(const ParcelCloud& cloud, double cell_m) {
     ground[cell] = lowest_peak(histograms.of(cell));
     if (ground[cell].weight > 0.0f) terrain.covered_m2 += cell_m * cell_m;
   }
-  // Hulls of a few metres first, then what is left of wider ones.
+  // Small objects first, with a small step; then wide ones, with a larger step, because over 5 m
+  // the ground itself bends. Chosen.
+  constexpr double kSmallReach_m = 2.0, kWideReach_m = 5.0;
+  constexpr float kSmallStep_m = 0.2f, kWideStep_m = 0.8f;
   const auto cells = [&](double reach_m) {
     return std::max(1, static_cast<int>(std::ceil(reach_m / cell_m)));
   };
-  drop_what_stands_out(ground, lattice.columns, lattice.rows, cells(2.0), 0.2f);
-  drop_what_stands_out(ground, lattice.columns, lattice.rows, cells(5.0), 0.8f);
+  remove_outliers(ground, lattice.columns, lattice.rows, cells(kSmallReach_m), kSmallStep_m);
+  remove_outliers(ground, lattice.columns, lattice.rows, cells(kWideReach_m), kWideStep_m);
 
+  // Weights for smoothing: filled-in samples weigh little, full ones all the same. Chosen: a cell
+  // is full with 20 points, whose mean is steady to a fifth of the noise.
+  constexpr float kFilledIn = 0.02f, kFull_points = 20.0f;
   HeightField& field = terrain.field;
   field.columns = lattice.columns;
   field.rows = lattice.rows;
@@ -365,8 +405,7 @@ CloudTerrain fit_terrain(const ParcelCloud& cloud, double cell_m) {
   double squares = 0.0, points = 0.0;
   for (std::size_t cell = 0; cell < lattice.size(); ++cell) {
     field.heights_m.push_back(ground[cell].height_m);
-    // Filled-in samples weigh little, full ones all the same.
-    weights[cell] = 0.02f + std::min(1.0f, ground[cell].weight / 20.0f);
+    weights[cell] = kFilledIn + std::min(1.0f, ground[cell].weight / kFull_points);
     squares += ground[cell].square_sum;
     points += ground[cell].weight;
   }

@@ -19,7 +19,7 @@ Vector2d chord_of(const RowCurve& row) {
   return row.points_W().back() - row.points_W().front();
 }
 
-/// Median distance at which `own` runs beside `other`, or nothing where it does not for a quarter.
+/// Median distance of `own` from `other`, or null if they are side by side for less than a quarter.
 std::optional<double> distance_beside_m(const RowCurve& own, const RowCurve& other, double low_m,
                                         double high_m) {
   constexpr int kPlaces = 40, kFewest = 10;

@@ -1,5 +1,5 @@
 #pragma once
-/// The canopy points of one plant row, in the row's own frame.
+/// Canopy points of one plant row, in the row's own frame.
 
 #include <Eigen/Core>
 #include <vector>
@@ -8,12 +8,12 @@
 
 namespace vinerow::mapping {
 
-/// One row as the detection hands it to the meshing.
+/// Row as the detection passes it to the meshing.
 struct RowCanopy {
   int row = 0;
   RowCurve line;  ///< horizontal, from the canopy's first point to its last
-  /// (s, y, z) in m: along the line (may lie a little before 0 or behind its length), to the left
-  /// of it, above the ground on the line at s.
+  /// (s, y, z) in m: along the line (may be a little below 0 or above its length), to the left of
+  /// it, above the ground on the line at s.
   std::vector<Eigen::Vector3f> points;
 };
 

@@ -7,15 +7,33 @@
 
 #include "engine/core/parallel.h"
 
+// Derivation, for one window of radius R with canopy weights w at (x, y):
+//
+//   P_a(t) = sum of w over the squares with -x sin a + y cos a = t    profile across direction a
+//   a*     = argmax of sum_t P_a(t)^2                                 direction of the rows
+//
+// The sum of P_a is the canopy, the same for every a, so that the largest mean square belongs to
+// the profile with the sharpest peaks: along the rows. Its period follows from
+//
+//   v(t) = P(t) / chord(t),  chord(t) = 2 sqrt(R^2 - t^2)             without the window's shape
+//   r(l) = sum (v(t) - m)(v(t + l) - m) / sum (v(t) - m)^2            autocorrelation, m = mean v
+//
+// spacing = first large peak of r, refined by a parabola through three lags, and
+// likelihood = (r(spacing) - min r before it) / 2: r = 1 at the peak and -1 in the trough give 1.
+
 namespace vinerow::mapping {
 namespace {
 
+// As the squares of the canopy raster.
 constexpr double kProfileBin_m = 0.1;
-// Of a window that rows can be taken from: where others agree, and where it stands against most.
+// Likelihoods, chosen: of a window that agrees with its neighbours, and of one that disagrees with
+// most and must be clearer.
 constexpr double kLikely = 0.12, kClear = 0.25;
+constexpr double kDegrees = std::numbers::pi / 180.0;
 
+/// A raster square with canopy, relative to the window's middle.
 struct Square {
-  float x, y, weight;  // from the window's middle
+  float x, y, weight;
 };
 
 std::vector<Square> squares_around(const CanopyRaster& raster, const Eigen::Vector2d& middle,
@@ -41,11 +59,14 @@ std::vector<Square> squares_around(const CanopyRaster& raster, const Eigen::Vect
   return squares;
 }
 
-/// Canopy over the distance across a direction, each square shared by the two bins it lies between.
+/// Profile P_a in bins. Each square is shared between the two bins next to it.
 class Profile {
+  // Two blurs reach three bins to each side.
+  static constexpr double kBlurReach_bins = 6.0;
+
  public:
   explicit Profile(double radius_m)
-      : reach_m_(radius_m + 6.0 * kProfileBin_m),
+      : reach_m_(radius_m + kBlurReach_bins * kProfileBin_m),
         bins_(static_cast<std::size_t>(std::ceil(2.0 * reach_m_ / kProfileBin_m)) + 2, 0.0f) {}
 
   void fill(const std::vector<Square>& squares, double angle_rad) {
@@ -60,12 +81,14 @@ class Profile {
       bins_[low] += (1.0f - share) * square.weight;
       bins_[low + 1] += share * square.weight;
     }
-    // Over 0.4 m twice: the squares' own grid would show at angles along it.
+    // A mean over 0.4 m, forwards and backwards, so that it shifts nothing. Without it the grid of
+    // the raster squares would give peaks at angles along its axes.
     blur();
     std::reverse(bins_.begin(), bins_.end());
     blur();
     std::reverse(bins_.begin(), bins_.end());
   }
+  /// Sum of squares. The number of bins is constant, so that it ranks as the mean does.
   double mean_square() const {
     double sum = 0.0;
     for (const float bin : bins_) sum += static_cast<double>(bin) * bin;
@@ -75,7 +98,7 @@ class Profile {
   double offset_of(double bin) const { return bin * kProfileBin_m - reach_m_; }
 
  private:
-  /// Mean of four bins, this one and those before it.
+  /// Mean of each bin and the three before it.
   void blur() {
     float b1 = 0.0f, b2 = 0.0f, b3 = 0.0f;
     for (float& bin : bins_) {
@@ -89,8 +112,12 @@ class Profile {
   std::vector<float> bins_;
 };
 
+/// a* in [0, pi), by a full search and two refinements around the best angle.
 double best_angle(const std::vector<Square>& squares, Profile& profile) {
-  constexpr double kDegree = std::numbers::pi / 180.0;
+  // Chosen: at R = 10 m, 2 degrees move a row's end by 0.35 m, less than its width; 0.04 degrees
+  // move it by 7 mm.
+  constexpr double kCoarse_rad = 2.0 * kDegrees, kFine_rad = 0.2 * kDegrees;
+  constexpr double kFinest_rad = 0.04 * kDegrees;
   double best_rad = 0.0, best = -1.0;
   const auto search = [&](double middle_rad, double reach_rad, double step_rad) {
     const int steps = static_cast<int>(std::lround(reach_rad / step_rad));
@@ -103,20 +130,22 @@ double best_angle(const std::vector<Square>& squares, Profile& profile) {
       best_rad = angle_rad;
     }
   };
-  search(0.5 * std::numbers::pi, 0.5 * std::numbers::pi, 2.0 * kDegree);
-  search(best_rad, 2.0 * kDegree, 0.2 * kDegree);
-  search(best_rad, 0.2 * kDegree, 0.04 * kDegree);
+  search(0.5 * std::numbers::pi, 0.5 * std::numbers::pi, kCoarse_rad);
+  search(best_rad, kCoarse_rad, kFine_rad);
+  search(best_rad, kFine_rad, kFinest_rad);
   best_rad = std::fmod(best_rad, std::numbers::pi);
   return best_rad < 0.0 ? best_rad + std::numbers::pi : best_rad;
 }
 
-/// The profile without the round window's own shape: divided by what an even cover would give.
+/// v(t): the profile over that of an even cover of the round window; 0 where the chord is short.
 std::vector<double> levelled(const Profile& profile, double radius_m, double square_m) {
+  // Chosen, of R: a shorter chord holds too little canopy. 0.6 R is left at |t| < 0.95 R.
+  constexpr double kMinChord = 0.6;
   std::vector<double> level(profile.bins().size(), 0.0);
   for (std::size_t k = 0; k < level.size(); ++k) {
     const double y = profile.offset_of(static_cast<double>(k));
     const double chord_m = 2.0 * std::sqrt(std::max(0.0, radius_m * radius_m - y * y));
-    if (chord_m < 0.6 * radius_m) continue;
+    if (chord_m < kMinChord * radius_m) continue;
     level[k] = profile.bins()[k] * square_m * square_m / (chord_m * kProfileBin_m);
   }
   return level;
@@ -126,9 +155,14 @@ struct Period {
   double spacing_m, likelihood;
 };
 
-/// First large peak of the autocorrelation.
+/// Period of v by the first large peak of the autocorrelation r; null without one.
 std::optional<Period> period_of(const std::vector<double>& level, const RowPatchOptions& options) {
-  // Inner part, where the chord was long enough.
+  // Chosen: the first peak of nearly the largest height is the spacing, the later ones are its
+  // multiples; a lower one before it comes from weeds or from the shape of the rows.
+  constexpr double kOfHighest = 0.75;
+  // Chosen: below this r is noise.
+  constexpr double kMinPeak = 0.15;
+  // Inner part, where the chord is long enough.
   std::size_t first = 0, last = level.size();
   const auto [low, high] = std::minmax_element(level.begin(), level.end());
   if (*high <= *low) return std::nullopt;
@@ -141,7 +175,8 @@ std::optional<Period> period_of(const std::vector<double>& level, const RowPatch
   mean /= std::max<double>(1.0, static_cast<double>(inner.size()));
   double own = 0.0;
   for (const double value : inner) own += (value - mean) * (value - mean);
-  // Over the whole profile's spread: two pieces of bare ground are alike, but say nothing.
+  // r(lag), divided by the spread of the whole profile and not of the overlap: two pieces of bare
+  // ground would correlate well.
   const auto correlation = [&](std::size_t lag) {
     double sum = 0.0;
     for (std::size_t k = 0; k + lag < inner.size(); ++k) {
@@ -149,6 +184,7 @@ std::optional<Period> period_of(const std::vector<double>& level, const RowPatch
     }
     return sum / own;
   };
+  // A lag beyond two thirds of the profile has too little overlap.
   const auto lag_low = static_cast<std::size_t>(options.spacing_low_m / kProfileBin_m);
   const auto lag_high = std::min(static_cast<std::size_t>(options.spacing_high_m / kProfileBin_m),
                                  inner.size() * 2 / 3);
@@ -159,9 +195,10 @@ std::optional<Period> period_of(const std::vector<double>& level, const RowPatch
   for (std::size_t lag = lag_low; lag <= lag_high; ++lag) highest = std::max(highest, values[lag]);
   for (std::size_t lag = lag_low; lag <= lag_high; ++lag) {
     const bool is_peak = values[lag] >= values[lag - 1] && values[lag] >= values[lag + 1];
-    if (!is_peak || values[lag] < 0.75 * highest || values[lag] < 0.15) continue;
+    if (!is_peak || values[lag] < kOfHighest * highest || values[lag] < kMinPeak) continue;
     const double trough =
         *std::min_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(lag) + 1);
+    // Vertex of the parabola through the peak and its neighbours, within half a bin.
     const double bend = values[lag - 1] - 2.0 * values[lag] + values[lag + 1];
     const double shift =
         bend < 0.0 ? std::clamp(0.5 * (values[lag - 1] - values[lag + 1]) / bend, -0.5, 0.5) : 0.0;
@@ -171,16 +208,22 @@ std::optional<Period> period_of(const std::vector<double>& level, const RowPatch
   return std::nullopt;
 }
 
-/// Peaks of the profile: centres of mass of what stands above a third of the highest.
+/// Offsets of the rows: for every local maximum of v above a third of the highest, the centre of
+/// mass of v around it.
 std::vector<double> peaks_of(const std::vector<double>& level, const Profile& profile,
                              double spacing_m) {
+  // Chosen: a third of the highest is a row with gaps.
+  constexpr double kHighestOver = 3.0;
+  // Chosen, of the spacing: less than half, so that the next row is not reached.
+  constexpr double kPeakReach = 0.35;
   const double highest = *std::max_element(level.begin(), level.end());
-  const auto reach = static_cast<std::ptrdiff_t>(std::lround(0.35 * spacing_m / kProfileBin_m));
+  const auto reach =
+      static_cast<std::ptrdiff_t>(std::lround(kPeakReach * spacing_m / kProfileBin_m));
   const auto count = static_cast<std::ptrdiff_t>(level.size());
   std::vector<double> offsets;
   for (std::ptrdiff_t k = 0; k < count; ++k) {
     const double value = level[static_cast<std::size_t>(k)];
-    if (value < highest / 3.0) continue;
+    if (value < highest / kHighestOver) continue;
     bool is_highest = true;
     double sum = 0.0, moment = 0.0;
     for (std::ptrdiff_t n = std::max<std::ptrdiff_t>(0, k - reach);
@@ -195,13 +238,16 @@ std::vector<double> peaks_of(const std::vector<double>& level, const Profile& pr
   return offsets;
 }
 
+/// Rows in one window; null if it holds almost no canopy.
 std::optional<RowPatch> look_at(const CanopyRaster& raster, const Eigen::Vector2d& middle,
                                 const RowPatchOptions& options) {
+  // Chosen: canopy area over R^2, a third of a percent of the window's area.
+  constexpr double kMinCanopy = 0.01;
   const std::vector<Square> squares = squares_around(raster, middle, options.radius_m);
   double canopy_m2 = 0.0;
   for (const Square& square : squares) canopy_m2 += square.weight;
   canopy_m2 *= raster.cell_m * raster.cell_m;
-  if (canopy_m2 < 0.01 * options.radius_m * options.radius_m) return std::nullopt;
+  if (canopy_m2 < kMinCanopy * options.radius_m * options.radius_m) return std::nullopt;
   Profile profile(options.radius_m);
   RowPatch patch;
   patch.middle = middle;
@@ -258,49 +304,61 @@ double median_spacing_m(const std::vector<RowPatch>& patches) {
   return sorted.back().first;
 }
 
-std::vector<RowPatch> agreeing_patches(const std::vector<RowPatch>& patches,
-                                       const RowPatchOptions& options) {
+std::vector<RowPatch> consistent_windows(const std::vector<RowPatch>& patches,
+                                         const RowPatchOptions& options) {
+  // Chosen: share of the surrounding canopy that must agree. At an edge of the parcel, and beside
+  // windows that see no rows clearly, it is well below 1.
   constexpr double kWith = 0.4;
+  // Directions are axes, so that angles are doubled: +-15 degrees, chosen for curved rows.
   const double kParallel = std::cos(2.0 * 15.0 * std::numbers::pi / 180.0);
+  // Chosen, of the median spacing: a third, so that neither half nor twice of it passes.
+  constexpr double kNarrow = 0.75, kWide = 1.33;
+  // Windows are R apart; 3 R, with a margin for rounding.
+  constexpr double kAround = 3.01;
   std::vector<RowPatch> likely;
   for (const RowPatch& patch : patches) {
     if (patch.likelihood >= kLikely) likely.push_back(patch);
   }
   if (likely.empty()) return {};
   const double spacing_m = median_spacing_m(likely);
-  std::vector<RowPatch> agreeing;
+  std::vector<RowPatch> consistent;
   for (const RowPatch& patch : likely) {
-    if (patch.spacing_m < 0.75 * spacing_m || patch.spacing_m > 1.33 * spacing_m) continue;
+    if (patch.spacing_m < kNarrow * spacing_m || patch.spacing_m > kWide * spacing_m) continue;
     double with = 0.0, all = 0.0;
     for (const RowPatch& other : patches) {
       const double apart_m = (other.middle - patch.middle).norm();
-      if (apart_m == 0.0 || apart_m > 3.01 * options.radius_m) continue;
+      if (apart_m == 0.0 || apart_m > kAround * options.radius_m) continue;
       all += other.canopy_m2;
       if (other.likelihood < kLikely) continue;
       if (std::cos(2.0 * (other.angle_rad - patch.angle_rad)) >= kParallel) with += other.canopy_m2;
     }
-    if (with >= kWith * all) agreeing.push_back(patch);
+    if (with >= kWith * all) consistent.push_back(patch);
   }
-  return agreeing;
+  return consistent;
 }
 
 std::vector<std::vector<RowPatch>> other_patches(const std::vector<RowPatch>& patches,
-                                                 const std::vector<RowPatch>& agreeing,
+                                                 const std::vector<RowPatch>& consistent,
                                                  const RowPatchOptions& options) {
+  // +-10 degrees (axes, doubled angles) and a fifth, chosen: stricter than for the main block,
+  // because fewer windows can agree.
   const double kParallel = std::cos(2.0 * 10.0 * std::numbers::pi / 180.0);
   constexpr double kSameSpacing = 1.2;
+  // Between the distances of a diagonal neighbour, 1.41 R, and of the next but one, 2 R.
+  constexpr double kAdjacent = 1.5;
   std::vector<RowPatch> left;
   for (const RowPatch& patch : patches) {
-    const bool is_taken = std::any_of(agreeing.begin(), agreeing.end(), [&](const RowPatch& other) {
-      return other.middle == patch.middle;
-    });
+    const bool is_taken =
+        std::any_of(consistent.begin(), consistent.end(),
+                    [&](const RowPatch& other) { return other.middle == patch.middle; });
     if (!is_taken && patch.likelihood >= kClear) left.push_back(patch);
   }
-  const auto hang_together = [&](const RowPatch& a, const RowPatch& b) {
-    return (a.middle - b.middle).norm() < 1.5 * options.radius_m &&
+  const auto are_consistent = [&](const RowPatch& a, const RowPatch& b) {
+    return (a.middle - b.middle).norm() < kAdjacent * options.radius_m &&
            std::cos(2.0 * (a.angle_rad - b.angle_rad)) >= kParallel &&
            std::max(a.spacing_m, b.spacing_m) <= kSameSpacing * std::min(a.spacing_m, b.spacing_m);
   };
+  // Connected components, by growing each from its first window.
   std::vector<std::vector<RowPatch>> groups;
   std::vector<bool> used(left.size(), false);
   for (std::size_t k = 0; k < left.size(); ++k) {
@@ -309,7 +367,7 @@ std::vector<std::vector<RowPatch>> other_patches(const std::vector<RowPatch>& pa
     std::vector<RowPatch> group{left[k]};
     for (std::size_t n = 0; n < group.size(); ++n) {
       for (std::size_t m = 0; m < left.size(); ++m) {
-        if (used[m] || !hang_together(group[n], left[m])) continue;
+        if (used[m] || !are_consistent(group[n], left[m])) continue;
         used[m] = true;
         group.push_back(left[m]);
       }

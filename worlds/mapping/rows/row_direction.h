@@ -1,5 +1,5 @@
 #pragma once
-/// Which way rows run and how far apart they are, place by place: so curved rows are found too.
+/// Local direction and spacing of plant rows, window by window, so that curved rows are found too.
 
 #include <Eigen/Core>
 #include <vector>
@@ -8,14 +8,14 @@
 
 namespace vinerow::mapping {
 
-/// What one round window on the canopy shows.
+/// Rows in one round window on the canopy.
 struct RowPatch {
-  Eigen::Vector2d middle = {0, 0};  ///< of the window, from the cloud's origin
+  Eigen::Vector2d middle = {0, 0};  ///< of the window, relative to the cloud's origin
   double angle_rad = 0.0;           ///< of the rows from x, counter-clockwise, [0, pi)
   double spacing_m = 0.0;           ///< between rows
   double likelihood = 0.0;          ///< 0: no rows, 1: every alley free and all rows alike
-  double canopy_m2 = 0.0;           ///< in the window
-  std::vector<double> offsets_m;    ///< of the rows from the middle, to the left of the angle
+  double canopy_m2 = 0.0;           ///< canopy area in the window
+  std::vector<double> offsets_m;    ///< of the rows from the middle, positive to the left
 };
 
 struct RowPatchOptions {
@@ -23,30 +23,35 @@ struct RowPatchOptions {
   double spacing_low_m = 1.0, spacing_high_m = 6.0;
 };
 
-/// Windows every radius over the raster, those without canopy left out, in the raster's order;
-/// likelihood and spacing are 0 where nothing repeats itself. The angle is the one under which the
-/// canopy's profile across it has the largest mean square (steps of 2, 0.2 and 0.04 degrees), the
-/// spacing the first large peak of that profile's autocorrelation, the likelihood half its height
-/// above the trough before it.
+/// Windows over the whole raster, one radius apart, in the raster's order. Windows without canopy
+/// are left out; likelihood and spacing are 0 if the canopy is not periodic.
+///
+/// The angle maximises the mean square of the canopy's profile across it (steps of 2, 0.2 and 0.04
+/// degrees). The spacing is the first large peak of that profile's autocorrelation. The likelihood
+/// is half the height of that peak above the lowest value before it.
 std::vector<RowPatch> find_row_patches(const CanopyRaster& raster, const RowPatchOptions& options);
 
-/// Those that belong to rows: likely enough, of a spacing that most canopy has (within a third),
-/// and with two fifths of the canopy within three radii in windows of rows that run as these do
-/// (within 15 degrees): a window that sees little more than the ends of rows may take their edge
-/// for a row, and one on a meadow some bushes.
-std::vector<RowPatch> agreeing_patches(const std::vector<RowPatch>& patches,
-                                       const RowPatchOptions& options);
+/// Windows that belong to the rows of the parcel.
+///
+/// Kept are windows that are likely enough, whose spacing is within about a third of the weighted
+/// median, and for which at least two fifths of the canopy within three radii is in windows with
+/// rows in the same direction (within 15 degrees). A window on the ends of rows may mistake their
+/// edge for a row, and one on a meadow may mistake bushes for it; the last condition removes both.
+std::vector<RowPatch> consistent_windows(const std::vector<RowPatch>& patches,
+                                         const RowPatchOptions& options);
 
-/// Windows that agreeing_patches() has left out though they show rows clearly (bushes on a meadow
-/// do not), by groups that hang together: side by side, in one direction (within 10 degrees), of
-/// one spacing (within a fifth). Blocks that run another way than most, or stand closer. Groups of
-/// one window are left out; the largest comes first.
+/// Groups of windows of other blocks, with rows of another direction or spacing than most.
+///
+/// These are windows that consistent_windows() has left out although they clearly show rows (bushes
+/// on a meadow do not). A group is connected: neighbouring windows with the same direction (within
+/// 10 degrees) and spacing (within a fifth). Groups of one window are left out; the largest group
+/// comes first.
 std::vector<std::vector<RowPatch>> other_patches(const std::vector<RowPatch>& patches,
-                                                 const std::vector<RowPatch>& agreeing,
+                                                 const std::vector<RowPatch>& consistent,
                                                  const RowPatchOptions& options);
 
-/// Middle of the windows' spacings, each as heavy as its canopy is likely to be rows.
-/// @pre not empty
+/// Weighted median of the windows' spacings, with weights likelihood x canopy.
+/// @pre patches is not empty
 double median_spacing_m(const std::vector<RowPatch>& patches);
 
 }  // namespace vinerow::mapping

@@ -8,12 +8,30 @@
 #include "engine/math/planar.h"
 #include "worlds/mapping/model/row_map.h"
 
+// Plan, for each track:
+//
+//   1. Centres. Every metre of the line, c = weighted mean of the canopy squares in a window of
+//      1.5 m x 2 across_m, with the raster's weights w.
+//   2. Line. Straight if no 10 m mean of the centres is farther than kStraight_m from the total
+//      least squares line; else locally weighted parabolas p(x) = b0 + b1 x + b2 x^2 through the
+//      centres (one per coordinate), evaluated at x = 0 every kPitch_m. Steps 1 and 2 are repeated,
+//      because a better line moves the windows.
+//   3. Ends. The line is cut to the canopy along it (canopy_stretch). If more than kCutOff_m is cut
+//      off, steps 1 to 3 are repeated without the part that was cut off.
+//   4. Checks: length, canopy along the line and free alleys (is_row_like), and at last, among all
+//      lines, a parallel neighbour (has_neighbour).
+//
+// x is along a line and y to its left, with unit vectors u and n. Weights are counts of squares: 1
+// is an average square of canopy (CanopyRaster). Thresholds in shares of the row spacing scale
+// with the vineyard. All of them are chosen.
+
 namespace vinerow::mapping {
 namespace {
 
 using Eigen::Vector2d;
 
-/// Calls visit(x, y, weight) for canopy within `along_m` and `across_m` of p, seen along u.
+/// Calls visit(x, y, weight) for every square of canopy with |x| <= along_m and |y| <= across_m,
+/// x along u and y to its left, from p.
 template <class F>
 void for_canopy(const CanopyRaster& raster, const Vector2d& p, const Vector2d& u, double along_m,
                 double across_m, F&& visit) {
@@ -37,36 +55,43 @@ void for_canopy(const CanopyRaster& raster, const Vector2d& p, const Vector2d& u
   }
 }
 
+/// Weighted mean position of the canopy in one window.
 struct Centre {
   Vector2d p;
   double weight;
 };
 
-/// Middle of the canopy beside every metre of a line; places without canopy are left out.
+/// Centres of the canopy at every metre of a line. Windows without canopy give none.
 std::vector<Centre> centres_along(const CanopyRaster& raster, const RowCurve& line,
                                   double across_m) {
+  // Chosen: windows 1 m apart overlap by 0.5 m, so that a vine is seen by two of them.
+  constexpr double kHalfWindow_m = 0.75;
+  // Chosen: one average square; less is a stray point.
+  constexpr double kMinWeight = 1.0;
   std::vector<Centre> centres;
   const int count = std::max(2, static_cast<int>(std::lround(line.length_m())) + 1);
   for (int k = 0; k < count; ++k) {
     const double s_m = line.length_m() * k / (count - 1);
     const Vector2d p = line.point_W(s_m), u = line.direction_W(s_m);
     double sum = 0.0, x_sum = 0.0, y_sum = 0.0;
-    for_canopy(raster, p, u, 0.75, across_m, [&](double x, double y, double weight) {
+    for_canopy(raster, p, u, kHalfWindow_m, across_m, [&](double x, double y, double weight) {
       sum += weight;
       x_sum += weight * x;
       y_sum += weight * y;
     });
-    if (sum <= 1.0) continue;
+    if (sum <= kMinWeight) continue;
     centres.push_back({p + x_sum / sum * u + y_sum / sum * left_of(u), sum});
   }
   return centres;
 }
 
-/// Drops points that do not lead forward, so that a curve can be laid through the rest.
+/// Curve through points that are far enough apart; null if fewer than two are.
 std::optional<RowCurve> curve_through(const std::vector<Vector2d>& points) {
+  // Chosen: two raster squares of 0.1 m; the direction between closer points is noise.
+  constexpr double kMinApart_m = 0.2;
   std::vector<Vector2d> kept;
   for (const Vector2d& p : points) {
-    if (kept.empty() || (p - kept.back()).norm() > 0.2) kept.push_back(p);
+    if (kept.empty() || (p - kept.back()).norm() > kMinApart_m) kept.push_back(p);
   }
   if (kept.size() < 2) return std::nullopt;
   return RowCurve(std::move(kept));
@@ -74,10 +99,15 @@ std::optional<RowCurve> curve_through(const std::vector<Vector2d>& points) {
 
 struct StraightLine {
   Vector2d middle, u;
-  double off_m;  // largest mean over 10 m off it
+  double off_m;  // largest distance of a 10 m mean of the centres from the line
 };
 
+/// Total least squares line: minimises sum w (n . (c - middle))^2. With the second moments xx, xy,
+/// yy about the weighted mean, its angle is 1/2 atan2(2 xy, xx - yy).
 StraightLine straight_through(const std::vector<Centre>& centres) {
+  // Chosen: a single centre is off by the shape of its vine; about ten vines average that out, and
+  // the bend of a curved row still shows.
+  constexpr double kMean_m = 10.0;
   Vector2d middle = Vector2d::Zero();
   double weight = 0.0;
   for (const Centre& c : centres) {
@@ -85,7 +115,6 @@ StraightLine straight_through(const std::vector<Centre>& centres) {
     weight += c.weight;
   }
   middle /= weight;
-  // Least squares across the line: the eigenvector of the larger spread.
   double xx = 0.0, xy = 0.0, yy = 0.0;
   for (const Centre& c : centres) {
     const Vector2d d = c.p - middle;
@@ -97,13 +126,14 @@ StraightLine straight_through(const std::vector<Centre>& centres) {
   StraightLine line{middle, {std::cos(angle), std::sin(angle)}, 0.0};
   const Vector2d way = centres.back().p - centres.front().p;
   if (way.dot(line.u) < 0.0) line.u = -line.u;
+  // off_m = max |sum w y / sum w| over consecutive pieces of kMean_m.
   double sum = 0.0, sum_weight = 0.0;
   double from_m = (centres.front().p - middle).dot(line.u);
   for (std::size_t k = 0; k <= centres.size(); ++k) {
     const bool is_end = k == centres.size();
     const double s_m = is_end ? 0.0 : (centres[k].p - middle).dot(line.u);
-    if (is_end || s_m - from_m > 10.0) {
-      // The last stretch may be short and says less.
+    if (is_end || s_m - from_m > kMean_m) {
+      // The last piece may be short and its mean noisy: it counts only if it is the only one.
       if (sum_weight > 0.0 && (!is_end || line.off_m == 0.0)) {
         line.off_m = std::max(line.off_m, std::abs(sum / sum_weight));
       }
@@ -117,10 +147,20 @@ StraightLine straight_through(const std::vector<Centre>& centres) {
   return line;
 }
 
-/// A line by parabolas through the middles up to 8 m to each side, the near ones the heavier, at
-/// every 2 m.
+/// Locally weighted parabolas. At each s, b = argmin sum w (1 - (x / kReach_m)^2)^2
+/// |c - here - b0 - b1 x - b2 x^2|^2 with x the centre's distance along the line; the point is
+/// here + b0. `moments` b = `sums` are the normal equations.
 std::vector<Vector2d> smoothed(const RowCurve& line, const std::vector<Centre>& centres) {
+  // Chosen: the window of 16 m holds 16 centres for 3 unknowns; a point every 2 m follows what such
+  // a window can resolve.
   constexpr double kPitch_m = 2.0, kReach_m = 8.0;
+  // Chosen: with centres less far than this to one side the parabola extrapolates there.
+  constexpr double kMinSide_m = 2.0;
+  // Added to the normal equations. With squares of 0.1 m the sums of w x^4 stay below 1e6 m^4, so
+  // that 1e9 forces b2 to 0; 1e-9 keeps the matrix regular with a single centre.
+  constexpr double kNoBend = 1e9, kRegular = 1e-9;
+  // Chosen: a jump of more than this is a failed fit, and the old point is kept.
+  constexpr double kMaxShift_m = 1.0;
   std::vector<double> at_m;
   for (const Centre& c : centres) at_m.push_back(line.nearest_s_m(c.p));
   const int count = std::max(2, static_cast<int>(std::lround(line.length_m() / kPitch_m)) + 1);
@@ -140,21 +180,24 @@ std::vector<Vector2d> smoothed(const RowCurve& line, const std::vector<Centre>& 
       sums += centres[n].weight * bell * bell * powers * (centres[n].p - here).transpose();
       low_m = std::min(low_m, x), high_m = std::max(high_m, x);
     }
-    // Too few places, or all to one side: a parabola would swing out.
-    const bool is_bent = low_m < -2.0 && high_m > 2.0;
-    if (!is_bent) moments(2, 2) += 1e9;
-    moments.diagonal().array() += 1e-9;
+    // Few centres, or all to one side: a parabola would swing out, so a straight line is fitted.
+    const bool is_bent = low_m < -kMinSide_m && high_m > kMinSide_m;
+    if (!is_bent) moments(2, 2) += kNoBend;
+    moments.diagonal().array() += kRegular;
     const Vector2d off = moments.ldlt().solve(sums).row(0).transpose();
-    points.push_back(here + (off.norm() < 1.0 ? off : Vector2d::Zero()));
+    points.push_back(here + (off.norm() < kMaxShift_m ? off : Vector2d::Zero()));
   }
   return points;
 }
 
-/// Places along a line where the alleys beside it are no emptier than the row itself, and than they
-/// are elsewhere on this line: a tree's crown, or a hedge across.
-/// @param core,beside  canopy on the line and in the alleys' half beside it, step by step
+/// Bins of a line at which the canopy is too wide for a row: a tree's crown, or a hedge across. In
+/// a window of `run` bins around each, share = sum(beside) / sum(core); wide is a share above
+/// max(kWide, kTimesUsual * median share of the line).
+/// @param core,beside  canopy on the line and in the half alleys beside it, for each bin
 std::vector<bool> find_wide(const std::vector<double>& core, const std::vector<double>& beside,
                             int run) {
+  // Chosen: the half alleys hold 3 squares for every 2 of the core, so an even cover has a share of
+  // 1.5 and a row with free alleys nearly 0. The median admits rows that are wide throughout.
   constexpr double kWide = 0.6, kTimesUsual = 2.0;
   std::vector<double> shares(core.size(), 0.0), usual;
   for (std::size_t k = 0; k < core.size(); ++k) {
@@ -178,12 +221,33 @@ std::vector<bool> find_wide(const std::vector<double>& core, const std::vector<d
   return is_wide;
 }
 
-/// The stretch of a line from its first canopy to its last, looked for a little beyond its ends.
+/// Stretch [from, to] of a line, in m from its start, from its first canopy to its last; it may
+/// begin before 0 and end beyond the line.
+///
+/// The line, extended by kBeyond_ends_m, is divided into bins. A bin is canopy if its weight is at
+/// least kLow times the median of the bins that hold any, and it is not too wide (find_wide). A run
+/// is kRun bins of canopy in a row. Each end is searched outwards from a little inside the track's
+/// end, until a gap beyond that end exceeds kLongest_gap_m; the outermost run found is the end.
+/// Without one the search goes inwards from the track's end.
 std::optional<std::pair<double, double>> canopy_stretch(const CanopyRaster& raster,
                                                         const RowCurve& line, double across_m,
                                                         double half_alley_m) {
+  // Chosen: a track ends on canopy within a step or two of 1 m, so that the row goes on a few
+  // metres at most; a larger gap is a headland.
   constexpr double kBeyond_ends_m = 4.0, kLongest_gap_m = 2.0;
-  const double kBin_along_m = std::max(0.1, raster.cell_m);
+  // Bins are as long as a raster square, and at least 0.1 m.
+  constexpr double kMinBin_m = 0.1;
+  const double kBin_along_m = std::max(kMinBin_m, raster.cell_m);
+  // Chosen: core of a row, as a share of the half alley.
+  constexpr double kCoreShare = 0.4;
+  // Chosen: a thin vine passes; a post or a stay, which is a few squares wide, does not.
+  constexpr double kLow = 0.45;
+  // Chosen: 0.6 m in one piece is a vine, and not a post or the stay behind the last one. At least
+  // three bins, so that one noisy square makes no run.
+  constexpr double kRun_m = 0.6;
+  constexpr int kMinRun_bins = 3;
+  // Chosen: the search starts this far inside the track (2 m in bins of 0.1 m).
+  constexpr int kInside_bins = 20;
   const int bins =
       static_cast<int>(std::ceil((line.length_m() + 2.0 * kBeyond_ends_m) / kBin_along_m));
   std::vector<double> weights(static_cast<std::size_t>(bins), 0.0);
@@ -194,9 +258,10 @@ std::optional<std::pair<double, double>> canopy_stretch(const CanopyRaster& rast
     for_canopy(raster, line.point_W(s_m), line.direction_W(s_m), 0.5 * kBin_along_m, half_alley_m,
                [&](double, double y, double weight) {
                  if (std::abs(y) <= across_m) weights[bin] += weight;
-                 (std::abs(y) < 0.4 * half_alley_m ? core : beside)[bin] += weight;
+                 (std::abs(y) < kCoreShare * half_alley_m ? core : beside)[bin] += weight;
                });
   }
+  // Median weight of the bins that hold canopy.
   std::vector<double> sorted;
   for (const double w : weights) {
     if (w > 0.0) sorted.push_back(w);
@@ -204,11 +269,10 @@ std::optional<std::pair<double, double>> canopy_stretch(const CanopyRaster& rast
   if (sorted.empty()) return std::nullopt;
   std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
                    sorted.end());
-  const double least = 0.45 * sorted[sorted.size() / 2];
-  // Canopy of 0.6 m in one piece counts: a vine, and not a post or the stay behind the last one.
+  const double least = kLow * sorted[sorted.size() / 2];
   std::vector<bool> is_canopy(weights.size());
   for (std::size_t k = 0; k < weights.size(); ++k) is_canopy[k] = weights[k] >= least;
-  const int kRun = std::max(3, static_cast<int>(std::lround(0.6 / kBin_along_m)));
+  const int kRun = std::max(kMinRun_bins, static_cast<int>(std::lround(kRun_m / kBin_along_m)));
   const std::vector<bool> is_wide = find_wide(core, beside, kRun);
   for (std::size_t k = 0; k < weights.size(); ++k) is_canopy[k] = is_canopy[k] && !is_wide[k];
   int first = -1, last = -1;
@@ -220,12 +284,13 @@ std::optional<std::pair<double, double>> canopy_stretch(const CanopyRaster& rast
     }
     return count >= kRun;
   };
-  // Beyond the track's own end only what hangs together with it.
+  // Outwards from both ends of the track. Gaps count beyond its ends only: inside the track they
+  // are missing vines.
   const int track_first = static_cast<int>(kBeyond_ends_m / kBin_along_m);
   const int track_last = bins - 1 - track_first;
   int gap = 0;
-  for (int k = track_first + 20; k >= 0 && gap <= static_cast<int>(kLongest_gap_m / kBin_along_m);
-       --k) {
+  for (int k = track_first + kInside_bins;
+       k >= 0 && gap <= static_cast<int>(kLongest_gap_m / kBin_along_m); --k) {
     if (k <= middle && run_at(k)) {
       first = k;
       gap = 0;
@@ -234,7 +299,7 @@ std::optional<std::pair<double, double>> canopy_stretch(const CanopyRaster& rast
     }
   }
   gap = 0;
-  for (int k = std::max(0, track_last - 20);
+  for (int k = std::max(0, track_last - kInside_bins);
        k + kRun <= bins && gap <= static_cast<int>(kLongest_gap_m / kBin_along_m); ++k) {
     if (k >= middle - kRun && run_at(k)) {
       last = k + kRun;
@@ -243,6 +308,7 @@ std::optional<std::pair<double, double>> canopy_stretch(const CanopyRaster& rast
       ++gap;
     }
   }
+  // Inwards if the track's ends are on no canopy.
   if (first < 0) {
     for (int k = track_first; k < bins && first < 0; ++k) {
       if (run_at(k)) first = k;
@@ -257,53 +323,68 @@ std::optional<std::pair<double, double>> canopy_stretch(const CanopyRaster& rast
   return std::pair{-kBeyond_ends_m + first * kBin_along_m, -kBeyond_ends_m + last * kBin_along_m};
 }
 
+/// The line from `from_m` to `to_m`, which may be beyond its ends; null if that is too short.
 std::optional<RowCurve> cut_to(const RowCurve& line, double from_m, double to_m) {
+  // Chosen: a point of the line closer than this to a new end would bend the curve there.
+  constexpr double kEndClearance_m = 0.5;
   std::vector<Vector2d> points{line.point_W(from_m)};
   double s_m = 0.0;
   const bool is_straight = line.points_W().size() == 2;
   for (std::size_t k = 0; !is_straight && k < line.points_W().size(); ++k) {
     if (k > 0) s_m += (line.points_W()[k] - line.points_W()[k - 1]).norm();
-    if (s_m > from_m + 0.5 && s_m < to_m - 0.5) points.push_back(line.points_W()[k]);
+    if (s_m > from_m + kEndClearance_m && s_m < to_m - kEndClearance_m) {
+      points.push_back(line.points_W()[k]);
+    }
   }
   points.push_back(line.point_W(to_m));
   return curve_through(points);
 }
 
-/// Whether canopy stands along most of a line and not where the alleys beside it would be. Bushes
-/// on a meadow can be joined by a line too.
+/// True if at least kCovered of the line's metres hold canopy and the line holds more than
+/// kContrast times the canopy of the alleys beside it. Lines through bushes on a meadow fail.
 bool is_row_like(const CanopyRaster& raster, const RowCurve& line, double spacing_m) {
+  // Chosen: rows with many missing vines pass, chains of single bushes do not.
   constexpr double kCovered = 0.45, kContrast = 3.0;
+  // Chosen, in row spacings from the line: the row, and its alleys up to a little beyond their
+  // middle at 0.5, between them the reach of shoots that belongs to neither.
+  constexpr double kRowShare = 0.2, kAlleyFrom = 0.4, kAlleyTo = 0.6;
+  constexpr double kHalfMetre_m = 0.5;   // windows along the line abut
+  constexpr double kMinCanopy_m2 = 0.1;  // chosen: of canopy, in a metre that counts as covered
   const int count = std::max(2, static_cast<int>(line.length_m()));
   int covered = 0;
   double row = 0.0, beside = 0.0;
   for (int k = 0; k < count; ++k) {
     const double s_m = line.length_m() * (k + 0.5) / count;
     double here = 0.0;
-    for_canopy(raster, line.point_W(s_m), line.direction_W(s_m), 0.5, 0.6 * spacing_m,
+    for_canopy(raster, line.point_W(s_m), line.direction_W(s_m), kHalfMetre_m, kAlleyTo * spacing_m,
                [&](double, double y, double weight) {
-                 if (std::abs(y) < 0.2 * spacing_m) here += weight;
-                 if (std::abs(y) > 0.4 * spacing_m) beside += weight;
+                 if (std::abs(y) < kRowShare * spacing_m) here += weight;
+                 if (std::abs(y) > kAlleyFrom * spacing_m) beside += weight;
                });
     row += here;
-    // A tenth of a square metre in this metre.
-    covered += here * raster.cell_m * raster.cell_m > 0.1 ? 1 : 0;
+    covered += here * raster.cell_m * raster.cell_m > kMinCanopy_m2 ? 1 : 0;
   }
   return covered >= kCovered * count && row > kContrast * beside;
 }
 
-/// The line through the middles of the canopy beside a first guess.
+/// Line through the centres of the canopy along a first guess (steps 1 and 2); null if there is too
+/// little canopy.
 std::optional<RowCurve> fit_curve(const CanopyRaster& raster, const RowCurve& guess,
                                   double across_m) {
+  // Chosen: about half a raster square of 0.1 m, below which a bend is noise.
   constexpr double kStraight_m = 0.06;
+  constexpr int kRounds = 4;              // chosen: enough for the windows to settle on the row
+  constexpr std::size_t kMinCentres = 3;  // a parabola has three unknowns
+  constexpr double kMinLength_m = 1.0;    // chosen: the pitch of the centres
   std::optional<RowCurve> line = guess;
-  for (int round = 0; round < 4; ++round) {
+  for (int round = 0; round < kRounds; ++round) {
     const std::vector<Centre> centres = centres_along(raster, *line, across_m);
-    if (centres.size() < 3) return std::nullopt;
+    if (centres.size() < kMinCentres) return std::nullopt;
     const StraightLine straight = straight_through(centres);
     if (straight.off_m < kStraight_m) {
       const double from_m = (centres.front().p - straight.middle).dot(straight.u);
       const double to_m = (centres.back().p - straight.middle).dot(straight.u);
-      if (to_m - from_m < 1.0) return std::nullopt;
+      if (to_m - from_m < kMinLength_m) return std::nullopt;
       line = RowCurve({straight.middle + from_m * straight.u, straight.middle + to_m * straight.u});
     } else {
       line = curve_through(smoothed(*line, centres));
@@ -313,14 +394,19 @@ std::optional<RowCurve> fit_curve(const CanopyRaster& raster, const RowCurve& gu
   return line;
 }
 
+/// Steps 1 to 4 for one track, without the neighbour; null if it is no row.
 std::optional<RowCurve> fit_line(const CanopyRaster& raster, const RowTrack& track,
                                  const RowLineOptions& options) {
-  const double across_m = 0.4 * options.spacing_m, half_alley_m = 0.5 * options.spacing_m;
+  // Of the spacing: the reach of a row, as in row_tracking.cpp, and the middle of the alley.
+  constexpr double kAcross = 0.4, kHalfAlley = 0.5;
+  const double across_m = kAcross * options.spacing_m;
+  const double half_alley_m = kHalfAlley * options.spacing_m;
   auto line = curve_through(track);
   if (line) line = fit_curve(raster, *line, across_m);
   if (!line) return std::nullopt;
   auto stretch = canopy_stretch(raster, *line, across_m, half_alley_m);
-  // What is cut off was no row, and has drawn the line to itself.
+  // The part that is cut off was no row and has drawn the line towards it: fit again without it.
+  // Chosen: 1.5 m, a window of centres_along().
   constexpr double kCutOff_m = 1.5;
   if (stretch && (stretch->first > kCutOff_m || line->length_m() - stretch->second > kCutOff_m)) {
     line = cut_to(*line, stretch->first, stretch->second);
@@ -334,23 +420,28 @@ std::optional<RowCurve> fit_line(const CanopyRaster& raster, const RowTrack& tra
   return row;
 }
 
-/// Whether another line runs beside this one, at a row's distance.
+/// True if another line is parallel to this one and about a row spacing away, at a third of ten
+/// places along this one at least.
 bool has_neighbour(const std::vector<RowCurve>& lines, std::size_t index, double spacing_m) {
-  constexpr double kParallel = 0.94;  // 20 degrees
+  constexpr double kParallel = 0.94;  // cosine of 20 degrees, chosen
+  // Chosen, of the spacing: blocks are planted evenly, and a hedge is farther from the last row.
+  constexpr double kNear = 0.6, kFar = 1.6;
+  constexpr double kFirstShare = 0.05, kShareStep = 0.1;  // ten places, from 5 % to 95 %
+  constexpr int kOneIn = 3;  // chosen: the neighbour may be shorter, or have a gap
   const RowCurve& own = lines[index];
   for (std::size_t k = 0; k < lines.size(); ++k) {
     if (k == index) continue;
     int beside = 0, looked = 0;
-    for (double share = 0.05; share < 1.0; share += 0.1) {
+    for (double share = kFirstShare; share < 1.0; share += kShareStep) {
       const double s_m = share * own.length_m();
       double apart_m = 0.0;
       const double other_m = lines[k].nearest_s_m(own.point_W(s_m), &apart_m);
       const bool is_parallel =
           std::abs(own.direction_W(s_m).dot(lines[k].direction_W(other_m))) > kParallel;
-      beside += is_parallel && apart_m > 0.6 * spacing_m && apart_m < 1.6 * spacing_m ? 1 : 0;
+      beside += is_parallel && apart_m > kNear * spacing_m && apart_m < kFar * spacing_m ? 1 : 0;
       ++looked;
     }
-    if (3 * beside >= looked) return true;
+    if (kOneIn * beside >= looked) return true;
   }
   return false;
 }
@@ -371,7 +462,7 @@ std::vector<RowCurve> fit_row_lines(const CanopyRaster& raster, const std::vecto
 }
 
 std::vector<RowCurve> order_block(std::vector<RowCurve> rows) {
-  // The longest first, from south to north: what order_rows() takes the direction from.
+  // The longest first, from south to north: order_rows() takes the direction from it.
   std::stable_sort(rows.begin(), rows.end(), [](const RowCurve& a, const RowCurve& b) {
     return a.length_m() > b.length_m();
   });
@@ -381,7 +472,7 @@ std::vector<RowCurve> order_block(std::vector<RowCurve> rows) {
     std::vector<Vector2d> points(rows[0].points_W().rbegin(), rows[0].points_W().rend());
     rows[0] = RowCurve(std::move(points));
   }
-  // In order across the block, so that the first one given is the first one kept.
+  // Sorted across the block, so that the first row given to order_rows() stays the first.
   const Vector2d n =
       -left_of((rows[0].points_W().back() - rows[0].points_W().front()).normalized());
   const auto place = [&](const RowCurve& row) { return row.point_W(0.5 * row.length_m()).dot(n); };

@@ -1,5 +1,5 @@
 #pragma once
-/// Finds the plant row that a place belongs to, many millions of times.
+/// Fast lookup of the plant row that a point belongs to.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -9,23 +9,23 @@
 
 namespace vinerow::mapping {
 
-/// A place seen from a row.
+/// Position relative to a row.
 struct RowPlace {
   int row = -1;  ///< index of the line; -1: no row within reach
   float s_m = 0.0f, y_m = 0.0f;
 };
 
-/// A grid that knows the nearest row and the stretch of it for every square.
+/// Grid with the nearest row, and the stretch of it, for every square.
 class RowLocator {
  public:
   /// @param lines    in any frame
-  /// @param reach_m  how far from a line places belong to it
+  /// @param reach_m  largest distance from a line at which points belong to it
   RowLocator(const std::vector<RowCurve>& lines, double reach_m);
   /// @param reach_m  of each line
   RowLocator(const std::vector<RowCurve>& lines, const std::vector<double>& reach_m);
 
-  /// Arc length (below 0 and beyond the length behind the ends) and offset to the left of the
-  /// nearest row. Places within `reach_m` across and 1 m along of a row are found.
+  /// Arc length (below 0 or above the length beyond the ends) and offset to the left of the nearest
+  /// row. Points within `reach_m` across and 1 m along a row are found.
   RowPlace locate(double x, double y) const;
 
  private:

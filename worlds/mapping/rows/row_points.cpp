@@ -17,7 +17,7 @@ void count_up(std::uint32_t& counter) {
   std::atomic_ref<std::uint32_t>(counter).fetch_add(1, std::memory_order_relaxed);
 }
 
-/// Half the width that 95 % of the points of a row's body lie within.
+/// Half the width that contains 95 % of the points of a row's body.
 std::vector<float> half_widths(const ParcelCloud& cloud, const HeightAbove& above,
                                const RowLocator& locator, const std::vector<double>& reach_m,
                                const RowPointOptions& options) {
@@ -179,8 +179,8 @@ std::vector<RowCanopy> gather_row_canopies(ParcelCloud& cloud, const HeightField
                  const int last = static_cast<int>(base.height_m.size()) - 1;
                  const float base_m = base.height_m[static_cast<std::size_t>(
                      std::clamp(static_cast<int>(place.s_m / base.stretch_m), 0, last))];
-                 const bool is_beside = std::abs(place.y_m) > widths[r] + kMargin_m;
-                 if (height_m < base_m || (height_m <= body_m && is_beside)) {
+                 const bool is_alongside = std::abs(place.y_m) > widths[r] + kMargin_m;
+                 if (height_m < base_m || (height_m <= body_m && is_alongside)) {
                    of = PointClass::kLowVegetation;
                    continue;
                  }

@@ -1,5 +1,5 @@
 #pragma once
-/// Tells a cloud's points apart and hands every row the points of its canopy.
+/// Classification of a cloud's points, and assignment of canopy points to rows.
 
 #include <vector>
 
@@ -9,25 +9,25 @@
 namespace vinerow::mapping {
 
 struct RowPointOptions {
-  double spacing_m = 2.5;            ///< between rows: half of it is how far a canopy may reach
-  std::vector<double> spacing_of_m;  ///< of each line, where blocks differ; empty: spacing_m
+  double spacing_m = 2.5;            ///< between rows; a canopy reaches up to half of it
+  std::vector<double> spacing_of_m;  ///< of each line, if blocks differ; empty: spacing_m
   double canopy_cut_m = 0.55;        ///< above the ground
-  double body_cut_m = 1.0;           ///< what is higher is a row's as far as half the spacing
-  double ground_m = 0.15;            ///< points up to so high are ground
+  double body_cut_m = 1.0;           ///< higher points belong to a row up to half the spacing
+  double ground_m = 0.15;            ///< points up to this height are ground
 };
 
-/// Where canopy begins above the ground, for a stretch of a row.
+/// Lower edge of the canopy above the ground, for each stretch of a row.
 struct CanopyBase {
   double stretch_m = 2.0;
   std::vector<float> height_m;  ///< of stretch k
 };
 
-/// Points of the rows' canopies, in the cloud's order, and a class for every point of the cloud.
-/// Canopy is what is higher than the body's cut beside a row, and below it what lies within the
-/// width that the body has: higher than the canopy's cut, and below that cut what hangs together
-/// with the canopy: going down, until fewer than half as many points lie at a height as above the
-/// cut. Where they go on to the ground (weeds in the row) the cut stays.
-/// @param lines  of the rows, from the cloud's origin
+/// Canopy points of the rows, in the cloud's order, and a class for every point of the cloud.
+/// Points near a row are canopy if they are above the body's cut, or, within the width of that
+/// body, above the canopy's cut or connected with the canopy below that cut: downwards until a
+/// height has fewer than half as many points as above the cut. If they continue to the ground
+/// (weeds in the row), the cut stays.
+/// @param lines  of the rows, relative to the cloud's origin
 /// @returns one per line, with lines in W
 std::vector<RowCanopy> gather_row_canopies(ParcelCloud& cloud, const HeightField& terrain,
                                            const std::vector<RowCurve>& lines,

@@ -7,17 +7,39 @@
 
 #include "engine/math/planar.h"
 
+// Plan
+//
+// Seeds are the rows of the windows. From a seed p with direction u, with n to the left of u, each
+// step goes kTrackStep_m ahead and then onto the line y = across_m + slope x through the canopy
+// around it (x along u, y along n). That line is a regularised weighted least squares fit: with
+// weights w of the raster squares, tapered by exp(-y^2 / (2 sigma^2)), it minimises
+//
+//   sum w (y - across_m - slope x)^2 + hold (kCentreHold across_m^2 + kAlong_m^2 slope^2),
+//
+// so that sparse canopy keeps the track straight. `hold` is the canopy that a full row has, taken
+// from the nine steps around the seed. The normal equations are, with s = sum w, sx = sum w x, ...,
+//
+//   [s + kCentreHold hold   sx                     ] [across_m]   [sy ]
+//   [sx                     sxx + kAlong_m^2 hold  ] [slope   ] = [sxy].
+//
+// A track ends at a taken square, at the raster's edge, or after too long a gap. Then the pieces of
+// one row are joined (join_tracks), the shortest gap first. All thresholds are chosen.
+
 namespace vinerow::mapping {
 namespace {
 
 using Eigen::Vector2d;
 
+// Chosen: about the distance between vines.
 constexpr double kTrackStep_m = 1.0;
-constexpr double kRowReach = 0.4;  // of the spacing: what belongs to a row
+// Half width of a row, of the spacing. Chosen below 0.5, so that neighbouring rows do not overlap.
+constexpr double kRowReach = 0.4;
+// A curved row turns by at most this in one step, about 6 degrees: a radius of 10 m.
+constexpr double kMaxTurn = 0.1;
 
-/// Canopy around a place, seen along a direction.
+/// Line through the canopy around a place.
 struct Fit {
-  double weight = 0.0;  // within half a step of the place
+  double weight = 0.0;  // of the canopy within half a step of the place
   double across_m = 0.0;
   double slope = 0.0;
 };
@@ -69,10 +91,17 @@ class Tracker {
     return cell < 0 || taken_[static_cast<std::size_t>(cell)] != 0;
   }
 
-  /// Line through the canopy up to 3 m before and behind `p`, held to the direction that it has by
-  /// as much canopy as a full row would bring.
+  /// Line through the canopy up to kAlong_m before and behind `p`, regularised towards `p` and `u`
+  /// by the canopy of a full row.
   Fit fit(const Vector2d& p, const Vector2d& u, double full_weight) const {
+    // Chosen: seven steps, so that two missing vines leave canopy on both sides.
     constexpr double kAlong_m = 3.0;
+    // Chosen: canopy off the middle counts less; at the row's reach, 2 sigma, 0.14.
+    constexpr double kSigmaShare = 0.5;
+    // Chosen: the place is held less than the direction, so that a track returns to the middle.
+    constexpr double kCentreHold = 0.3;
+    // Keeps the equations regular when nothing is known of the row, and no canopy is there.
+    constexpr double kMinHold = 1e-6;
     const Vector2d n = left_of(u);
     const double half_m = kAlong_m + reach_m();
     const auto bound = [&](double at, double corner, int count) {
@@ -82,7 +111,7 @@ class Tracker {
     };
     const auto [i0, i1] = bound(p.x(), raster_.corner.x(), raster_.columns);
     const auto [j0, j1] = bound(p.y(), raster_.corner.y(), raster_.rows);
-    const double sigma_m = 0.5 * reach_m();
+    const double sigma_m = kSigmaShare * reach_m();
     double s = 0.0, sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
     Fit result;
     for (int j = j0; j <= j1; ++j) {
@@ -97,27 +126,34 @@ class Tracker {
         s += w, sx += w * x, sy += w * y, sxx += w * x * x, sxy += w * x * y;
       }
     }
-    const double hold = std::max(full_weight, 1e-6);
-    const double a = s + 0.3 * hold, c = sxx + kAlong_m * kAlong_m * hold;
+    // The 2 x 2 normal equations by Cramer's rule.
+    const double hold = std::max(full_weight, kMinHold);
+    const double a = s + kCentreHold * hold, c = sxx + kAlong_m * kAlong_m * hold;
     const double det = a * c - sx * sx;
     result.across_m = (sy * c - sxy * sx) / det;
     result.slope = (a * sxy - sx * sy) / det;
     return result;
   }
 
-  /// Steps from `p` until the row ends. @returns points on canopy, `p` left out
+  /// Steps from `p` until the row ends. @returns points up to the last one on canopy, without `p`
   RowTrack walk(Vector2d p, Vector2d u, double full_weight) const {
-    constexpr double kSupport = 0.2;  // of what the seed has
+    constexpr double kSupport = 0.2;  // canopy of a step over that of a full row; chosen
+    // Chosen: a step sideways, of the step's length.
+    constexpr double kMaxSideStep = 0.2;
+    // Chosen: share of a gap beside which a neighbouring row goes on.
+    constexpr double kBesideShare = 0.5;
     RowTrack track;
     std::size_t supported = 0;
-    double gap_m = 0.0, beside_m = 0.0;  // of it where a row beside goes on
+    double gap_m = 0.0;
+    double beside_m = 0.0;  // part of the gap beside which a neighbouring row goes on
     while (gap_m <= options_.open_gap_m ||
-           (gap_m <= options_.longest_gap_m && beside_m >= 0.5 * gap_m)) {
+           (gap_m <= options_.longest_gap_m && beside_m >= kBesideShare * gap_m)) {
       const Vector2d ahead = p + kTrackStep_m * u;
       if (raster_.cell_of(ahead.x(), ahead.y()) < 0) break;
       const Fit here = fit(ahead, u, full_weight);
-      const double off_m = std::clamp(here.across_m, -0.2 * kTrackStep_m, 0.2 * kTrackStep_m);
-      const double slope = std::clamp(here.slope, -0.1, 0.1);
+      const double off_m =
+          std::clamp(here.across_m, -kMaxSideStep * kTrackStep_m, kMaxSideStep * kTrackStep_m);
+      const double slope = std::clamp(here.slope, -kMaxTurn, kMaxTurn);
       p = ahead + off_m * left_of(u);
       u = (u + slope * left_of(u)).normalized();
       if (is_taken(p)) break;
@@ -126,6 +162,7 @@ class Tracker {
         supported = track.size();
         gap_m = beside_m = 0.0;
       } else {
+        // A gap. Does either neighbour have canopy here?
         gap_m += kTrackStep_m;
         for (const double side : {-1.0, 1.0}) {
           const Vector2d neighbour = p + side * options_.spacing_m * left_of(u);
@@ -139,20 +176,24 @@ class Tracker {
     return track;
   }
 
+  /// Track through a seed, both ways; null without canopy, on another row, or if too short.
   std::optional<RowTrack> from_seed(Vector2d p, Vector2d u) const {
-    // What the row has here for every metre, over some metres.
+    constexpr int kSteps = 4;              // chosen: to each side, a window of 9 m
+    constexpr double kFartherLoss = 0.05;  // chosen: for each step, so that ties go to the seed
+    constexpr std::size_t kMinPoints = 3;  // chosen: shorter tracks have no direction
+    // Mean canopy of a step, over the steps around the seed.
     double full_weight = 0.0;
     Vector2d best = p;
     double best_weight = 0.0;
     int places = 0;
-    for (int k = -4; k <= 4; ++k) {
+    for (int k = -kSteps; k <= kSteps; ++k) {
       const Vector2d at = p + k * kTrackStep_m * u;
       if (raster_.cell_of(at.x(), at.y()) < 0) continue;
       const double weight = fit(at, u, 0.0).weight;
       full_weight += weight;
       ++places;
-      // The seed itself is put where there is canopy, the nearest such place first.
-      const double nearness = 1.0 - 0.05 * std::abs(k);
+      // The seed moves to the place with the most canopy, discounted by its distance.
+      const double nearness = 1.0 - kFartherLoss * std::abs(k);
       if (weight * nearness > best_weight && !is_taken(at)) {
         best_weight = weight * nearness;
         best = at;
@@ -163,17 +204,17 @@ class Tracker {
     const Fit here = fit(best, u, full_weight);
     const Vector2d start = best + here.across_m * left_of(u);
     if (is_taken(start)) return std::nullopt;
-    u = (u + std::clamp(here.slope, -0.1, 0.1) * left_of(u)).normalized();
+    u = (u + std::clamp(here.slope, -kMaxTurn, kMaxTurn) * left_of(u)).normalized();
     RowTrack track = walk(start, -u, full_weight);
     std::reverse(track.begin(), track.end());
     track.push_back(start);
     const RowTrack rest = walk(start, u, full_weight);
     track.insert(track.end(), rest.begin(), rest.end());
-    if (track.size() < 3) return std::nullopt;
+    if (track.size() < kMinPoints) return std::nullopt;
     return track;
   }
 
-  /// Nothing else starts or goes where this row is.
+  /// Marks the squares around the track as taken, at its points and halfway between them.
   void take(const RowTrack& track) {
     for (std::size_t k = 0; k < track.size(); ++k) {
       for (const double share : {0.0, 0.5}) {
@@ -189,37 +230,49 @@ class Tracker {
   TakenSquares taken_;
 };
 
-/// Whether a track passes a place at a row's distance. Its end before or behind the place does not
-/// count: there rows end beside rows that end.
+/// True if a track passes abreast of a place, at up to the distance of a neighbouring row. A track
+/// that ends before or behind the place does not count: there all rows may end.
 bool passes(const RowTrack& track, const Vector2d& p, const Vector2d& u, double spacing_m) {
+  constexpr double kBeside = 1.6;  // of the spacing; chosen between one row's distance and two
   return std::any_of(track.begin(), track.end(), [&](const Vector2d& q) {
     const Vector2d d = q - p;
-    return std::abs(d.dot(u)) <= kTrackStep_m && std::abs(d.dot(left_of(u))) < 1.6 * spacing_m;
+    return std::abs(d.dot(u)) <= kTrackStep_m && std::abs(d.dot(left_of(u))) < kBeside * spacing_m;
   });
 }
 
+/// Unit direction of a track's last 8 steps: a single step is too noisy.
 Vector2d end_direction(const RowTrack& track) {
-  const std::size_t back = std::min<std::size_t>(track.size() - 1, 8);
+  constexpr std::size_t kEnd_steps = 8;  // chosen
+  const std::size_t back = std::min<std::size_t>(track.size() - 1, kEnd_steps);
   return (track.back() - track[track.size() - 1 - back]).normalized();
 }
 
-/// One long gap of one row: `second` goes on where `first` ends, and a row beside has no gap there.
+/// True if both are pieces of one row with a gap between: `second` is ahead of the end of `first`,
+/// in one line with it and parallel, and a third track passes beside the gap.
 bool goes_on(const RowTrack& first, const RowTrack& second, const std::vector<RowTrack>& all,
              const RowTrackingOptions& options) {
+  // Chosen: less than half a spacing, so that a neighbouring row does not match, plus about one
+  // degree of error in the direction over the gap.
+  constexpr double kOffLine = 0.3, kOffPerLength = 0.02;
+  constexpr double kMaxBend_rad = 0.17;  // 10 degrees, chosen
   const Vector2d u = end_direction(first);
   const Vector2d d = second.front() - first.back();
   const double along_m = d.dot(u), across_m = d.dot(left_of(u));
   if (along_m <= 0.0 || along_m > options.longest_join_m) return false;
-  if (std::abs(across_m) > 0.3 * options.spacing_m + 0.02 * along_m) return false;
+  if (std::abs(across_m) > kOffLine * options.spacing_m + kOffPerLength * along_m) return false;
   RowTrack reversed(second.rbegin(), second.rend());
-  if (-end_direction(reversed).dot(u) < std::cos(0.17)) return false;
+  if (-end_direction(reversed).dot(u) < std::cos(kMaxBend_rad)) return false;
   const Vector2d middle = 0.5 * (first.back() + second.front());
   return std::any_of(all.begin(), all.end(), [&](const RowTrack& other) {
     return &other != &first && &other != &second && passes(other, middle, u, options.spacing_m);
   });
 }
 
+/// Joins pieces of rows, the shortest gap first, until none is left. Each pair is tried with both
+/// tracks in both directions.
 std::vector<RowTrack> join_tracks(std::vector<RowTrack> tracks, const RowTrackingOptions& options) {
+  // Skips pairs that goes_on() would reject, with a margin for the distance across.
+  constexpr double kFarPair = 1.5;
   for (;;) {
     double nearest_m = std::numeric_limits<double>::infinity();
     std::size_t a = 0, b = 0;
@@ -231,7 +284,7 @@ std::vector<RowTrack> join_tracks(std::vector<RowTrack> tracks, const RowTrackin
             const Vector2d& end = i_turned ? tracks[i].front() : tracks[i].back();
             const Vector2d& start = j_turned ? tracks[j].back() : tracks[j].front();
             const double gap_m = (start - end).norm();
-            if (gap_m >= nearest_m || gap_m > 1.5 * options.longest_join_m) continue;
+            if (gap_m >= nearest_m || gap_m > kFarPair * options.longest_join_m) continue;
             const RowTrack kept_i = tracks[i], kept_j = tracks[j];
             if (i_turned) std::reverse(tracks[i].begin(), tracks[i].end());
             if (j_turned) std::reverse(tracks[j].begin(), tracks[j].end());
@@ -248,7 +301,7 @@ std::vector<RowTrack> join_tracks(std::vector<RowTrack> tracks, const RowTrackin
     if (a == b) return tracks;
     if (a_turned) std::reverse(tracks[a].begin(), tracks[a].end());
     if (b_turned) std::reverse(tracks[b].begin(), tracks[b].end());
-    // Points on the way keep the steps as long as elsewhere.
+    // The gap is filled with points, so that steps keep their length.
     const Vector2d from = tracks[a].back(), way = tracks[b].front() - from;
     const int steps = std::max(1, static_cast<int>(std::lround(way.norm() / kTrackStep_m)));
     for (int k = 1; k < steps; ++k)

@@ -495,8 +495,8 @@ TEST(ErrorStateEstimator, TakesTheOldKeyOfTheReceiverAndWarns) {
     FAIL() << "must be refused";
   } catch (const ConfigError& error) {
     EXPECT_EQ(Text(error.what()),
-              "rover.estimator (error_state_kalman): gps and gnss, its old form, are both given: "
-              "leave out gnss");
+              "rover.estimator (error_state_kalman): gps and its old form gnss are both given: "
+              "remove gnss");
   }
 }
 

@@ -238,7 +238,7 @@ TEST(NavigationMeasurements, HaveTheGradientsOfTheirDifferences) {
       1e-8);
   check_gradient(
       [&](const controllers::PastState&, const Vector3d& w, const controllers::NavState& s) {
-        return controllers::standing_rate_measurement(w, s.gyro_bias_B);
+        return controllers::stationary_rate_measurement(w, s.gyro_bias_B);
       },
       1e-8);
 }

@@ -55,7 +55,7 @@ class LinearTheory {
         correct(setup.inertial_std_m.x(), 1.0);
       if (k % setup.fix_every == 0) correct(setup.fix_std_m.x(), share.fixes);
       steps_.push_back(A);
-      told_.push_back(P(0, 0));
+      reported_.push_back(P(0, 0));
       met_.push_back(S);
     }
     // Errors of a filter of velocities last for seconds, those of one that takes a fix a tick not.
@@ -76,7 +76,7 @@ class LinearTheory {
     const std::size_t n = met_.size();
     for (std::size_t i = kFirst; i < n; ++i) {
       mean_square_ += met_[i](0, 0) / static_cast<double>(n - kFirst);
-      nees_ += met_[i](0, 0) / told_[i] / static_cast<double>(n - kFirst);
+      nees_ += met_[i](0, 0) / reported_[i] / static_cast<double>(n - kFirst);
     }
     double squares = 0.0, shares = 0.0, count = 0.0;
     for (std::size_t j = kFirst; j < n; j += stride, count += 1.0) {
@@ -86,7 +86,7 @@ class LinearTheory {
         if ((i - j) % stride != 0) continue;
         const double twice = i == j ? 1.0 : 2.0;
         squares += twice * 2.0 * C(0, 0) * C(0, 0);
-        shares += twice * 2.0 * C(0, 0) * C(0, 0) / (told_[i] * told_[j]);
+        shares += twice * 2.0 * C(0, 0) * C(0, 0) / (reported_[i] * reported_[j]);
       }
     }
     mean_square_std_ = std::sqrt(squares) / count;
@@ -94,7 +94,7 @@ class LinearTheory {
   }
 
   std::vector<Eigen::Matrix2d> steps_;  ///< error of a tick from that of the tick before
-  std::vector<double> told_;            ///< variance of the position as the filter sees it
+  std::vector<double> reported_;        ///< variance of the position as the filter sees it
   std::vector<Eigen::Matrix2d> met_;
   double mean_square_ = 0.0, nees_ = 0.0, mean_square_std_ = 0.0, nees_std_ = 0.0;
 };

@@ -400,7 +400,7 @@ TEST(DistanceFilter, RefusesAnEmptyMapAndSensorsThatAreNotThere) {
   const RowMap empty;
   expect_refused({}, &empty,
                  "drone.estimator (distance_filter): the map has no row meshes to compare ranges "
-                 "with; give the vehicle a map that has them, or say use_map: false");
+                 "with; give the vehicle a map with row meshes, or set use_map: false");
   expect_refused({}, nullptr, "the map has no row meshes");
   expect_refused({{"ranges", std::vector<Text>{"range0", "sonar"}}}, &vines().map(),
                  "ranges names 'sonar', but the vehicle's mounted sensors are: range0, range1, "

@@ -225,13 +225,15 @@ TEST_P(GroundOf, NamesASensorThatIsNotThereAndAMapWithoutGround) {
                      "down names 'sonar', but the vehicle's mounted sensors are: left, right, "
                      "down");
   expect_refused(GetParam(), {{"down", Text("down")}}, &one,
-                 who + "down is 'down', but the map has no two rows whose ground it could see");
+                 who +
+                     "down is 'down', but the map has fewer than two rows, so its ground is "
+                     "unknown");
 }
 
 TEST(GroundReference, IsNotThereWithoutTheMap) {
   const RowMap map = make_wall_map(kSlope);
   expect_refused("distance_filter", {{"down", Text("down")}, {"use_map", false}}, &map,
-                 "down is 'down', but the map has no two rows whose ground it could see");
+                 "down is 'down', but the map has fewer than two rows, so its ground is unknown");
 }
 
 TEST(GroundReference, IsLessSureOffTheRows) {
@@ -268,8 +270,8 @@ TEST_P(GroundOf, SaysWhyAVehicleCannotStandOnTheMap) {
   drone.rotorcraft.emplace();
   const RowMap map = make_wall_map(kSlope), one = make_wall_map({.rows = 1});
   say(&drone, map, "the vehicle flies");
-  say(&rover, one, "the map has no two rows that tell its ground");
-  say(nullptr, map, "nothing is known of the vehicle");
+  say(&rover, one, "the map has fewer than two rows, so its ground is unknown");
+  say(nullptr, map, "the vehicle is unknown");
 }
 
 INSTANTIATE_TEST_SUITE_P(Estimators, GroundOf,

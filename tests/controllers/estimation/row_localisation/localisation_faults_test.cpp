@@ -218,7 +218,7 @@ TEST_P(FaultsOf, AMapThatShowsNothingIsToldAndThatItDoesAgain) {
   EXPECT_NEAR(run.bench.told[0].time.s(), 10.0, 0.2 + 1.0 / 2.0);
   run.drive(2000, -2.0);
   ASSERT_EQ(run.bench.told.size(), 2u);
-  EXPECT_NE(run.bench.told[1].event.text.find("the map has walls in reach again"), Text::npos)
+  EXPECT_NE(run.bench.told[1].event.text.find("the map has walls within reach again"), Text::npos)
       << run.bench.told[1].event.text;
   EXPECT_NEAR(run.bench.told[1].time.s(), 30.0, 0.2 + 1.0 / 2.0);
   EXPECT_EQ(run.bench.value("unmapped"), 1.0);

@@ -78,7 +78,7 @@ TEST(MapLocalisation, MissingVinesInTruthOrMap) {
   }
   // What closes a run of plants must not be believed: with it the gaps in the map mislead.
   controllers::MapLocalisationParams believing;
-  believing.most_along = 1.1;
+  believing.max_along = 1.1;
   EXPECT_GT(run(map, believing).nees, 4.0);
 }
 
@@ -185,38 +185,38 @@ struct Standing {
 
 TEST(MapLocalisationLaw, RefusesAndCountsBadDataAndGoesOn) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  Standing standing;
-  controllers::MapLocalisationLaw& law = *standing.law;
-  standing.tick();
-  standing.look();
+  Standing stationary;
+  controllers::MapLocalisationLaw& law = *stationary.law;
+  stationary.tick();
+  stationary.look();
   const Eigen::Vector3d before = law.state().p_W();
-  law.correct_range(standing.now, 0, kNan, 0.05);
-  law.correct_range(standing.now, 0, -1.0, 0.05);
-  law.correct_range(standing.now + Duration{1'000'000'000}, 0, 1.0, 0.05);
-  law.correct_fix(standing.now, {kNan, 0, 0}, {1, 1, 1}, {0, 0, 0});
-  law.correct_plane(standing.now, Eigen::Vector3d::UnitZ(), kNan, 0.1);
-  law.predict(Time{0}, {0, 0, 0}, standing.q_WB);
-  law.predict(standing.now, {kNan, 0, 0}, standing.q_WB);
+  law.correct_range(stationary.now, 0, kNan, 0.05);
+  law.correct_range(stationary.now, 0, -1.0, 0.05);
+  law.correct_range(stationary.now + Duration{1'000'000'000}, 0, 1.0, 0.05);
+  law.correct_fix(stationary.now, {kNan, 0, 0}, {1, 1, 1}, {0, 0, 0});
+  law.correct_plane(stationary.now, Eigen::Vector3d::UnitZ(), kNan, 0.1);
+  law.predict(Time{0}, {0, 0, 0}, stationary.q_WB);
+  law.predict(stationary.now, {kNan, 0, 0}, stationary.q_WB);
   EXPECT_EQ(law.counters().refused, 7);
   // The stamp that this sensor's last reading had.
-  law.correct_range(standing.now, 0, 1.0, 0.05);
+  law.correct_range(stationary.now, 0, 1.0, 0.05);
   EXPECT_EQ(law.counters().refused, 8);
   EXPECT_EQ(law.state().p_W(), before);
   // Contradictory ranges: gated, until the bank begins anew; good ones bring it back.
   for (int i = 0; i < 400; ++i) {
-    standing.tick();
-    law.correct_range(standing.now, i % 2, 0.1, 0.05);
+    stationary.tick();
+    law.correct_range(stationary.now, i % 2, 0.1, 0.05);
   }
   EXPECT_GT(law.counters().echoes_gated, 0);
   EXPECT_TRUE(law.state().p_W().allFinite());
   for (int i = 0; i < 3000; ++i) {
-    standing.tick();
-    if (i % 5 == 0) standing.look();
+    stationary.tick();
+    if (i % 5 == 0) stationary.look();
     if (i % 20 == 0) {
-      law.correct_fix(standing.now, standing.true_p_W, {0.5, 0.5, 0.5}, {0, 0, 0});
+      law.correct_fix(stationary.now, stationary.true_p_W, {0.5, 0.5, 0.5}, {0, 0, 0});
     }
   }
-  EXPECT_LT((law.state().p_W() - standing.true_p_W).head<2>().norm(), 0.5);
+  EXPECT_LT((law.state().p_W() - stationary.true_p_W).head<2>().norm(), 0.5);
   EXPECT_TRUE(law.state().is_sound());
 }
 
@@ -228,21 +228,21 @@ TEST(MapLocalisationLaw, AnOldFixWithoutErrorIsComparedWithWhereTheAntennaWas) {
   constexpr double kTurnRadps = 0.5;
   const Duration tick{10'000'000};
   const Eigen::Vector3d p_BA(0.4, -0.1, 0.3);
-  Standing standing;
-  controllers::MapLocalisationLaw& law = *standing.law;
-  const Eigen::Vector3d v_W = kSpeedMps * standing.world.along_W();
-  const auto place_W = [&](double t_s) { return Eigen::Vector3d(standing.true_p_W + t_s * v_W); };
+  Standing stationary;
+  controllers::MapLocalisationLaw& law = *stationary.law;
+  const Eigen::Vector3d v_W = kSpeedMps * stationary.world.along_W();
+  const auto place_W = [&](double t_s) { return Eigen::Vector3d(stationary.true_p_W + t_s * v_W); };
   const auto turned = [&](double t_s) {
     return Eigen::Quaterniond(Eigen::AngleAxisd(kTurnRadps * t_s, Eigen::Vector3d::UnitZ()) *
-                              standing.q_WB);
+                              stationary.q_WB);
   };
-  const Time start = standing.now;
+  const Time start = stationary.now;
   for (int k = 0; k < 100; ++k) {
-    standing.now = standing.now + tick;
-    law.predict(standing.now, v_W, turned((standing.now - start).s()));
+    stationary.now = stationary.now + tick;
+    law.predict(stationary.now, v_W, turned((stationary.now - start).s()));
   }
   for (const int age : {0, 20, 60}) {
-    const Time measured = standing.now - Duration{age * tick.ns};
+    const Time measured = stationary.now - Duration{age * tick.ns};
     const double t_s = (measured - start).s();
     law.correct_fix(measured, place_W(t_s) + turned(t_s) * p_BA, {0.05, 0.05, 0.05}, p_BA);
     EXPECT_NEAR(law.fix_nis(), 0.0, 1e-9) << age << " ticks old";
@@ -252,53 +252,53 @@ TEST(MapLocalisationLaw, AnOldFixWithoutErrorIsComparedWithWhereTheAntennaWas) {
 }
 
 TEST(MapLocalisationLaw, BeginningAnewKeepsTheOldPlaceInQuestion) {
-  Standing standing;
-  controllers::MapLocalisationLaw& law = *standing.law;
-  standing.tick();
+  Standing stationary;
+  controllers::MapLocalisationLaw& law = *stationary.law;
+  stationary.tick();
   // The last fix is 1.5 m off along the rows: a bank about it alone would be, too.
-  law.correct_fix(standing.now, standing.true_p_W + 1.5 * standing.world.along_W(), {1, 1, 1},
+  law.correct_fix(stationary.now, stationary.true_p_W + 1.5 * stationary.world.along_W(), {1, 1, 1},
                   {0, 0, 0});
   int ticks = 0;
   for (; law.counters().lost == 0 && ticks < 1000; ++ticks) {
-    standing.tick();
+    stationary.tick();
     if (ticks % 5 == 0) {
-      for (const int sensor : {0, 1}) law.correct_range(standing.now, sensor, 0.1, 0.05);
+      for (const int sensor : {0, 1}) law.correct_range(stationary.now, sensor, 0.1, 0.05);
     }
   }
   ASSERT_EQ(law.counters().lost, 1);
   EXPECT_GT(law.filter_count(), 1) << "what is new is in question beside it";
-  const Eigen::Vector3d along_W = standing.world.along_W();
+  const Eigen::Vector3d along_W = stationary.world.along_W();
   EXPECT_GT(along_W.dot(law.position_covariance() * along_W), 0.25) << "and the covariance says so";
-  EXPECT_LT(std::abs(along_W.dot(law.state().p_W() - standing.true_p_W)), 0.75)
+  EXPECT_LT(std::abs(along_W.dot(law.state().p_W() - stationary.true_p_W)), 0.75)
       << "the old place, the likeliest, not the fix";
 }
 
 TEST(MapLocalisationLaw, TheCovarianceCountsEveryAlleyInQuestion) {
-  Standing standing;
-  standing.law->start(Time{0}, standing.true_p_W, Eigen::Matrix3d::Identity());
-  standing.law->predict(Time{0}, {0, 0, 0}, standing.q_WB);
-  ASSERT_EQ(standing.law->filter_count(), 3);
+  Standing stationary;
+  stationary.law->start(Time{0}, stationary.true_p_W, Eigen::Matrix3d::Identity());
+  stationary.law->predict(Time{0}, {0, 0, 0}, stationary.q_WB);
+  ASSERT_EQ(stationary.law->filter_count(), 3);
   // Closed form: the weighted sum over alleys 2.5 m apart, across the rows.
-  const Eigen::Vector3d left_W = standing.world.left_W();
-  const double across_m2 = left_W.dot(standing.law->position_covariance() * left_W);
-  const double beside = 0.5 * (1.0 - standing.law->best_weight()) * 2.0;
+  const Eigen::Vector3d left_W = stationary.world.left_W();
+  const double across_m2 = left_W.dot(stationary.law->position_covariance() * left_W);
+  const double beside = 0.5 * (1.0 - stationary.law->best_weight()) * 2.0;
   EXPECT_NEAR(across_m2, 0.35 * 0.35 + beside * 2.5 * 2.5, 1e-6);
 }
 
 TEST(MapLocalisationLaw, ATickDoesNotAllocate) {
-  Standing standing;
-  standing.tick();
-  standing.look();
+  Standing stationary;
+  stationary.tick();
+  stationary.look();
   std::vector<double> ranges_m;
   for (int i = 0; i < 2; ++i) {
-    const Pose X_WS = Pose{standing.q_WB, standing.true_p_W} * standing.sensors[i].X_BS;
-    ranges_m.push_back(standing.world.true_range(X_WS.p, X_WS.q * Eigen::Vector3d::UnitX(), 4.0));
+    const Pose X_WS = Pose{stationary.q_WB, stationary.true_p_W} * stationary.sensors[i].X_BS;
+    ranges_m.push_back(stationary.world.true_range(X_WS.p, X_WS.q * Eigen::Vector3d::UnitX(), 4.0));
   }
   const AllocationCounter counter;
   for (int k = 0; k < 300; ++k) {
-    standing.tick();
-    for (int i = 0; i < 2; ++i) standing.law->correct_range(standing.now, i, ranges_m[i], 0.05);
-    standing.law->correct_fix(standing.now, standing.true_p_W, {1, 1, 1}, {0, 0, 0});
+    stationary.tick();
+    for (int i = 0; i < 2; ++i) stationary.law->correct_range(stationary.now, i, ranges_m[i], 0.05);
+    stationary.law->correct_fix(stationary.now, stationary.true_p_W, {1, 1, 1}, {0, 0, 0});
   }
   EXPECT_EQ(counter.count(), 0u);
 }

@@ -289,12 +289,12 @@ TEST(RowMeshIndex, ACutIsClosedAndEveryFacetCountsOnce) {
   index.cut(p, n, 2.0, near);
   int expected_near = 0;
   for (const auto& segment : segments) {
-    double least_m = 1e9;
+    double min_m = 1e9;
     for (int k = 0; k <= 1000; ++k) {
       const Vector3d at = segment.from_W + k / 1000.0 * (segment.to_W - segment.from_W);
-      least_m = std::min(least_m, (at - p).head<2>().norm());
+      min_m = std::min(min_m, (at - p).head<2>().norm());
     }
-    expected_near += least_m <= 2.0;
+    expected_near += min_m <= 2.0;
   }
   EXPECT_EQ(static_cast<int>(near.size()), expected_near);
   EXPECT_GT(expected_near, 2);
@@ -339,8 +339,8 @@ std::string error_of(const RowMap& map) {
 TEST(RowMeshIndex, RefusesMapsWithoutWellFormedMeshes) {
   RowMap map;
   EXPECT_EQ(error_of(map),
-            "the map has no row meshes to measure distances to: give the vehicle a map that has "
-            "them, such as map: {type: row_mesh}");
+            "the map has no row meshes to measure distances to: give the vehicle a map with "
+            "row meshes, such as map: {type: row_mesh}");
   map.meshes.push_back({4, {}});
   map.meshes[0].mesh_W.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, std::nanf("")}};
   map.meshes[0].mesh_W.triangles = {{0, 1, 2}};
@@ -399,19 +399,19 @@ TEST(RangePrediction, IsTheFirstReturnOfItsFan) {
   for (int k = 0; k < 1000; ++k) {
     const Pose X_WB = random_pose(block, random);
     for (const controllers::RangeSensorModel& sensor : four_cones(rad_from_deg(15.0), 7)) {
-      double least_m = 1e300;
+      double min_m = 1e300;
       for (int n = -3; n <= 3; ++n) {
         const double angle = rad_from_deg(5.0 * n);
         const Vector3d u =
             X_WB.q * (sensor.X_BS.q * Vector3d(std::cos(angle), std::sin(angle), 0.0));
         const auto hit = index.cast_ray(X_WB * sensor.X_BS.p, u, 4.0);
-        if (hit) least_m = std::min(least_m, hit->distance_m);
+        if (hit) min_m = std::min(min_m, hit->distance_m);
       }
       const auto prediction = controllers::predict_range(index, X_WB, sensor, 4.0);
-      ASSERT_EQ(prediction.has_value(), least_m < 4.0);
+      ASSERT_EQ(prediction.has_value(), min_m < 4.0);
       if (!prediction) continue;
       ++seen;
-      EXPECT_NEAR(prediction->range_m, least_m, 1e-12);
+      EXPECT_NEAR(prediction->range_m, min_m, 1e-12);
       EXPECT_EQ(prediction->range_m, prediction->hit.distance_m);
       EXPECT_LT(prediction->slope(), 0.0);
       EXPECT_LT((prediction->origin_W - X_WB * sensor.X_BS.p).norm(), 1e-15);
@@ -461,10 +461,10 @@ TEST(SpreadPrediction, IsTheLineThatFitsARoughWallBest) {
   // A place that is known takes the tangent.
   EXPECT_NEAR(spread_at(0.01, 0.0, false).slope, c, 1e-9);
   // One that stands near the bend believes the smaller slope, and that it may be wrong about it.
-  const controllers::SpreadPrediction standing = spread_at(0.1, sigma, true);
-  EXPECT_GE(standing.slope, 0.0);
-  EXPECT_LT(standing.slope, 0.5 * c);
-  EXPECT_GT(standing.variance_m2, about.variance_m2);
+  const controllers::SpreadPrediction stationary = spread_at(0.1, sigma, true);
+  EXPECT_GE(stationary.slope, 0.0);
+  EXPECT_LT(stationary.slope, 0.5 * c);
+  EXPECT_GT(stationary.variance_m2, about.variance_m2);
 }
 
 TEST(RangePrediction, GradientsAreThoseOfCentralDifferences) {

@@ -26,7 +26,7 @@ TEST(Arc3, PassesItsPointsWhateverItsSweep) {
 }
 
 TEST(Arc3, RefusesPointsOnALineAndEqualPoints) {
-  EXPECT_EQ(make_arc3({0, 0}, {1, 0}, {2, 0}).reason(), "the three points of an arc lie on a line");
+  EXPECT_EQ(make_arc3({0, 0}, {1, 0}, {2, 0}).reason(), "the three points of an arc are on a line");
   EXPECT_EQ(make_arc3({0, 0}, {0, 0}, {2, 0}).reason(),
             "two of the three points of an arc coincide");
 }

@@ -93,10 +93,10 @@ TEST_P(EveryFollower, DrivesRoundCornersOfEveryAngle) {
 }
 
 TEST_P(EveryFollower, DrivesASquareAndThereAndBack) {
-  const std::vector<std::vector<Vec>> ways = {{{0, 0}, {15, 0}, {15, 15}, {0, 15}, {0, 0}},
-                                              {{0, 0}, {15, 0}, {5, 0}, {20, 0}},
-                                              {{0, 0}, {12, 0}, {2, 8}, {12, 8}, {2, 16}}};
-  for (const std::vector<Vec>& points : ways) {
+  const std::vector<std::vector<Vec>> paths = {{{0, 0}, {15, 0}, {15, 15}, {0, 15}, {0, 0}},
+                                               {{0, 0}, {15, 0}, {5, 0}, {20, 0}},
+                                               {{0, 0}, {12, 0}, {2, 8}, {12, 8}, {2, 16}}};
+  for (const std::vector<Vec>& points : paths) {
     const MissionResult result = run_mission(make_setup(GetParam(), points));
     ASSERT_TRUE(result.finished);
     EXPECT_LT((result.poses.back().p - points.back()).norm(), 0.15);
@@ -119,7 +119,7 @@ INSTANTIATE_TEST_SUITE_P(Parts, EveryFollower,
 TEST(PathCorners, FindsJumpsOfDirectionAndNoArcs) {
   // Straight, half a circle in two chords, straight: no corner, though the chords bend by 45 deg.
   const controllers::Pose2 begin{{10, 0}, 0.0};
-  const controllers::PathPiece arc{begin, 2.0 * kPi, 0.5, PathKind::kTurn, -1, 0.0};
+  const controllers::PathSegment arc{begin, 2.0 * kPi, 0.5, PathKind::kTurn, -1, 0.0};
   const PlannedPath smooth = controllers::make_planned_path(
       {controllers::make_straight({0, 0}, {10, 0}, PathKind::kLeg, 0, 0.0), arc,
        controllers::make_straight({10, 4}, {0, 4}, PathKind::kLeg, 1, 0.0)},
@@ -142,7 +142,7 @@ TEST(PathCorners, FindsJumpsOfDirectionAndNoArcs) {
 TEST(CornerRounding, TouchesBothLegsAndKeepsTheRadius) {
   for (const double angle_deg : {10.0, 45.0, 90.0, 119.0, -60.0, 150.0, 180.0}) {
     const double turn_rad = rad_from_deg(angle_deg);
-    const controllers::RoundedWay way =
+    const controllers::RoundedPath way =
         controllers::round_corners(make_corner(turn_rad), {1.0, 0.5}, 2.0, PathKind::kLeg);
     double length_m = 0.0;
     for (std::size_t i = 0; i < way.pieces.size(); ++i) {
@@ -188,15 +188,15 @@ TEST(PathWatch, TellsWhoGoesAwayAndWhoDoesNotGetOn) {
   EXPECT_FALSE(circling.is_lost());  // 10 times 5 m and three times the 1 m beside
   for (int i = 0; i < 40; ++i) circling.update(at(10.0, 1.0, 10.0, 0.1));
   EXPECT_EQ(circling.failure(),
-            "lost its path: it has driven 53 m without getting on at (10.00, 1.00), 10.0 m along "
+            "lost its path: it has driven 53 m without progress at (10.00, 1.00), 10.0 m along "
             "its path of 100.0 m");
 
   // Who stands may stand for ever.
-  controllers::PathWatch standing({5.0});
+  controllers::PathWatch stationary({5.0});
   const AllocationCounter allocations;
-  for (int i = 0; i < 100000; ++i) standing.update(at(10.0, 1.0, 10.0, 0.0));
+  for (int i = 0; i < 100000; ++i) stationary.update(at(10.0, 1.0, 10.0, 0.0));
   EXPECT_EQ(allocations.count(), 0u);
-  EXPECT_FALSE(standing.is_lost());
+  EXPECT_FALSE(stationary.is_lost());
 }
 
 }  // namespace

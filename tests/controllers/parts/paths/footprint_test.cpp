@@ -113,14 +113,14 @@ TEST(Footprint, LooksAlongTheWholeArc) {
 
 TEST(InsetPolygon, MovesEveryEdgeInwards) {
   const std::vector<Vec> square = {{0, 0}, {2, 0}, {2, 2}, {0, 2}};
-  const std::vector<Vec> inner = controllers::inset_polygon(square, 0.25);
+  const std::vector<Vec> inner = inset(square, 0.25);
   ASSERT_EQ(inner.size(), 4u);
   double area = 0.0;
   for (std::size_t i = 0; i < 4; ++i) area += 0.5 * cross(inner[i], inner[(i + 1) % 4]);
   EXPECT_NEAR(area, 2.25, 1e-12);
-  EXPECT_TRUE(controllers::inset_polygon(square, 1.01).empty());
+  EXPECT_TRUE(inset(square, 1.01).empty());
   // The octagon's cut corners vanish where the insets of its long edges meet before them.
-  EXPECT_EQ(controllers::inset_polygon(kOutline_B, 0.1).size(), 8u);
+  EXPECT_EQ(inset(kOutline_B, 0.1).size(), 8u);
 }
 
 }  // namespace

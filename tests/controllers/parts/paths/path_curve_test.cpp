@@ -10,13 +10,13 @@ namespace vinerow::controllers::path_test {
 namespace {
 
 /// 10 m east, a left semicircle of radius 2, 10 m west.
-std::vector<PathPiece> make_u_turn() {
+std::vector<PathSegment> make_u_turn() {
   return {make_straight({0, 0}, {10, 0}, PathKind::kLeg, 0, 0.0),
           {{{10, 0}, 0.0}, 2.0 * kPi, 0.5, PathKind::kTurn, -1, 0.7},
           make_straight({10, 4}, {0, 4}, PathKind::kLeg, 1, 0.0)};
 }
 
-TEST(PathPieces, SplitsEachPieceIntoRoundLengthOverPitch) {
+TEST(PathSegments, SplitsEachPieceIntoRoundLengthOverPitch) {
   const PlannedPath plan = make_planned_path(make_u_turn(), 0.33);
   // round(10 / 0.33) = 30, round(6.283 / 0.33) = 19, and the last point.
   EXPECT_EQ(plan.points.size(), 30u + 19u + 30u + 1u);
@@ -29,7 +29,7 @@ TEST(PathPieces, SplitsEachPieceIntoRoundLengthOverPitch) {
   EXPECT_NEAR((plan.points.back().p_W - Eigen::Vector3d(0, 4, 0)).norm(), 0.0, 1e-12);
 }
 
-TEST(PathPieces, APlanOfMillionsOfPointsIsRefused) {
+TEST(PathSegments, APlanOfMillionsOfPointsIsRefused) {
   try {
     make_planned_path(make_u_turn(), 1e-6);
     FAIL() << "not refused";

@@ -31,8 +31,8 @@ TEST(LayDown, ComesDownLikeADampedOscillatorsStep) {
   // omega^2 = K / I = 30 / s2 and 2 zeta omega = D / I = 4.5 / s, whichever way the slope leads.
   const double omega = std::sqrt(30.0), zeta = 4.5 / (2.0 * omega);
   const double damped = omega * std::sqrt(1.0 - zeta * zeta);
-  for (const double way_rad : {0.0, 0.7, 2.5, -1.2}) {
-    const Eigen::Vector3d way_B(std::cos(way_rad), std::sin(way_rad), 0.0);
+  for (const double angle_travelled_rad : {0.0, 0.7, 2.5, -1.2}) {
+    const Eigen::Vector3d way_B(std::cos(angle_travelled_rad), std::sin(angle_travelled_rad), 0.0);
     Body body(3.0 * way_B);
     for (double t = kDt_s; t < 0.8; t += kDt_s) {
       body.advance();
@@ -71,9 +71,9 @@ TEST(LayDown, LeavesYawToTheFeet) {
 TEST(LayDown, NeverLiftsMoreThanHalfTheWeightOnceItsThrustIsGone) {
   controllers::LayDown lay_down(kInertia_kgm2, kWeight_N);
   lay_down.start(holding(Eigen::Vector3d::UnitX()));
-  EXPECT_EQ(lay_down.most_thrust_N(), 15.0);
+  EXPECT_EQ(lay_down.max_thrust_N(), 15.0);
   for (double t = 0.0; t < 0.6; t += kDt_s) lay_down.advance(Eigen::Vector3d::Zero(), kDt_s);
-  EXPECT_EQ(lay_down.most_thrust_N(), 0.5 * kWeight_N);
+  EXPECT_EQ(lay_down.max_thrust_N(), 0.5 * kWeight_N);
 }
 
 TEST(LayDown, ForgetsWhatTheRotorsCannotHold) {

@@ -104,7 +104,7 @@ TEST(RotorMixer, KeepsTheDirectionOfRollAndPitchWhateverIsAskedFor) {
 TEST(RotorMixer, GivesUpYawThenThrustThenScalesRollAndPitch) {
   const test::QuadrotorNumbers numbers = test::make_q4t();
   RotorMixer mixer(make_craft(numbers), "test");
-  const double most_N = numbers.thrust_coefficient * 640.0 * 640.0, arm = 0.31 * std::sqrt(0.5);
+  const double max_N = numbers.thrust_coefficient * 640.0 * 640.0, arm = 0.31 * std::sqrt(0.5);
   const double drag_m = numbers.torque_coefficient / numbers.thrust_coefficient;
   std::vector<double> speeds(4);
   // At 4 N a rotor, 3 N of them for roll: 1 N is left for yaw.
@@ -119,15 +119,15 @@ TEST(RotorMixer, GivesUpYawThenThrustThenScalesRollAndPitch) {
   EXPECT_NEAR(made.torque_B.x(), 24.0 * arm, 1e-11);
   EXPECT_NEAR(made.torque_B.z(), 0.0, 1e-12);
   // More than the rotors have: one side stands, the other is at its limit.
-  made = (mixer.mix({16.0, {4 * most_N * arm, 0, 0}}, speeds), wrench_by_hand(numbers, speeds));
-  EXPECT_NEAR(made.torque_B.x(), 2 * most_N * arm, 1e-10);
-  EXPECT_NEAR(made.thrust_N, 2 * most_N, 1e-10);
+  made = (mixer.mix({16.0, {4 * max_N * arm, 0, 0}}, speeds), wrench_by_hand(numbers, speeds));
+  EXPECT_NEAR(made.torque_B.x(), 2 * max_N * arm, 1e-10);
+  EXPECT_NEAR(made.thrust_N, 2 * max_N, 1e-10);
   EXPECT_NEAR(speeds[2], 0.0, 1e-4);  // the root of a rounding
   EXPECT_NEAR(speeds[0], 640.0, 1e-9);
   // Too much thrust with roll: the roll stays.
   made = (mixer.mix({1e3, {4 * 3.0 * arm, 0, 0}}, speeds), wrench_by_hand(numbers, speeds));
   EXPECT_NEAR(made.torque_B.x(), 12.0 * arm, 1e-11);
-  EXPECT_NEAR(made.thrust_N, 4 * (most_N - 3.0), 1e-10);
+  EXPECT_NEAR(made.thrust_N, 4 * (max_N - 3.0), 1e-10);
 }
 
 TEST(RotorMixer, TellsTheTorquesThatHoverLeavesRoomFor) {
@@ -180,7 +180,7 @@ TEST(RotorMixer, RefusesRotorsThatCannotSteer) {
   expect_refused(
       numbers,
       "drone.controller (test): rotor 1 would have to pull down when the vehicle hovers; "
-      "the rotors must stand around the centre of mass");
+      "the rotors must be placed around the centre of mass");
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ TEST(Rotorcraft, RefusesWhatCannotFlyBySentences) {
   expect_refused(
       test::describe(numbers),
       "drone.controller cannot hover: the rotors of vehicle type 'quadrotor' turn at 300 "
-      "rad/s at least, hovering asks for 286.3 rad/s");
+      "rad/s or more, hovering needs 286.3 rad/s");
   numbers = test::make_q4t();
   numbers.inertia_kgm2.y() = 0.0;
   expect_refused(test::describe(numbers),

@@ -228,12 +228,13 @@ TEST(InvariantSet, RefusesInOneSentenceWithNumbers) {
           turn,
           controllers::Polytope::box(Eigen::Vector2d(-8.0, -0.75), Eigen::Vector2d(1.0, 10.0)), few)
           .reason(),
-      "the invariant set is not finished in 1 steps: row 3 still cuts off 1.75 of its limit 0.75");
+      "the invariant set does not converge in 1 steps: row 3 still cuts off 1.75 of its limit "
+      "0.75");
   EXPECT_EQ(
       complaint([&] { (void)controllers::maximal_invariant_set(Eigen::Matrix3d::Zero(), box); }),
       "A is 3 x 3 but the constraints are in 2 dimensions");
   EXPECT_EQ(complaint([&] { (void)controllers::maximal_invariant_set(kNaN * A, box); }),
-            "A holds a number that is not finite");
+            "A contains a number that is not finite");
 }
 
 TEST(InvariantSet, ExcessTellsHowFarASetIsLeft) {

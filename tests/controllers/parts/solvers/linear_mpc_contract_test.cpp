@@ -232,7 +232,7 @@ TEST(LinearMpcContract, RefusesShapesThatDoNotFit) {
             "drone.controller: Q is 1 x 2, must be 2 x 2");
   EXPECT_EQ(with([](Problem& p) { p.Q(0, 1) = 0.5; }), "drone.controller: Q is not symmetric");
   EXPECT_EQ(with([](Problem& p) { p.P(0, 0) = kNan; }),
-            "drone.controller: P holds a number that is not finite");
+            "drone.controller: P contains a number that is not finite");
   EXPECT_EQ(with([](Problem& p) { p.R.setZero(2, 2); }),
             "drone.controller: R is 2 x 2, must be 1 x 1");
   EXPECT_EQ(with([](Problem& p) { p.R(0, 0) = -5.0; }),

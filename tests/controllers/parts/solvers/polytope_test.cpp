@@ -184,29 +184,29 @@ TEST(Polytope, RefusesWhatDoesNotFit) {
   EXPECT_EQ(complaint([&] {
               controllers::Polytope(Eigen::MatrixXd::Ones(2, 2), Eigen::Vector2d(0.0, kInfinity));
             }),
-            "row 1 of a polytope holds a number that is not finite");
+            "row 1 of a polytope contains a number that is not finite");
   EXPECT_EQ(complaint([&] {
               controllers::Polytope(Eigen::MatrixXd::Constant(1, 2, kNaN),
                                     Eigen::VectorXd::Ones(1));
             }),
-            "row 0 of a polytope holds a number that is not finite");
+            "row 0 of a polytope contains a number that is not finite");
   EXPECT_EQ(complaint([&] { controllers::Polytope::box(Eigen::Vector2d(0.0, 0.0), three); }),
             "a box has 2 lower and 3 upper limits");
   EXPECT_EQ(complaint([&] { controllers::Polytope::box(Eigen::Vector2d(0.0, kNaN)); }),
             "limit 1 of a box is not a number");
   EXPECT_EQ(complaint([&] { box.support(three); }),
-            "a polytope in 2 dimensions meets a direction in 3");
+            "a polytope in 2 dimensions does not match a direction in 3");
   EXPECT_EQ(complaint([&] { box.contains(three); }),
-            "a polytope in 2 dimensions meets a point in 3");
+            "a polytope in 2 dimensions does not match a point in 3");
   EXPECT_EQ(complaint([&] { box.intersection(whole_space(3)); }),
-            "a polytope in 2 dimensions meets a polytope in 3");
+            "a polytope in 2 dimensions does not match a polytope in 3");
   EXPECT_EQ(complaint([&] { box.contains(whole_space(3)); }),
-            "a polytope in 2 dimensions meets a polytope in 3");
+            "a polytope in 2 dimensions does not match a polytope in 3");
   EXPECT_EQ(complaint([&] { box.linear_preimage(Eigen::MatrixXd::Ones(3, 2)); }),
-            "a polytope in 2 dimensions meets the image of a matrix in 3");
+            "a polytope in 2 dimensions does not match the image of a matrix in 3");
   EXPECT_EQ(complaint([&] { box.scaled(0.0); }), "a polytope is scaled by 0, must be > 0");
   EXPECT_EQ(complaint([&] { box.support(Eigen::Vector2d(kNaN, 0.0)); }),
-            "a linear programme of 4 rows in 2 variables gave up: invalid input");
+            "a linear programme of 4 rows in 2 variables failed: invalid input");
 }
 
 TEST(Polytope, SameBitsTwice) {

@@ -38,14 +38,14 @@ TEST(QpRandom, DegenerateProblems) {
 TEST(QpRandom, SmallProblemsWithManyRows) {
   QpRandomKind kind;
   kind.most_variables = 4;
-  kind.most_rows = 20;
+  kind.max_rows = 20;
   expect_all_optimal("small", 3000, kind);
 }
 
 TEST(QpRandom, LargeProblems) {
   QpRandomKind kind;
   kind.most_variables = 80;
-  kind.most_rows = 240;
+  kind.max_rows = 240;
   expect_all_optimal("large", 40, kind);
 }
 
@@ -68,7 +68,7 @@ TEST(QpRandom, RowsOfAllLengths) {
 QpProblem contradictory_qp(RandomStream& random, double bound) {
   QpRandomKind kind;
   kind.equalities = false;
-  kind.most_rows = 40;
+  kind.max_rows = 40;
   QpProblem problem = random_feasible_qp(random, kind);
   const int n = problem.n();
   const int involved = 2 + static_cast<int>(random.uniform() * n);

@@ -147,7 +147,7 @@ TEST(Dare, SaysWhatIsNotSeen) {
   const Result<MatrixXd> P = controllers::solve_dare(A, Eigen::Vector2d(1.0, 1.0), Q, scalar(1.0));
   ASSERT_FALSE(P);
   EXPECT_EQ(P.reason(),
-            "(A, Q) leaves an unstable mode unseen: Q gives no weight to the one with eigenvalue "
+            "(A, Q) leaves an unstable mode unseen: Q gives no weight to the mode with eigenvalue "
             "1.25");
 }
 
@@ -159,7 +159,7 @@ TEST(Dare, RefusesWeightsThatAreNone) {
             "R is not positive definite");
   const MatrixXd nan = scalar(std::numeric_limits<double>::quiet_NaN());
   EXPECT_EQ(controllers::solve_dare(one, one, nan, one).reason(),
-            "A, B, Q or R holds a number that is not finite");
+            "A, B, Q or R contains a number that is not finite");
 }
 
 TEST(Lyapunov, GeometricSeries) {

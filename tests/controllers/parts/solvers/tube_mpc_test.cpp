@@ -200,7 +200,7 @@ TEST(TubeMpc, AdversaryViolatesNothing) {
   // At every step the gust that pushes one row most, seen over the steps that the loop remembers.
   for (const Wing& wing : {longitudinal_wing(), lateral_wing()}) {
     controllers::TubeMpc mpc = make_mpc(wing);
-    const Result<controllers::TubeRoom> room = controllers::calc_tube_room(wing);
+    const Result<controllers::GustMargin> room = controllers::calc_gust_margin(wing);
     ASSERT_TRUE(room);
     Eigen::MatrixXd rows(5 + wing.K.rows(), 5);
     rows << Eigen::MatrixXd::Identity(5, 5), wing.K;
@@ -232,7 +232,7 @@ TEST(TubeMpc, AdversaryViolatesNothing) {
 
 TEST(TubeMpc, StrongestFeasibleGustViolatesNothing) {
   for (Wing wing : {longitudinal_wing(), lateral_wing()}) {
-    const Result<controllers::TubeRoom> room = controllers::calc_tube_room(wing);
+    const Result<controllers::GustMargin> room = controllers::calc_gust_margin(wing);
     ASSERT_TRUE(room);
     wing = wing.in_gusts(0.99 * room->factor);
     controllers::TubeMpc mpc = make_mpc(wing);

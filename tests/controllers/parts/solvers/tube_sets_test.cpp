@@ -50,7 +50,7 @@ TEST(TubeSets, HalfWidthsAndLargestGustsAreThePrototypes) {
   lat << 1.997, 2.117, .592, .2915, .1203, .1172;
   for (const Case& expected : {Case{longitudinal_wing(), lon, 2.09, "speed along z"},
                                Case{lateral_wing(), lat, 1.79, "aileron"}}) {
-    const Result<controllers::TubeRoom> room = controllers::calc_tube_room(expected.wing);
+    const Result<controllers::GustMargin> room = controllers::calc_gust_margin(expected.wing);
     ASSERT_TRUE(room) << room.reason();
     const VectorXd reach = joined(room->reach.state, room->reach.input);
     for (int i = 0; i < reach.size(); ++i) {
@@ -59,8 +59,8 @@ TEST(TubeSets, HalfWidthsAndLargestGustsAreThePrototypes) {
     EXPECT_NEAR(room->factor, expected.gust, 0.01);
     EXPECT_EQ(room->binding, expected.binding);
     // What is reached grows with the gust, so the factor is what is left of it.
-    const Result<controllers::TubeRoom> strong =
-        controllers::calc_tube_room(expected.wing.in_gusts(1.5));
+    const Result<controllers::GustMargin> strong =
+        controllers::calc_gust_margin(expected.wing.in_gusts(1.5));
     ASSERT_TRUE(strong);
     EXPECT_NEAR(strong->factor, room->factor / 1.5, 1e-9);
     EXPECT_NEAR(strong->reach.state[2], 1.5 * room->reach.state[2], 1e-9);
@@ -69,7 +69,7 @@ TEST(TubeSets, HalfWidthsAndLargestGustsAreThePrototypes) {
 
 TEST(TubeSets, WorstGustsReachTheHalfWidthsToTheLastMillionth) {
   for (const Wing& wing : {longitudinal_wing(), lateral_wing()}) {
-    const Result<controllers::TubeRoom> room = controllers::calc_tube_room(wing);
+    const Result<controllers::GustMargin> room = controllers::calc_gust_margin(wing);
     ASSERT_TRUE(room);
     const VectorXd reach = joined(room->reach.state, room->reach.input);
     const MatrixXd rows = with_feedback_rows(wing), A = wing.closed();
@@ -179,7 +179,7 @@ TEST(TubeSets, TerminalSetKeepsTheTightenedLimitsForEver) {
 
 TEST(TubeSets, GustsUpToTheLargestAreFeasibleAndBeyondRefused) {
   for (const Wing& wing : {longitudinal_wing(), lateral_wing()}) {
-    const Result<controllers::TubeRoom> room = controllers::calc_tube_room(wing);
+    const Result<controllers::GustMargin> room = controllers::calc_gust_margin(wing);
     ASSERT_TRUE(room);
     for (const double share : {0.998, 0.9999}) {
       const Result<controllers::TubeSets> close =
@@ -230,13 +230,14 @@ TEST(TubeSets, GustsThatMissAStateLeaveAThinTube) {
 TEST(TubeSets, BadInputIsToldApart) {
   Wing wing = longitudinal_wing();
   wing.K.setZero();
-  EXPECT_EQ(controllers::calc_tube_room(wing).reason().rfind(
+  EXPECT_EQ(controllers::calc_gust_margin(wing).reason().rfind(
                 "A is not Schur stable: its spectral radius", 0),
             0u);
-  EXPECT_EQ(controllers::make_tube_sets(wing).reason(), controllers::calc_tube_room(wing).reason());
+  EXPECT_EQ(controllers::make_tube_sets(wing).reason(),
+            controllers::calc_gust_margin(wing).reason());
   wing = longitudinal_wing();
   wing.gust.setOnes(1);
-  EXPECT_EQ(complaint([&] { (void)controllers::calc_tube_room(wing); }),
+  EXPECT_EQ(complaint([&] { (void)controllers::calc_gust_margin(wing); }),
             "the gust of a tube is 1 x 1, must be 2 x 1");
   wing = longitudinal_wing();
   wing.input_limit[1] = 0.0;
@@ -245,7 +246,7 @@ TEST(TubeSets, BadInputIsToldApart) {
   wing = longitudinal_wing();
   wing.E(0, 0) = std::nan("");
   EXPECT_EQ(complaint([&] { (void)controllers::make_tube_sets(wing); }),
-            "E of a tube holds a number that is not finite");
+            "E of a tube contains a number that is not finite");
 }
 
 }  // namespace

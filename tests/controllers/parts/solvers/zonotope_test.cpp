@@ -59,13 +59,13 @@ TEST(Zonotope, RefusesWhatDoesNotFit) {
   EXPECT_EQ(complaint([&] { controllers::Zonotope(two, Eigen::MatrixXd::Ones(3, 1)); }),
             "a zonotope around a point of 2 numbers has generators of 3");
   EXPECT_EQ(complaint([&] { controllers::Zonotope(two, Eigen::MatrixXd::Constant(2, 1, kNaN)); }),
-            "a zonotope holds a number that is not finite");
+            "a zonotope contains a number that is not finite");
   EXPECT_EQ(complaint([&] { controllers::Zonotope::box(Eigen::Vector2d(1.0, -0.5)); }),
             "half width 1 of a box is -0.5, must be >= 0");
   EXPECT_EQ(complaint([&] { Z.support(Eigen::Vector3d::Ones()); }),
-            "a zonotope in 2 dimensions meets a direction in 3");
+            "a zonotope in 2 dimensions does not match a direction in 3");
   EXPECT_EQ(complaint([&] { Z.linear_image(Eigen::MatrixXd::Ones(2, 3)); }),
-            "a zonotope in 2 dimensions meets a matrix of 3 columns");
+            "a zonotope in 2 dimensions does not match a matrix of 3 columns");
 }
 
 TEST(SeriesSupport, ReproducesTheExampleOfRakovic) {
@@ -161,18 +161,18 @@ TEST(SeriesSupport, RefusesUnstableSystemsAndOddDisturbances) {
   EXPECT_EQ(controllers::SeriesSupport::make(
                 slow, controllers::Polytope(Eigen::RowVector2d(1.0, 0.0), Eigen::VectorXd::Ones(1)))
                 .reason(),
-            "the disturbance set has no end along state 0");
+            "the disturbance set is unbounded along state 0");
   EXPECT_EQ(
       complaint([&] { (void)controllers::SeriesSupport::make(Eigen::MatrixXd::Zero(2, 3), box); }),
       "A is 2 x 3, must be square");
   EXPECT_EQ(complaint([&] { (void)controllers::SeriesSupport::make(kNaN * slow, box); }),
-            "A holds a number that is not finite");
+            "A contains a number that is not finite");
   EXPECT_EQ(
       complaint([&] { (void)controllers::SeriesSupport::make(Eigen::Matrix3d::Zero(), box); }),
-      "a zonotope in 2 dimensions meets a direction in 3");
+      "a zonotope in 2 dimensions does not match a direction in 3");
   EXPECT_EQ(
       complaint([&] { (*controllers::SeriesSupport::make(slow, box))(Eigen::Vector3d::Ones()); }),
-      "a set in 2 dimensions meets a direction in 3");
+      "a set in 2 dimensions does not match a direction in 3");
 }
 
 }  // namespace

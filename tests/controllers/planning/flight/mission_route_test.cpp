@@ -149,7 +149,7 @@ TEST(MissionRoute, FliesTheTextOfMissionPlannerAndKeepsFences) {
   setup.file = fences;
   setup.origin = MissionFlight().origin;
   setup.vehicle = plane();
-  EXPECT_NE(refusal(setup).find("breaks exclusion polygon 1 at ("), std::string::npos)
+  EXPECT_NE(refusal(setup).find("violates exclusion polygon 1 at ("), std::string::npos)
       << refusal(setup);
   setup.values = {{"fences", std::string("ignore")}};
   EXPECT_EQ(refusal(setup), "none");
@@ -256,7 +256,7 @@ TEST(MissionRoute, RefusesWhatFencesPart) {
   setup.vehicle.type = "rover";
   setup.vehicle.wheeled.emplace().track_m = 1.0;
   EXPECT_NE(
-      refusal(setup).find("no way from the start to item 1 keeps the fences: inclusion circle "
+      refusal(setup).find("no path from the start to item 1 keeps the fences: inclusion circle "
                           "1 at ("),
       std::string::npos)
       << refusal(setup);
@@ -264,7 +264,7 @@ TEST(MissionRoute, RefusesWhatFencesPart) {
 
 TEST(MissionRoute, RefusesWhatHasNothingToFly) {
   VINEROW_OUTSIDE_DATA(file, kSamples + "qgroundcontrol_sample_with_digicam_control.plan");
-  EXPECT_NE(refusal({file}).find("has 1 items, none of them a waypoint: there is nothing to fly"),
+  EXPECT_NE(refusal({file}).find("has 1 items but no waypoint: there is nothing to fly"),
             std::string::npos);
 }
 
@@ -293,9 +293,9 @@ TEST(MissionRoute, RefusesByNumberAndName) {
                               "km; a world with origin_latitude_deg = 47.39"),
             std::string::npos)
       << refusal(far);
-  EXPECT_NE(refusal(far).find("lies 299."), std::string::npos) << refusal(far);  // 2.698 deg
+  EXPECT_NE(refusal(far).find("is 299."), std::string::npos) << refusal(far);  // 2.698 deg
   EXPECT_NE(refusal({write_items({at(16, 900, 0, 50), at(16, 1000, 0, -3)})})
-                .find("the way from item 1 to item 2 goes"),
+                .find("the path from item 1 to item 2 goes"),
             std::string::npos);
   MissionFlight rover{write_items({at(16, 900, 0, 50)})};
   rover.vehicle = VehicleDescription{};

@@ -216,7 +216,7 @@ TEST(Coverage, LiftsPointsOntoTheGround) {
 TEST(Coverage, RefusesToLeaveTheGround) {
   const auto path = plan_on(Slope(17.5));
   ASSERT_FALSE(path.ok());
-  EXPECT_EQ(path.reason().find("path leaves the ground: there is none at ("), 0u) << path.reason();
+  EXPECT_EQ(path.reason().find("path leaves the ground: no ground at ("), 0u) << path.reason();
 }
 
 TEST(Coverage, RefusesAPathIntoARow) {
@@ -244,7 +244,7 @@ TEST(Coverage, RefusesAStretchAcrossARowBetweenWaypoints) {
 TEST(Coverage, RefusesLessClearanceThanAsked) {
   const auto path = plan(make_narrow_map(2), {{"clearance_m", 1.0}});
   ASSERT_FALSE(path.ok());
-  EXPECT_NE(path.reason().find("is to be kept clear by 1.00 m"), std::string::npos);
+  EXPECT_NE(path.reason().find("and needs a clearance of 1.00 m"), std::string::npos);
 }
 
 TEST(Coverage, RefusesAnArcTooTight) {
@@ -334,7 +334,7 @@ TEST(Waypoints, RefusesAPathIntoARow) {
   const Values values = {{"x_m", std::vector<double>{1, 4}}, {"y_m", std::vector<double>{5, 5}}};
   const auto path = make_planner({"waypoints", values}, map)->plan(Pose{});
   ASSERT_FALSE(path.ok());
-  EXPECT_NE(path.reason().find("path into a row: the way passes"), std::string::npos);
+  EXPECT_NE(path.reason().find("path into a row: the path passes"), std::string::npos);
 }
 
 }  // namespace

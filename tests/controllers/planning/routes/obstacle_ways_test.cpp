@@ -45,7 +45,7 @@ TEST(ObstacleWays, DrivesAroundACrateInAnAlley) {
     const SweptVerdict verdict =
         check_swept(*path, yard.vehicle.outline_B(), yard.map.occupancy, 0.01);
     EXPECT_EQ(verdict.fault, "") << type;
-    EXPECT_GT(verdict.least_m, 0.03) << type;
+    EXPECT_GT(verdict.min_m, 0.03) << type;
     EXPECT_LE(verdict.sharpest_per_m, 1.0 / 1.767 + 1e-6) << type;
     // 0.3 m aside and back takes centimetres; a loop would take metres.
     Yard free({.row_length_m = 40.0});
@@ -61,7 +61,7 @@ TEST(ObstacleWays, TellsWhatLeavesNoRoom) {
   const auto path = yard.plan({"rrt_quartile", {}}, 1.25, -1.0, 0.5 * kPi);
   ASSERT_FALSE(path.ok());
   EXPECT_THAT(path.reason(), StartsWith("the leg in alley 0 is blocked: at (1.25, "));
-  EXPECT_THAT(path.reason(), HasSubstr("; no way around it: "));
+  EXPECT_THAT(path.reason(), HasSubstr("; no path around it: "));
 }
 
 TEST(ObstacleWays, GoesFromPlaceToPlaceThroughTheBlock) {
@@ -78,7 +78,7 @@ TEST(ObstacleWays, GoesFromPlaceToPlaceThroughTheBlock) {
     const SweptVerdict verdict =
         check_swept(*path, yard.vehicle.outline_B(), yard.map.occupancy, 0.01);
     EXPECT_EQ(verdict.fault, "");
-    EXPECT_GT(verdict.least_m, 0.03);
+    EXPECT_GT(verdict.min_m, 0.03);
     EXPECT_LE(verdict.sharpest_per_m, 1.0 / 1.767 + 1e-6);
     const PathPoint& end = path->points.back();
     EXPECT_LT((end.p_W.head<2>() - Vec(6.25, 2.0)).norm(), 1e-6);

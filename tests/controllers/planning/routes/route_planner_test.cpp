@@ -31,16 +31,16 @@ class DubinsSearch final : public controllers::PoseSearch {
   explicit DubinsSearch(std::vector<Asked>* asked, bool fails = false)
       : asked_(asked), fails_(fails) {}
 
-  Result<std::vector<controllers::PathPiece>> find(const controllers::Pose2& from,
-                                                   const controllers::Pose2& to,
-                                                   const controllers::Footprint&, int problem,
-                                                   controllers::SearchReport& report) override {
+  Result<std::vector<controllers::PathSegment>> find(const controllers::Pose2& from,
+                                                     const controllers::Pose2& to,
+                                                     const controllers::Footprint&, int problem,
+                                                     controllers::SearchReport& report) override {
     if (asked_ != nullptr) asked_->push_back({from, to, problem});
     report.nodes = 7;
     report.iterations = 11;
     report.tree_W = {from.p, to.p};
     if (fails_) return Failure{"no luck"};
-    std::vector<controllers::PathPiece> pieces;
+    std::vector<controllers::PathSegment> pieces;
     controllers::append_dubins(from, controllers::calc_dubins(from, to, kRadius_m), PathKind::kTurn,
                                0.0, pieces);
     return pieces;
@@ -138,9 +138,9 @@ TEST(RoutePlanner, DrivesLegsAndTurns) {
       check_swept(*path, bench.vehicle.footprint_B, bench.map.occupancy, 0.1);
   EXPECT_EQ(verdict.fault, "");
   EXPECT_NEAR(verdict.length_m, path->length_m, 1e-6);
-  EXPECT_NEAR(bench.number("clearance_m"), verdict.least_m, bench.setup.cell_m);
+  EXPECT_NEAR(bench.number("clearance_m"), verdict.min_m, bench.setup.cell_m);
   EXPECT_EQ(bench.number("clearance_m"), bench.number("turn_clearance_m"));
-  EXPECT_GT(verdict.least_m, 0.0);
+  EXPECT_GT(verdict.min_m, 0.0);
 }
 
 TEST(RoutePlanner, LegsGoOnBeyondTheRowEnds) {
@@ -231,17 +231,17 @@ TEST(RoutePlanner, RefusesAStartInCollision) {
   const auto in_row = bench.plan(2.5, 10.0, 0.5 * kPi);
   ASSERT_FALSE(in_row.ok());
   EXPECT_EQ(in_row.reason(),
-            "start in collision: (2.50, 10.00) heading 90.0 deg lies in a row: 0.00 m from the "
+            "start in collision: (2.50, 10.00) heading 90.0 deg is in a row: 0.00 m from the "
             "centre line of row 1, whose canopy is 0.60 m wide");
   const auto beside = bench.plan(1.85, 10.0, 0.5 * kPi);
   ASSERT_FALSE(beside.ok());
   EXPECT_EQ(beside.reason(),
             "start in collision: at (1.85, 10.00) heading 90.0 deg the footprint has 0.000 m of "
-            "room, the margin is 0.050 m");
+            "clearance, the margin is 0.050 m");
   const auto outside = bench.plan(1.25, -40.0, 0.5 * kPi);
   ASSERT_FALSE(outside.ok());
   EXPECT_EQ(outside.reason(),
-            "start in collision: (1.25, -40.00) heading 90.0 deg lies outside the map's occupancy "
+            "start in collision: (1.25, -40.00) heading 90.0 deg is outside the map's occupancy "
             "grid");
   EXPECT_EQ(bench.number("nodes"), 0.0);
 }
@@ -252,7 +252,7 @@ TEST(RoutePlanner, RefusesGoalsAndLegsInRows) {
   const auto goal = bench.plan(1.25, -1.0, 0.5 * kPi);
   ASSERT_FALSE(goal.ok());
   EXPECT_THAT(goal.reason(), StartsWith("entrance of alley 1 blocked: (4.90, 20.00) heading"));
-  EXPECT_THAT(goal.reason(), HasSubstr("lies in a row: 0.10 m from the centre line of row 2, whose "
+  EXPECT_THAT(goal.reason(), HasSubstr("is in a row: 0.10 m from the centre line of row 2, whose "
                                        "canopy is 0.60 m wide"));
 
   Bench blocked;
@@ -260,7 +260,7 @@ TEST(RoutePlanner, RefusesGoalsAndLegsInRows) {
   const auto leg = blocked.plan(1.25, -1.0, 0.5 * kPi);
   ASSERT_FALSE(leg.ok());
   EXPECT_THAT(leg.reason(), StartsWith("the leg in alley 0 is blocked: at (1.25, 10."));
-  EXPECT_THAT(leg.reason(), HasSubstr("m of room, the margin is 0.050 m"));
+  EXPECT_THAT(leg.reason(), HasSubstr("m of clearance, the margin is 0.050 m"));
 }
 
 TEST(RoutePlanner, TellsTheRoomThatATurnLacks) {
@@ -268,10 +268,11 @@ TEST(RoutePlanner, TellsTheRoomThatATurnLacks) {
   bench.params.turning_radius_m = 2.6;
   const auto path = bench.plan(1.25, -1.0, 0.5 * kPi, true);
   ASSERT_FALSE(path.ok());
-  EXPECT_THAT(path.reason(), ::testing::MatchesRegex(
-                                 "the turn from alley 0 to alley 1 needs 0\\.7. m more room at "
-                                 "the turning radius of 2\\.60 m \\(footprint 1\\.9 x 1\\.0 m, "
-                                 "margin 0\\.05 m\\): no luck"));
+  EXPECT_THAT(
+      path.reason(),
+      ::testing::MatchesRegex("the turn from alley 0 to alley 1 needs 0\\.7. m more clearance at "
+                              "the turning radius of 2\\.60 m \\(footprint 1\\.9 x 1\\.0 m, "
+                              "margin 0\\.05 m\\): no luck"));
   EXPECT_EQ(bench.number("nodes"), 7.0);  // reported also after a failure
   EXPECT_EQ(bench.planner->report()->tree.points_W.size(), 2u);
 }
@@ -285,15 +286,16 @@ TEST(RoutePlanner, TellsWhereASearchFailsThoughThereIsRoom) {
   ASSERT_FALSE(way.ok());
   EXPECT_EQ(
       way.reason(),
-      "no way from the start at (-1.00, -7.00) heading 180.0 deg to the entrance of alley 0 at "
+      "no path from the start at (-1.00, -7.00) heading 180.0 deg to the entrance of alley 0 at "
       "(1.25, 0.00) heading 90.0 deg: no luck");
   // A wall across the headland: no ground joins the alleys at all.
   mark(bench.map.occupancy, {2.5, 20.0}, {2.5, 30.0}, 0.0);
   const auto walled = bench.plan(1.25, -1.0, 0.5 * kPi, true);
   ASSERT_FALSE(walled.ok());
-  EXPECT_EQ(walled.reason(),
-            "no free ground joins alley 0 at (1.25, 20.00) heading 90.0 deg and alley 1 at (3.75, "
-            "20.00) heading -90.0 deg: no luck");
+  EXPECT_EQ(
+      walled.reason(),
+      "no free ground connects alley 0 at (1.25, 20.00) heading 90.0 deg and alley 1 at (3.75, "
+      "20.00) heading -90.0 deg: no luck");
 }
 
 TEST(RoutePlanner, MissingClearanceIsThatOfTheLoopBetweenWalls) {
@@ -369,7 +371,7 @@ TEST(AnalyticTurn, EveryCandidateArrivesAndTheyAreSorted) {
     const auto pieces = controllers::make_pieces(from, to, turns[i]);
     ASSERT_NEAR(controllers::calc_length_m(pieces), turns[i].length_m, 1e-5);
     controllers::Pose2 at = from;
-    for (const controllers::PathPiece& piece : pieces) {
+    for (const controllers::PathSegment& piece : pieces) {
       ASSERT_NEAR((piece.start.p - at.p).norm(), 0.0, 1e-6);
       ASSERT_NEAR(wrap_angle(piece.start.yaw_rad - at.yaw_rad), 0.0, 1e-6);
       ASSERT_LE(std::abs(piece.curvature_per_m), 1.0 / 1.5 + 1e-12);

@@ -117,7 +117,8 @@ TEST(RrtQuartilePlanner, RefusesThePapersTwoWheelTurnWithTheRoomThatIsMissing) {
   ASSERT_FALSE(path);
   const std::string& reason = path.reason();
   EXPECT_NE(reason.find("the turn from alley 0 to alley 1 needs 0."), std::string::npos) << reason;
-  EXPECT_NE(reason.find("more room at the turning radius of 2.60 m"), std::string::npos) << reason;
+  EXPECT_NE(reason.find("more clearance at the turning radius of 2.60 m"), std::string::npos)
+      << reason;
   EXPECT_NE(reason.find("tree exhausted, no sequence of arcs of 2.60 m radius"), std::string::npos)
       << reason;
   EXPECT_TRUE(Mission(make_vineyard(2, false)).plan({{"steering", Text("two_wheel")}}))

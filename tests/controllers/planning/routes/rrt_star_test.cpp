@@ -52,10 +52,10 @@ struct Bench {
     ASSERT_TRUE(run.path.ok()) << run.path.reason();
     const SweptVerdict verdict = check_swept(*run.path, vehicle.footprint_B, map.occupancy, step_m);
     EXPECT_EQ(verdict.fault, "");
-    EXPECT_GT(verdict.least_m, kMargin_m - 0.5 * setup.cell_m);
+    EXPECT_GT(verdict.min_m, kMargin_m - 0.5 * setup.cell_m);
     EXPECT_LE(verdict.sharpest_per_m, 1.0 / kRadius_m + 1e-9);
     EXPECT_NEAR(verdict.length_m, run.path->length_m, 1e-5);
-    EXPECT_NEAR(run.report.numbers.at("clearance_m"), verdict.least_m, setup.cell_m);
+    EXPECT_NEAR(run.report.numbers.at("clearance_m"), verdict.min_m, setup.cell_m);
   }
 
   BlockSetup setup;
@@ -207,12 +207,13 @@ TEST(RrtStar, TellsTheRoomMissingForTheTwoWheelSteeredVehicle) {
   bench.vehicle = make_four_wheel_description(1.5 / std::tan(kPi / 6.0));
   const Planned run = bench.plan(1, {{"first_iterations", std::int64_t{500}}});
   ASSERT_FALSE(run.path.ok());
-  EXPECT_THAT(run.path.reason(),
-              ::testing::MatchesRegex(
-                  "the turn from alley 0 to alley 1 needs 0\\.[78]. m more room at the turning "
-                  "radius of 2\\.60 m \\(footprint 1\\.9 x 1\\.0 m, margin 0\\.05 m\\): no closed "
-                  "form fits the turning radius of 2\\.60 m, and a tree of [0-9]+ nodes found no "
-                  "way in 500 iterations within 8\\.0 m"));
+  EXPECT_THAT(
+      run.path.reason(),
+      ::testing::MatchesRegex(
+          "the turn from alley 0 to alley 1 needs 0\\.[78]. m more clearance at the turning "
+          "radius of 2\\.60 m \\(footprint 1\\.9 x 1\\.0 m, margin 0\\.05 m\\): no closed "
+          "form fits the turning radius of 2\\.60 m, and a tree of [0-9]+ nodes found no "
+          "path in 500 iterations within 8\\.0 m"));
   EXPECT_EQ(run.report.numbers.at("iterations"), 500.0);
 }
 

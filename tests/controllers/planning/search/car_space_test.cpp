@@ -6,7 +6,7 @@
 
 #include "controllers/planning/search/bounded_nearest.h"
 #include "controllers/planning/search/car_planners.h"
-#include "controllers/planning/search/first_way.h"
+#include "controllers/planning/search/initial_path.h"
 #include "engine/core/random.h"
 #include "engine/math/angles.h"
 #include "tests/controllers/support/block_map.h"
@@ -101,36 +101,36 @@ OccupancyGrid make_corridor() {
   return grid;
 }
 
-TEST(WayCost, IsTheIntegralOfLackingClearance) {
+TEST(PathCost, IsTheIntegralOfLackingClearance) {
   const OccupancyGrid grid = make_corridor();
   const controllers::DistanceField field(grid);
   const controllers::Footprint footprint(field, make_four_wheel_description().footprint_B, 0.05);
   // Along the middle the hull has half a metre, less cells, to either side.
   const double clearance_m = footprint.clearance_m({{0, 0}, 0.0});
   EXPECT_NEAR(clearance_m, 0.5, 0.051);
-  const controllers::WayCost cost({0.5, 1.0, 0.1, 0.25}, footprint);
-  const controllers::PathPiece along{{{-5, 0}, 0.0}, 8.0, 0.0, PathKind::kTurn, -1, 0.0};
+  const controllers::PathCost cost({0.5, 1.0, 0.1, 0.25}, footprint);
+  const controllers::PathSegment along{{{-5, 0}, 0.0}, 8.0, 0.0, PathKind::kTurn, -1, 0.0};
   EXPECT_NEAR(cost.of(along), 8.0 * (1.0 + 0.5 * (1.0 - clearance_m)), 1e-6);
-  EXPECT_EQ(controllers::WayCost({0.0, 1.0, 0.1, 0.25}, footprint).of(along), 8.0);
-  EXPECT_EQ(controllers::WayCost({0.5, 0.3, 0.1, 0.25}, footprint).of(along),
+  EXPECT_EQ(controllers::PathCost({0.0, 1.0, 0.1, 0.25}, footprint).of(along), 8.0);
+  EXPECT_EQ(controllers::PathCost({0.5, 0.3, 0.1, 0.25}, footprint).of(along),
             8.0);  // all that is wanted
   EXPECT_NEAR(cost.most_of(8.0), 12.2, 1e-12);
   // Every change of curvature counts once, also between pieces of a Dubins path.
   const controllers::DubinsPath loop =
       controllers::calc_dubins({{0, 0}, 0.5 * kPi}, {{2.5, 0}, -0.5 * kPi}, 1.767);
-  std::vector<controllers::PathPiece> pieces;
+  std::vector<controllers::PathSegment> pieces;
   controllers::append_dubins({{0, 0}, 0.5 * kPi}, loop, PathKind::kTurn, 0.0, pieces);
-  const controllers::WayCost bends({0.0, 1.0, 0.1, 0.25}, footprint);
+  const controllers::PathCost bends({0.0, 1.0, 0.1, 0.25}, footprint);
   EXPECT_NEAR(bends.of(pieces), loop.length_m() + 0.2, 1e-9);
   EXPECT_NEAR(bends.of({{0, 0}, 0.5 * kPi}, loop), loop.length_m() + 0.2, 1e-9);
   RandomStream random(3, "a", "b");
   for (int n = 0; n < 200; ++n) {
-    const controllers::PathPiece piece{draw_pose(random),
-                                       random.uniform(0.1, 6.0),
-                                       random.uniform(-0.6, 0.6),
-                                       PathKind::kTurn,
-                                       -1,
-                                       0.0};
+    const controllers::PathSegment piece{draw_pose(random),
+                                         random.uniform(0.1, 6.0),
+                                         random.uniform(-0.6, 0.6),
+                                         PathKind::kTurn,
+                                         -1,
+                                         0.0};
     EXPECT_GE(cost.of(piece), piece.length_m);
     EXPECT_LE(cost.of(piece), cost.most_of(piece.length_m) + 1e-12);
   }
@@ -140,7 +140,7 @@ TEST(Shorten, KeepsEndsAndNeverCostsMore) {
   const OccupancyGrid grid = make_block({.row_length_m = 8.0, .has_walls = false}).occupancy;
   const controllers::DistanceField field(grid);
   const controllers::Footprint footprint(field, make_four_wheel_description().footprint_B, 0.05);
-  const controllers::WayCost cost({0.5, 0.3, 0.2, 0.25}, footprint);
+  const controllers::PathCost cost({0.5, 0.3, 0.2, 0.25}, footprint);
   // A detour over a pose far out in the headland.
   const std::vector<controllers::Pose2> poses = {
       {{1.25, 8.0}, 0.5 * kPi}, {{2.5, 15.0}, 0.0}, {{3.75, 8.0}, -0.5 * kPi}};
@@ -157,7 +157,7 @@ TEST(CarPlanners, SameSeedSameTreeWhateverRunsBetween) {
   const RowMap map = make_block({.row_length_m = 8.0, .has_walls = false});
   const controllers::DistanceField field(map.occupancy);
   const controllers::Footprint footprint(field, make_four_wheel_description().footprint_B, 0.05);
-  const controllers::WayCost cost({0.5, 0.3, 0.2, 0.25}, footprint);
+  const controllers::PathCost cost({0.5, 0.3, 0.2, 0.25}, footprint);
   controllers::CarProblem problem{1.767, {-4, 4}, {9, 18}, &footprint, &cost, 0.1, 3.0, 400};
   controllers::CarSampling sampling;
   sampling.from = {{1.25, 8.0}, 0.5 * kPi};

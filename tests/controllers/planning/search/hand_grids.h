@@ -123,8 +123,9 @@ inline bool touches(const OccupancyGrid& grid, const std::vector<Eigen::Vector2d
 }
 
 inline bool path_touches(const OccupancyGrid& grid, const std::vector<Eigen::Vector2d>& outline_B,
-                         const std::vector<controllers::PathPiece>& pieces, double step_m = 0.02) {
-  for (const controllers::PathPiece& piece : pieces) {
+                         const std::vector<controllers::PathSegment>& pieces,
+                         double step_m = 0.02) {
+  for (const controllers::PathSegment& piece : pieces) {
     const int parts = std::max(1, static_cast<int>(std::ceil(piece.length_m / step_m)));
     for (int i = 0; i <= parts; ++i) {
       if (touches(grid, outline_B, piece.at(piece.length_m * i / parts))) return true;
@@ -133,9 +134,9 @@ inline bool path_touches(const OccupancyGrid& grid, const std::vector<Eigen::Vec
   return false;
 }
 
-inline double length_m(const std::vector<controllers::PathPiece>& pieces) {
+inline double length_m(const std::vector<controllers::PathSegment>& pieces) {
   double sum = 0.0;
-  for (const controllers::PathPiece& piece : pieces) sum += piece.length_m;
+  for (const controllers::PathSegment& piece : pieces) sum += piece.length_m;
   return sum;
 }
 

@@ -29,7 +29,7 @@ struct Site {
 
 struct Found {
   controllers::SearchReport report;
-  Result<std::vector<controllers::PathPiece>> pieces = Failure{};
+  Result<std::vector<controllers::PathSegment>> pieces = Failure{};
 };
 
 inline Found find(const Site& site, const controllers::Pose2& from, const controllers::Pose2& to,
@@ -54,11 +54,11 @@ inline controllers::RrtQuartileParams make_params(double curvature_per_m = kFour
 /// Starts and ends exactly, hangs together, turns no tighter than allowed, touches nothing.
 inline void expect_drivable(const Site& site, const controllers::Pose2& from,
                             const controllers::Pose2& to,
-                            const std::vector<controllers::PathPiece>& pieces,
+                            const std::vector<controllers::PathSegment>& pieces,
                             double curvature_per_m) {
   ASSERT_FALSE(pieces.empty());
   controllers::Pose2 at = from;
-  for (const controllers::PathPiece& piece : pieces) {
+  for (const controllers::PathSegment& piece : pieces) {
     EXPECT_LT((piece.start.p - at.p).norm(), 1e-9);
     EXPECT_NEAR(wrap_angle(piece.start.yaw_rad - at.yaw_rad), 0.0, 1e-9);
     EXPECT_GT(piece.length_m, 0.0);

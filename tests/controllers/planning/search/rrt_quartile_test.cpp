@@ -44,7 +44,7 @@ TEST(RrtQuartile, TheSameCallGivesTheSameBits) {
   const auto all_bits = [&](std::uint64_t seed, int problem) {
     const Found run = find(site, vineyard.exit(0), vineyard.entry(1), make_params(), seed, problem);
     std::vector<double> bits = {double(run.report.nodes), double(run.report.iterations)};
-    for (const PathPiece& piece : *run.pieces) {
+    for (const PathSegment& piece : *run.pieces) {
       bits.insert(bits.end(), {piece.start.p.x(), piece.start.p.y(), piece.start.yaw_rad,
                                piece.length_m, piece.curvature_per_m});
     }
@@ -124,16 +124,16 @@ TEST(RrtQuartile, SaysWhyThereIsNoWay) {
   };
   RrtQuartileParams params = make_params();
   EXPECT_EQ(reason({{10, 1.25}, 0.0}, vineyard.entry(1), params),
-            "start in collision: at (10.00, 1.25) heading 0.0 deg the footprint has 0.000 m of room, "
-            "the margin is 0.050 m");
+            "start in collision: at (10.00, 1.25) heading 0.0 deg the footprint has 0.000 m of "
+            "clearance, the margin is 0.050 m");
   EXPECT_EQ(reason(vineyard.exit(0), {{10, 3.75}, kPi}, params),
             "goal in collision: at (10.00, 3.75) heading 180.0 deg the footprint has 0.000 m of "
-            "room, the margin is 0.050 m");
+            "clearance, the margin is 0.050 m");
   EXPECT_EQ(reason(vineyard.exit(0), {{10, 300}, kPi}, params),
-            "goal in collision: (10.00, 300.00) heading 180.0 deg lies outside the map's occupancy "
+            "goal in collision: (10.00, 300.00) heading 180.0 deg is outside the map's occupancy "
             "grid");
   EXPECT_EQ(reason(vineyard.exit(0), {{10, 7.0}, kPi}, params),
-            "no free ground as wide as the vehicle joins start and goal");
+            "no free ground as wide as the vehicle connects start and goal");
   params.max_iterations = 50;
   const Found stopped = find(site, vineyard.exit(0), vineyard.entry(1), params);
   EXPECT_EQ(stopped.report.iterations, 50);

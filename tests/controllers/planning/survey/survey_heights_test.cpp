@@ -119,14 +119,14 @@ TEST(SurveyHeights, BeginAtTheStartAndClimbAtTheSlope) {
       controllers::GroundProfile::make({{0, 0}, {1000, 0}}, ground_of([](double) { return 0.0; }))
           .value();
   std::vector<double> wanted_m = controllers::make_wanted_heights(profile, 60.0, 0.12);
-  EXPECT_NEAR(controllers::begin_heights_at(profile, 0.0, 0.12, wanted_m), 500.0, 1.0);
+  EXPECT_NEAR(controllers::start_heights_at(profile, 0.0, 0.12, wanted_m), 500.0, 1.0);
   EXPECT_NEAR(wanted_m[profile.at_point(0)], 0.0, 1e-9);
   EXPECT_NEAR(wanted_m[200], 30.0, 0.1);
   EXPECT_NEAR(wanted_m.back(), 60.0, 1e-9);
   wanted_m = controllers::make_wanted_heights(profile, 60.0, 0.12);
-  EXPECT_NEAR(controllers::begin_heights_at(profile, 72.0, 0.12, wanted_m), 100.0, 1.0);
+  EXPECT_NEAR(controllers::start_heights_at(profile, 72.0, 0.12, wanted_m), 100.0, 1.0);
   wanted_m = controllers::make_wanted_heights(profile, 60.0, 0.01);
-  EXPECT_TRUE(std::isinf(controllers::begin_heights_at(profile, 0.0, 0.01, wanted_m)));
+  EXPECT_TRUE(std::isinf(controllers::start_heights_at(profile, 0.0, 0.01, wanted_m)));
 }
 
 TEST(SurveyHeights, BeyondTheTerrainItsEdgeGoesOn) {

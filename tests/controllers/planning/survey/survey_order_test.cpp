@@ -26,7 +26,7 @@ double brute_force_m(const controllers::OrderTask& task) {
   double best_m = 1e18;
   do {
     for (const bool up : {true, false}) {
-      best_m = std::min(best_m, controllers::calc_added_way_m(task, lanes, up));
+      best_m = std::min(best_m, controllers::calc_extra_distance_m(task, lanes, up));
     }
   } while (std::next_permutation(lanes.begin(), lanes.end()));
   return best_m;
@@ -38,8 +38,8 @@ void expect_every_lane_once(const controllers::OrderTask& task,
   std::sort(lanes.begin(), lanes.end());
   ASSERT_EQ(lanes.size(), task.lanes.size());
   for (std::size_t i = 0; i < lanes.size(); ++i) ASSERT_EQ(lanes[i], static_cast<int>(i));
-  EXPECT_NEAR(order.added_way_m, controllers::calc_added_way_m(task, order.lanes, order.starts_up),
-              1e-6);
+  EXPECT_NEAR(order.extra_distance_m,
+              controllers::calc_extra_distance_m(task, order.lanes, order.starts_up), 1e-6);
 }
 
 TEST(SurveyOrder, IsASnakeWhereTurnsFitBetweenNeighbours) {
@@ -47,7 +47,7 @@ TEST(SurveyOrder, IsASnakeWhereTurnsFitBetweenNeighbours) {
   const controllers::LaneOrder order = controllers::order_lanes(task);
   EXPECT_TRUE(std::is_sorted(order.lanes.begin(), order.lanes.end()) ||
               std::is_sorted(order.lanes.rbegin(), order.lanes.rend()));
-  EXPECT_NEAR(order.added_way_m, 9 * 45.0 + 50.0 + std::hypot(50.0, 405.0), 1e-6);
+  EXPECT_NEAR(order.extra_distance_m, 9 * 45.0 + 50.0 + std::hypot(50.0, 405.0), 1e-6);
 }
 
 TEST(SurveyOrder, SkipsLanesThatAreTooNear) {
@@ -64,7 +64,7 @@ TEST(SurveyOrder, SkipsLanesThatAreTooNear) {
     way += 26.7 * std::abs(order.lanes[i] - order.lanes[i - 1]);
   }
   EXPECT_GE(way, 26.7 * 19.0 - 1e-6);
-  EXPECT_LT(order.added_way_m, controllers::order_lanes_as_snake(task).added_way_m);
+  EXPECT_LT(order.extra_distance_m, controllers::order_lanes_as_snake(task).extra_distance_m);
 }
 
 TEST(SurveyOrder, EqualsBruteForceOnSmallFields) {
@@ -79,7 +79,7 @@ TEST(SurveyOrder, EqualsBruteForceOnSmallFields) {
     task.home = {600.0 * random.uniform() - 200.0, 600.0 * random.uniform() - 200.0};
     const controllers::LaneOrder order = controllers::order_lanes(task);
     expect_every_lane_once(task, order);
-    EXPECT_NEAR(order.added_way_m, brute_force_m(task), 1e-5) << trial;
+    EXPECT_NEAR(order.extra_distance_m, brute_force_m(task), 1e-5) << trial;
   }
 }
 
@@ -93,7 +93,7 @@ TEST(SurveyOrder, ImprovedPatternsComeNearTheBest) {
       const controllers::LaneOrder improved = controllers::order_lanes_by_improvement(task);
       expect_every_lane_once(task, improved);
       const double ratio =
-          improved.added_way_m / controllers::order_lanes_exactly(task).added_way_m;
+          improved.extra_distance_m / controllers::order_lanes_exactly(task).extra_distance_m;
       EXPECT_GE(ratio, 1.0 - 1e-9);
       worst = std::max(worst, ratio);
       sum += ratio;
@@ -115,14 +115,14 @@ TEST(SurveyOrder, LargeFieldsAvoidWideTurns) {
       EXPECT_GE(std::abs(order.lanes[i] - order.lanes[i - 1]), 3);
     }
     // No order can do with less than three lanes a turn.
-    EXPECT_LT(order.added_way_m, 1.25 * (count - 1) * 3 * 15.0 + 50.0 + count * 15.0);
+    EXPECT_LT(order.extra_distance_m, 1.25 * (count - 1) * 3 * 15.0 + 50.0 + count * 15.0);
   }
 }
 
 TEST(SurveyOrder, AFewNearLanesTakeWideTurns) {
   const controllers::OrderTask task = even_lanes(2, 20.0, 21.0);
   EXPECT_TRUE(controllers::is_wide_turn(task.lanes[0], task.lanes[1], 21.0));
-  EXPECT_NEAR(controllers::calc_turn_way_m(task.lanes[0], task.lanes[1], true, 21.0),
+  EXPECT_NEAR(controllers::calc_turn_length_m(task.lanes[0], task.lanes[1], true, 21.0),
               20.0 + 8 * 21.0, 1e-9);
   expect_every_lane_once(task, controllers::order_lanes(task));
   expect_every_lane_once(even_lanes(1, 20.0, 21.0),

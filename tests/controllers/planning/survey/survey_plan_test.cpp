@@ -165,7 +165,7 @@ TEST(SurveyPlan, KeepsTheRampErrorAndTheSlope) {
       controllers::plan_survey(request, start_at(-200, -100, 150 + hills_m({-200, -100})), hills());
   ASSERT_TRUE(plan.ok()) << plan.reason();
   const PlannedPath& path = plan->path;
-  double least_m = 1e9, most_m = -1e9;
+  double min_m = 1e9, max_m = -1e9;
   for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
     const Eigen::Vector3d way = path.points[i + 1].p_W - path.points[i].p_W;
     EXPECT_LE(std::abs(way.z()), 0.12 * way.head<2>().norm() + 1e-9);
@@ -175,20 +175,20 @@ TEST(SurveyPlan, KeepsTheRampErrorAndTheSlope) {
       const double above_m = height_of_path(path, i, share) - hills_m(p);
       EXPECT_GE(above_m, 148.0);
       if (path.points[i].kind != PathKind::kLeg) continue;
-      least_m = std::min(least_m, above_m);
-      most_m = std::max(most_m, above_m);
+      min_m = std::min(min_m, above_m);
+      max_m = std::max(max_m, above_m);
     }
   }
-  EXPECT_NEAR(plan->numbers.at("height_above_ground_min_m"), least_m, 0.05);
-  EXPECT_NEAR(plan->numbers.at("height_above_ground_max_m"), most_m, 0.05);
+  EXPECT_NEAR(plan->numbers.at("height_above_ground_min_m"), min_m, 0.05);
+  EXPECT_NEAR(plan->numbers.at("height_above_ground_max_m"), max_m, 0.05);
   EXPECT_EQ(plan->numbers.at("covered_share"), 1.0);
 }
 
 TEST(SurveyPlan, SeesEveryPlaceAsOftenAsTheOverlapSays) {
-  for (const controllers::Polygon2& polygon :
-       {controllers::Polygon2{{0, 0}, {260, 0}, {260, 405}, {0, 405}},
-        controllers::Polygon2{{0, 0}, {300, 60}, {420, 300}, {180, 260}, {60, 420}},  // not convex
-        controllers::Polygon2{
+  for (const Polygon& polygon :
+       {Polygon{{0, 0}, {260, 0}, {260, 405}, {0, 405}},
+        Polygon{{0, 0}, {300, 60}, {420, 300}, {180, 260}, {60, 420}},  // not convex
+        Polygon{
             {0, 0}, {500, 0}, {500, 300}, {400, 300}, {400, 90}, {90, 90}, {90, 300}, {0, 300}}}) {
     controllers::SurveyRequest request = make_request();
     request.polygon_W = polygon;
@@ -298,8 +298,8 @@ TEST(SurveyPlan, RefusesPolygonsThatCrossThemselvesOrLeaveTheTerrain) {
   };
   // (260, 405) towards (130, 202.5): 5 m down is 5.94 m along.
   EXPECT_EQ(fault_of(request, small),
-            "point 3 of the polygon at (260.0, 405.0) lies outside the terrain, which begins 6.0 m "
-            "from there towards the polygon's middle");
+            "point 3 of the polygon at (260.0, 405.0) is outside the terrain, which starts 6.0 m "
+            "from there towards the polygon's centre");
   const controllers::GroundHeight holed = [](const Vector2d& p) {
     return (p - Vector2d(100, 100)).norm() > 9.0 ? std::optional<double>(0.0) : std::nullopt;
   };
@@ -313,7 +313,7 @@ TEST(SurveyPlan, CountsLanesAndPicturesBeforeItPlansThem) {
   EXPECT_EQ(fault.find("30000 m x 40000 m at "), 0u) << fault;
   // 40 km / 45.3 m
   EXPECT_NE(fault.find(" would take 883 lanes 45.3 m apart and "), std::string::npos) << fault;
-  EXPECT_NE(fault.find("at most 1000 lanes and 200000 pictures are planned"), std::string::npos);
+  EXPECT_NE(fault.find("must be at most 1000 lanes and 200000 pictures"), std::string::npos);
 }
 
 TEST(SurveyPlan, ClimbsInLapsWhereTheFirstLaneIsNear) {

@@ -100,7 +100,7 @@ TEST(SurveyPart, RefusesWhileLoading) {
   expect({{"polygon_x_m", std::vector<double>{0, 90, 90, 0}},
           {"polygon_y_m", std::vector<double>{0, 90, 0, 90}}},
          "crosses its edge from point 3");
-  expect({{"margin_m", -140.0}}, "moved by margin_m = -140 m an edge of the polygon vanishes");
+  expect({{"margin_m", -140.0}}, "with margin_m = -140 m an edge of the polygon vanishes");
   expect({{"wind_speed_mps", 5.0}, {"wind_from_deg", 180.0}, {"lane_bearing_deg", 0.0}},
          "17.0 m/s over ground (wind from behind)");
   const VehicleDescription flyer = plane();

@@ -65,14 +65,14 @@ TEST_F(CloudCrs, FaultsAreNamed) {
             "crs = '' is not a coordinate reference system, must be like EPSG:32632");
   const CloudFrame utm("EPSG:25832", kOrigin);
   const std::string error = error_in([&] { utm.to_local({1e12, 1e12, 0}); });
-  EXPECT_NE(error.find("lies outside of the crs 'ETRS89 / UTM zone 32N'"), std::string::npos)
+  EXPECT_NE(error.find("is outside the area of the crs 'ETRS89 / UTM zone 32N'"), std::string::npos)
       << error;
   // Metres, said to be degrees.
   const CloudFrame degrees("EPSG:4326", kOrigin);
   EXPECT_EQ(error_in([&] {
               degrees.to_local({500000, 4649000, 100});
             }),
-            "point (500000, 4649000, 100) lies outside of the crs 'WGS 84'");
+            "point (500000, 4649000, 100) is outside the area of the crs 'WGS 84'");
 }
 
 TEST_F(CloudCrs, DegreesWithoutACrsAreRefused) {
@@ -81,11 +81,11 @@ TEST_F(CloudCrs, DegreesWithoutACrsAreRefused) {
                                     Eigen::Vector3d(9.5025, 45.0013, 122.3));
   EXPECT_TRUE(looks_like_degrees(degrees));
   EXPECT_EQ(error_in([&] { check_cloud_unit(folder_ / "a.xyz", "", degrees); }),
-            "point cloud 'a.xyz' looks as if it were in degrees (x 9.5 to 9.5025, y 45 to "
+            "point cloud 'a.xyz' seems to be in degrees (x 9.5 to 9.5025, y 45 to "
             "45.0013, z 120.1 to 122.3), but has no coordinate reference system; give it by --crs "
             "EPSG:<code> (EPSG:4326 for WGS84)");
   EXPECT_EQ(error_in([&] { check_cloud_unit("a.xyz", "EPSG:25832", degrees); }),
-            "point cloud 'a.xyz' looks as if it were in degrees (x 9.5 to 9.5025, y 45 to "
+            "point cloud 'a.xyz' seems to be in degrees (x 9.5 to 9.5025, y 45 to "
             "45.0013, z 120.1 to 122.3), but its coordinate reference system 'ETRS89 / UTM zone "
             "32N' is projected");
   check_cloud_unit("a.xyz", "EPSG:4326", degrees);

@@ -240,7 +240,7 @@ TEST_F(Las, CountsOfSixtyFourBits) {
 
 TEST_F(Las, CompressedFilesSayHowToDecompressThem) {
   const std::string sentence =
-      "point cloud 'a.laz' is compressed (LAZ), which is not read; "
+      "point cloud 'a.laz' is compressed (LAZ), which is not supported; "
       "Debian 12 has no program for it, Python's laspy has: pip install 'laspy[lazrs]', then "
       "python3 -c \"import laspy; laspy.read('in.laz').write('out.las')\"";
   HandFile f;
@@ -270,14 +270,15 @@ TEST_F(Las, FaultsInTheHeaderAreNamed) {
   EXPECT_EQ(error(bytes.substr(0, 226)),
             "point cloud 'a.las' is cut off: its header is 227 bytes, it holds 226");
   EXPECT_EQ(error("LASX" + bytes.substr(4)),
-            "point cloud 'a.las' is no LAS file: it begins with 'LASX', must begin with LASF");
+            "point cloud 'a.las' is not a LAS file: it begins with 'LASX', must begin with LASF");
   EXPECT_EQ(error(bytes.substr(0, 230)),
             "point cloud 'a.las' is cut off: its header counts 2 points, it holds 0");
   EXPECT_EQ(error(bytes.substr(0, bytes.size() - 1)),
             "point cloud 'a.las' is cut off: its header counts 2 points, it holds 1");
   // A byte too many anywhere among the points shifts all behind it.
-  EXPECT_EQ(error(std::string(bytes).insert(240, 1, '\x2a')),
-            "point cloud 'a.las' is damaged: behind its 2 points are 1 bytes, less than one more");
+  EXPECT_EQ(
+      error(std::string(bytes).insert(240, 1, '\x2a')),
+      "point cloud 'a.las' is damaged: 2 points are followed by 1 bytes, less than one point");
   EXPECT_EQ(with([](HandFile& f) { f.count = 1; }),
             "point cloud 'a.las' has more data than its header counts: 1 points, it holds 2");
   EXPECT_EQ(patched(25, "\x05"), "point cloud 'a.las' is LAS 1.5, must be 1.2, 1.3 or 1.4");

@@ -146,16 +146,17 @@ TEST_F(PointCloud, WhatIsNoPointCloudIsToldInOneSentence) {
             "point cloud 'a.e57' has the unknown format '.e57', must be one of: .ply, .las, .pcd, "
             ".xyz, .csv, .txt, .asc, .pts");
   EXPECT_EQ(error_of("a.las", "PK\x03\x04zip"),
-            "point cloud 'a.las' is no LAS file: it begins with 'PK\\x03\\x04', must begin with "
+            "point cloud 'a.las' is not a LAS file: it begins with 'PK\\x03\\x04', must begin with "
             "LASF");
   EXPECT_EQ(error_of("a.ply", "plx"),
-            "point cloud 'a.ply' is no PLY file: it begins with 'plx', must begin with ply");
-  EXPECT_EQ(error_of("a.pcd", "1 2 3"),
-            "point cloud 'a.pcd' is no PCD file: it begins with '1 2 ', must begin with # .PCD or "
-            "VERSION");
+            "point cloud 'a.ply' is not a PLY file: it begins with 'plx', must begin with ply");
+  EXPECT_EQ(
+      error_of("a.pcd", "1 2 3"),
+      "point cloud 'a.pcd' is not a PCD file: it begins with '1 2 ', must begin with # .PCD or "
+      "VERSION");
   EXPECT_EQ(error_in([&] { open_point_cloud(folder_ / "b.las"); }),
             "point cloud 'b.las' does not exist; did you mean 'a.las'?");
-  EXPECT_EQ(error_in([&] { open_point_cloud(folder_ / "."); }), "point cloud '.' is no file");
+  EXPECT_EQ(error_in([&] { open_point_cloud(folder_ / "."); }), "point cloud '.' is not a file");
 }
 
 TEST_F(PointCloud, WritersRefuseWhatTheyCannotHold) {

@@ -73,7 +73,7 @@ TEST_F(PcdFiles, FaultsAreNamed) {
   };
   EXPECT_EQ(with("VERSION", "VERSION"), "no error");
   EXPECT_EQ(error(pcd("x y z", "4 4 4", "F F F", 2, "binary_compressed")),
-            "point cloud 'a.pcd' is compressed (DATA binary_compressed), which is not read; "
+            "point cloud 'a.pcd' is compressed (DATA binary_compressed), which is not supported; "
             "decompress it first, with 'pcl_convert_pcd_ascii_binary in.pcd out.pcd 1'");
   EXPECT_EQ(with("DATA ascii", "DATA hex"),
             "point cloud 'a.pcd' has DATA hex, must be ascii or binary");

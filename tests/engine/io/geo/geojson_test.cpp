@@ -160,7 +160,7 @@ TEST(GeoFeatures, KmlGivesRowsPolygonsAndNames) {
   EXPECT_EQ(read_survey(file).rows.size(), 1u);
   const auto broken = write_as(".kml", "no KML");
   EXPECT_EQ(error_of([&] { read_features(broken); }),
-            "file '" + broken.string() + "' cannot be read: it is no KML");
+            "file '" + broken.string() + "' cannot be read: it is not a KML file");
   EXPECT_EQ(error_of([] { read_features("/none.kml"); }), "file '/none.kml' does not exist");
 }
 
@@ -200,11 +200,10 @@ TEST(GeoFeatures, ShapefileIsConvertedFromItsOwnSystem) {
   const auto file = write_as(".shp", shapefile_of(line, false));
   write_as(".shx", shapefile_of(line, true));
   std::filesystem::remove(std::filesystem::path(file).replace_extension(".prj"));
-  EXPECT_EQ(
-      error_of([&] { read_features(file); }),
-      "'" + file.string() +
-          "', feature 0: its layer has no coordinate reference system; a shapefile says it in "
-          "the .prj file beside it");
+  EXPECT_EQ(error_of([&] { read_features(file); }),
+            "'" + file.string() +
+                "', feature 0: its layer has no coordinate reference system; a shapefile needs a "
+                ".prj file with it in the same folder");
   write_as(
       ".prj",
       R"(PROJCS["ETRS_1989_UTM_Zone_32N",GEOGCS["GCS_ETRS_1989",DATUM["D_ETRS_1989",SPHEROID["GRS_1980",6378137.0,298.257222101]],PRIMEM["Greenwich",0.0],UNIT["Degree",0.0174532925199433]],PROJECTION["Transverse_Mercator"],PARAMETER["False_Easting",500000.0],PARAMETER["False_Northing",0.0],PARAMETER["Central_Meridian",9.0],PARAMETER["Scale_Factor",0.9996],PARAMETER["Latitude_Of_Origin",0.0],UNIT["Meter",1.0]])");

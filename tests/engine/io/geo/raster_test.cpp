@@ -184,8 +184,7 @@ TEST(Raster, AHeightOfNoPlaceOnEarthIsRefused) {
   const std::string error = error_of([&] {
     resample_elevation(raster, origin, {{0, 0}, 1.0, 1.0, 1.0});
   });
-  EXPECT_NE(error.find("does it mean \"no data\" there without saying so?"), std::string::npos)
-      << error;
+  EXPECT_NE(error.find("is this an undeclared \"no data\" value?"), std::string::npos) << error;
 }
 
 TEST(Raster, DavosdorfHasTheKnownFacts) {

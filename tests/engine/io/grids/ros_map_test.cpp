@@ -62,7 +62,7 @@ TEST_F(RosMapFiles, ReadsAMapAsMapSaverWritesIt) {
   const std::vector<std::uint8_t> expected = {0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1};
   EXPECT_EQ(map.grid.cells, expected);
   ASSERT_EQ(map.notes.size(), 1u);
-  EXPECT_NE(map.notes[0].find("map.yaml': 2 of 12 cells are unknown and count as taken"),
+  EXPECT_NE(map.notes[0].find("map.yaml': 2 of 12 cells are unknown and count as occupied"),
             std::string::npos);
 }
 
@@ -129,7 +129,7 @@ TEST_F(RosMapFiles, FaultsInTheYamlAreNamed) {
   EXPECT_EQ(with("origin", "[1, 2]"),
             "map.yaml:3: origin = a list, must be [x, y, yaw] in m and rad");
   EXPECT_EQ(with("origin", "[1, 2, 0.1]"),
-            "map.yaml:3: origin's yaw = 0.1 rad, must be 0: turned maps are not read");
+            "map.yaml:3: origin's yaw = 0.1 rad, must be 0: rotated maps are not supported");
   EXPECT_EQ(with("free_thresh", "1.5"), "map.yaml:5: free_thresh = 1.5, must be >= 0 and <= 1");
   EXPECT_EQ(with("free_thresh", "0.7"),
             "ROS map 'map.yaml': free_thresh = 0.7 must not be above occupied_thresh = 0.65");
@@ -148,10 +148,10 @@ TEST_F(RosMapFiles, FaultsInTheYamlAreNamed) {
 TEST_F(RosMapFiles, FaultsInThePictureAreNamed) {
   const auto with = [&](const std::string& picture) { return error_of(picture, kYaml); };
   EXPECT_EQ(with("\x89PNG\r\n"),
-            "'map.pgm' is no PGM image: it begins with '\\x89P', must begin with P5 or P2");
-  EXPECT_EQ(with(""), "'map.pgm' is no PGM image: it begins with '', must begin with P5 or P2");
+            "'map.pgm' is not a PGM image: it begins with '\\x89P', must begin with P5 or P2");
+  EXPECT_EQ(with(""), "'map.pgm' is not a PGM image: it begins with '', must begin with P5 or P2");
   EXPECT_EQ(with("P6\n1 1\n255\nabc"),
-            "'map.pgm' is no PGM image: it begins with 'P6', must begin with P5 or P2");
+            "'map.pgm' is not a PGM image: it begins with 'P6', must begin with P5 or P2");
   EXPECT_EQ(with("P5\n2 "), "'map.pgm' ends before its height");
   EXPECT_EQ(with("P5\n2 # no more"), "'map.pgm' ends before its height");
   EXPECT_EQ(with("P5\n-2 2\n255\n"),

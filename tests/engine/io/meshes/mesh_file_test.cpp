@@ -172,10 +172,10 @@ TEST_F(MeshFileTest, PlyWhoseDataBeginsWithALineFeedIsReadRight) {
 TEST_F(MeshFileTest, PlyThatIsCutOffOrPointsOutsideIsRefused) {
   const std::string whole = binary_ply(-0.25f);
   EXPECT_NE(error_of(write("cut.ply", whole.substr(0, whole.size() - 5)))
-                .find("cut.ply' is cut off: element face 1 of 1 is not whole"),
+                .find("cut.ply' is cut off: element face 1 of 1 is incomplete"),
             std::string::npos);
   EXPECT_NE(error_of(write("cut.ply", whole.substr(0, whole.size() - 20)))
-                .find("cut.ply' is cut off: element vertex 3 of 3 is not whole"),
+                .find("cut.ply' is cut off: element vertex 3 of 3 is incomplete"),
             std::string::npos);
   EXPECT_NE(error_of(write("cut.ply", whole.substr(0, whole.find("element face"))))
                 .find("is cut off: its header has no end_header"),
@@ -213,7 +213,7 @@ TEST_F(MeshFileTest, BrokenFacesOfAnAsciiPlyAreRefusedByNumber) {
   EXPECT_EQ(error("3 0 1 2 3"), file + "has more numbers in line 16 than its header names");
   EXPECT_EQ(error("3 0 1 2\n3 0 1 2"), file + "has more data than its header counts");
   EXPECT_EQ(error_of(write("f.ply", square_ply("3 0 1 2\n", 2))),
-            file + "is cut off: element face 2 of 2 is not whole");
+            file + "is cut off: element face 2 of 2 is incomplete");
 }
 
 TEST_F(MeshFileTest, BinaryPlyWithABrokenHeaderIsRefused) {
@@ -226,7 +226,7 @@ TEST_F(MeshFileTest, BinaryPlyWithABrokenHeaderIsRefused) {
   // 49 bytes hold four vertices of 12.
   EXPECT_NE(changed("vertex 3", "vertex 9999999999").find("element vertex 5 of 9999999999"),
             std::string::npos);
-  EXPECT_NE(changed("face 1", "face 2").find("element face 2 of 2 is not whole"),
+  EXPECT_NE(changed("face 1", "face 2").find("element face 2 of 2 is incomplete"),
             std::string::npos);
   EXPECT_NE(changed("list uchar int", "list uchxr int").find("has the unknown type 'uchxr'"),
             std::string::npos);
@@ -236,7 +236,7 @@ TEST_F(MeshFileTest, BinaryPlyWithABrokenHeaderIsRefused) {
             std::string::npos);
   std::string counted = whole;
   counted[counted.size() - 13] = '\xff';  // corners of the face
-  EXPECT_NE(error_of(write("h.ply", counted)).find("element face 1 of 1 is not whole"),
+  EXPECT_NE(error_of(write("h.ply", counted)).find("element face 1 of 1 is incomplete"),
             std::string::npos);
 }
 
@@ -384,7 +384,7 @@ TEST_F(MeshFileTest, ColladaIsTheOneOutermostElement) {
             file + "its outermost element is <asset> (line 2), must be <COLLADA>");
   EXPECT_EQ(
       error_of(write("w.dae", declaration + "\n" + collada + "\n<asset/>\n")),
-      file + "<asset> (line 3) stands beside <COLLADA>, a document has one outermost element");
+      file + "<asset> (line 3) is next to <COLLADA>, but a document has one outermost element");
 }
 
 TEST_F(MeshFileTest, BadFilesAreRefusedInOneSentence) {

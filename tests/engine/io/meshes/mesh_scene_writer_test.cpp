@@ -126,7 +126,7 @@ TEST_F(MeshSceneWriterTest, TheSameMeshesGiveTheSameBytes) {
 
 TEST_F(MeshSceneWriterTest, WhatCannotBeWrittenIsSaid) {
   EXPECT_EQ(error_of([&] { write_obj({}, "x.obj"); }),
-            "mesh file 'x.obj': there is no mesh with triangles to write");
+            "mesh file 'x.obj': no mesh has triangles to write");
   far_.vertices[2].y() = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(error_of([&] { write_glb(meshes_, "x.glb", canopy_material()); }),
             "mesh file 'x.glb': mesh 'row_07_hull_02' has a vertex that is not finite, it is not "

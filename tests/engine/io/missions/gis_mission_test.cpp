@@ -113,10 +113,10 @@ TEST(GisMission, SaysWhatIsWrong) {
             "mission '" + areas.string() +
                 "', feature 0: fence = 'keep out', must be inclusion or exclusion");
   const auto none = write_geojson(feature("Polygon", ring));
-  EXPECT_EQ(error_of(none), "mission '" + none.string() + "' has no line and no point to go to");
+  EXPECT_EQ(error_of(none), "mission '" + none.string() + "' has neither lines nor points");
   std::ofstream(test_file(".gpkg")) << "hello";
   EXPECT_EQ(error_of(test_file(".gpkg")),
-            "file '" + test_file(".gpkg").string() + "' cannot be read: it is no GeoPackage");
+            "file '" + test_file(".gpkg").string() + "' cannot be read: it is not a GeoPackage");
 }
 
 }  // namespace

@@ -131,8 +131,8 @@ TEST(MissionFile, RefusesWhatItDoesNotKnowBySayingWhichItem) {
                "item 1: 'params' has 6 numbers, must be 7");
   expect_error(write(plan(item("16", "3", R"([0,0,0,"x",47.4,8.5,50])"))),
                "parameter 4 = \"x\" must be a number or null");
-  expect_error(write(plan(item("16", "3", "[0,0,0,0,null,8.5,50]"))), "it has no place");
-  expect_error(write(plan(item("16", "2"))), "it has no place");
+  expect_error(write(plan(item("16", "3", "[0,0,0,0,null,8.5,50]"))), "it has no position");
+  expect_error(write(plan(item("16", "2"))), "it has no position");
   expect_error(write(plan(item("16", "3", "[0,0,0,0,47.4,8.5,null]"))), "it has no altitude");
   expect_error(write(plan(item("16", "3", "[0,0,0,0,474,8.5,50]"))), "latitude 474 deg");
   expect_error(write(plan(R"({"type":"SimpleItem","command":16})")), "'frame' is missing");

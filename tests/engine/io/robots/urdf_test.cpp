@@ -70,7 +70,7 @@ TEST(Xacro, SaysItsOwnReason) {
   const PathOf folder(program.parent_path().string() + ":/usr/bin:/bin");
   const auto source = write_file("x.urdf", "<robot name='a'><link name='${b}'/></robot>");
   EXPECT_EQ(error_of(source),
-            source.string() + ": xacro does not expand it: name 'b' is not defined");
+            source.string() + ": xacro cannot expand it: name 'b' is not defined");
 }
 
 TEST(Xacro, ExpandsPropertiesAndIncludes) {
@@ -122,7 +122,7 @@ TEST(Urdf, TakesTheDefaultOfOptenvAndSaysSo) {
   }
   EXPECT_TRUE(found);
   ASSERT_EQ(model.notes.size(), 1u);
-  EXPECT_EQ(model.notes[0], "$(optenv PAYLOAD_XYZ) was taken as '0.2 0 0.22'");
+  EXPECT_EQ(model.notes[0], "$(optenv PAYLOAD_XYZ) was replaced by '0.2 0 0.22'");
 }
 
 TEST(Urdf, FaultsAreOneClearSentence) {
@@ -156,12 +156,13 @@ TEST(Urdf, APercentSignIsRefusedButInNamesOfFiles) {
   const auto origin = write_file("percent.urdf",
                                  "<robot name='a'>\n<link name='b'><visual>\n<origin xyz='0 "
                                  "%s%s%n 0'/></visual></link></robot>");
-  EXPECT_EQ(error_of(origin), origin.string() +
-                                  ":3: xyz=\"0 %s%s%n 0\" of <origin>: a '%' may stand in names of "
-                                  "files only");
+  EXPECT_EQ(error_of(origin),
+            origin.string() +
+                ":3: xyz=\"0 %s%s%n 0\" of <origin>: a '%' is allowed in names of "
+                "files only");
   const auto name = write_file("percent.urdf", "<robot name='a'>\n<link name='b%n'/></robot>");
   EXPECT_EQ(error_of(name),
-            name.string() + ":2: name=\"b%n\" of <link>: a '%' may stand in names of files only");
+            name.string() + ":2: name=\"b%n\" of <link>: a '%' is allowed in names of files only");
   const auto mesh = write_file("percent.urdf",
                                "<robot name='a'><link name='b'><visual><geometry><mesh "
                                "filename='a%20mesh.stl'/></geometry></visual></link></robot>");
@@ -190,7 +191,7 @@ TEST(Urdf, RepeatedMaterialIsTakenOnceAndSaid) {
       write_file("twice.urdf", "<robot name='a'>" + colour + colour + "<link name='b'/></robot>");
   const UrdfModel model = load_urdf(file);
   ASSERT_EQ(model.notes.size(), 1u);
-  EXPECT_EQ(model.notes[0], "material 'white' is defined again; the first one counts");
+  EXPECT_EQ(model.notes[0], "material 'white' is defined again; the first definition is used");
 }
 
 }  // namespace

@@ -75,16 +75,16 @@ TEST_F(MapPointsFiles, GoWithAnEarlierMap) {
 TEST_F(MapPointsFiles, BrokenOnesAreRefusedInASentence) {
   save_map_points(some_points(), folder_);
   write("points.classes", "\2\5");
-  EXPECT_EQ(error_of_load(), "'points.classes' holds 2 classes, by points.json they are 5");
+  EXPECT_EQ(error_of_load(), "'points.classes' contains 2 classes, but points.json states 5");
   write("points.classes", "\2\5\6\3\7");
-  EXPECT_EQ(error_of_load(), "'points.classes' holds 7, which is no class of a point");
+  EXPECT_EQ(error_of_load(), "'points.classes' contains 7, which is not a point class");
   fs::remove(folder_ / "points.classes");
-  EXPECT_EQ(error_of_load(), "'points.classes' holds 0 classes, by points.json they are 5");
+  EXPECT_EQ(error_of_load(), "'points.classes' contains 0 classes, but points.json states 5");
   write("points.json", "{\"vinerow_map_points\": 2}");
   EXPECT_EQ(error_of_load(),
             "points of a map 'points.json' are of another version, must be of version 1");
   write("points.json", "{");
-  EXPECT_EQ(error_of_load(), "points of a map 'points.json' are no JSON");
+  EXPECT_EQ(error_of_load(), "points of a map 'points.json' are not valid JSON");
 }
 
 }  // namespace

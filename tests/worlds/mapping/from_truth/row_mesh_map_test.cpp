@@ -351,7 +351,7 @@ TEST(RowMeshMap, RowsWithoutCanopyAreAsWideAndHighAsTheySay) {
   set_log_sink(before);
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_EQ(notes[0],
-            "map of rover: no canopy on row 0, whose mesh is as wide and high as the row says");
+            "map of rover: no canopy on row 0, whose mesh has the row's own width and height");
   EXPECT_EQ(report.unseen_rows, std::vector<int>{0});
   ASSERT_EQ(map->meshes.size(), 1u);
   const Eigen::AlignedBox3d box = map->meshes[0].mesh_W.bounds();

@@ -113,7 +113,7 @@ TEST(Obstacles, WrongOnesAreNamed) {
         [&] { test::make_world("vineyard", with_obstacles(block(), wanted)); });
   };
   EXPECT_EQ(error({{"box", {{"alley", 2}}}}),
-            "obstacle 'box' stands in alley 2, the world has 2 alleys (0 to 1)");
+            "obstacle 'box' is in alley 2, the world has 2 alleys (0 to 1)");
   EXPECT_EQ(error({{"", {}}}),
             "obstacle '0' has no position, must be given x_m and y_m, or alley and distance_m");
   EXPECT_EQ(error({{"box", {{"alley", 1}, {"x_m", 3}}}}),
@@ -121,9 +121,9 @@ TEST(Obstacles, WrongOnesAreNamed) {
             "distance_m");
   EXPECT_EQ(error({{"box", {{"x_m", 3}}}}), "obstacle 'box' has x_m without y_m");
   EXPECT_EQ(error({{"box", {{"alley", 0}}}, {"box", {{"alley", 1}}}}),
-            "obstacle 'box' stands twice in the list");
+            "obstacle 'box' is in the list twice");
   EXPECT_EQ(error({{"box", {{"x_m", 900}, {"y_m", 3}}}}),
-            "obstacle 'box' stands at (900.00, 3.00) m, outside the terrain");
+            "obstacle 'box' is at (900.00, 3.00) m, outside the terrain");
   EXPECT_EQ(error({{"box", {{"alley", 0}}, {0.6, 0.4, -1.0}}}),
             "size_m[2] = -1 m, must be >= 0.02 m and <= 100 m");
   EXPECT_EQ(error({{"box", {{"alley", 0}}, {0.6, 0.4}}}), "size_m has 2 entries, must have 3");

@@ -127,7 +127,7 @@ TEST(VirtualWalls, ARowThatEndsOutsideTheParcelIsNamed) {
             std::string::npos);
 }
 
-double polygon_area_m2(const std::vector<Vector2d>& polygon) {
+double signed_area_m2(const std::vector<Vector2d>& polygon) {
   double twice = 0.0;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
     const Vector2d &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
@@ -146,7 +146,7 @@ TEST(TurningAreas, AreTwoSpacingsWideAndAsDeepAsTheHeadland) {
     for (const TurningArea& area : areas) {
       EXPECT_EQ(area.end, area.row % 2 == 0 ? RowEnd::kFirst : RowEnd::kLast);
       EXPECT_NEAR(area.width_m, 5.0, 1e-9);
-      EXPECT_NEAR(polygon_area_m2(area.polygon_W), 5.0 * 8.0, 1e-6);
+      EXPECT_NEAR(signed_area_m2(area.polygon_W), 5.0 * 8.0, 1e-6);
     }
   }
 }
@@ -162,7 +162,7 @@ TEST(TurningAreas, OfOuterRowsReachToTheBoundaryWhereAlleysLieOutside) {
   ASSERT_EQ(areas.size(), 3u);
   for (const TurningArea& area : areas) {
     EXPECT_NEAR(area.width_m, 5.0, 1e-5);
-    EXPECT_NEAR(polygon_area_m2(area.polygon_W), 40.0, 1e-4);
+    EXPECT_NEAR(signed_area_m2(area.polygon_W), 40.0, 1e-4);
   }
 }
 
@@ -175,7 +175,7 @@ TEST(TurningAreas, TakeTheBoundarysCornersWithThem) {
   ASSERT_EQ(areas.size(), 1u);
   EXPECT_NEAR(areas[0].width_m, 5.0, 1e-9);
   // Half width 2.5 m: from x = 30 to 43 (at y = 0 and 5) and to 48 (at y = 2.5).
-  EXPECT_NEAR(polygon_area_m2(areas[0].polygon_W), 5.0 * 13.0 + 0.5 * 5.0 * 5.0, 1e-9);
+  EXPECT_NEAR(signed_area_m2(areas[0].polygon_W), 5.0 * 13.0 + 0.5 * 5.0 * 5.0, 1e-9);
 }
 
 }  // namespace

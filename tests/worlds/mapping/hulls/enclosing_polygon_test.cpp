@@ -168,15 +168,15 @@ double with_free_line_m2(const Polygon& points, const std::vector<Line>& kept, d
   return least;
 }
 
-struct Least {
+struct MinDistance {
   double along_hull_m2 = kInfinity;  ///< all sides along the hull
   double free_m2 = kInfinity;        ///< all but one
 };
 
-Least brute_force(const Polygon& points, int corners) {
+MinDistance brute_force(const Polygon& points, int corners) {
   const std::vector<Line> lines = hull_lines(points);
   const int n = static_cast<int>(lines.size());
-  Least least;
+  MinDistance least;
   for (unsigned chosen = 0; chosen < (1u << n); ++chosen) {
     const int count = std::popcount(chosen);
     if (count != corners && count != corners - 1) continue;
@@ -216,7 +216,7 @@ TEST(EnclosingPolygon, IsTheSmallestOfAllChoices) {
     const int hull_corners = static_cast<int>(convex_hull(points).size());
     for (int corners = 3; corners < std::min(hull_corners, 7); ++corners) {
       SCOPED_TRACE(::testing::Message() << "round " << round << ", corners " << corners);
-      const Least least = brute_force(points, corners);
+      const MinDistance least = brute_force(points, corners);
       const double expected = std::min(least.along_hull_m2, least.free_m2);
       const double smallest = smallest_m2(points, corners);
       ASSERT_NEAR(smallest, expected, 1e-9 * expected);

@@ -384,12 +384,12 @@ TEST(RowHull, DirectionsAreCloseToTheSmallestPolygon) {
         most = std::max(most, directions.normal(k).dot(p));
       h.push_back(most);
     }
-    const double least_m2 = signed_area_m2(*smallest_enclosing_polygon(section(0.0), corners));
-    EXPECT_GE(directions.area_m2(h.data()), least_m2 * (1.0 - 1e-9));
-    EXPECT_LE(directions.area_m2(h.data()), least_m2 * 1.04) << corners;
+    const double min_m2 = signed_area_m2(*smallest_enclosing_polygon(section(0.0), corners));
+    EXPECT_GE(directions.area_m2(h.data()), min_m2 * (1.0 - 1e-9));
+    EXPECT_LE(directions.area_m2(h.data()), min_m2 * 1.04) << corners;
     // Of the slices' points, which do not fill the ellipse evenly.
     EXPECT_GE(excess, 0.0);
-    EXPECT_NEAR(excess, directions.area_m2(h.data()) / least_m2 - 1.0, 0.02) << corners;
+    EXPECT_NEAR(excess, directions.area_m2(h.data()) / min_m2 - 1.0, 0.02) << corners;
   }
 }
 

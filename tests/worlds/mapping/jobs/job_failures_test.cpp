@@ -69,7 +69,7 @@ TEST_F(JobFailures, CloudMapIsRefusedWhileLoading) {
   ParameterSet parameters = job_parameters("cloud_map");
   parameters.set("row_spacing_m", std::vector<double>{3, 2});
   EXPECT_EQ(refused("cloud_map", parameters),
-            "least row spacing = 3 m, must be < the largest, 2 m");
+            "smallest row spacing = 3 m, must be < the largest, 2 m");
   WorldModel field;
   field.name = "field";
   JobContext context = test::job_context(folder_.path());
@@ -86,7 +86,7 @@ TEST_F(JobFailures, CloudMapFailsWhereThereAreNoRows) {
   const std::map<std::string, Product> inputs = {
       {"cloud", test::make_cloud(folder_.path() / "bare", bare)}};
   EXPECT_EQ(reason("cloud_map", job_parameters("cloud_map"), inputs),
-            "no rows found: nothing stands more than 0.55 m above the ground");
+            "no rows found: nothing is more than 0.55 m above the ground");
   Product nowhere;
   nowhere.kind = ProductKind::kCloud;
   nowhere.file = folder_.path() / "gone.las";

@@ -71,7 +71,7 @@ class FlownSurvey : public ::testing::Test {
       if (shot.index < 0) return;
       pictures->X_WS.push_back(shot.X_WS);
       // The camera sits at the origin of the body and shoots when an estimate is logged.
-      pictures->told_W.push_back(estimates.at(t.ns));
+      pictures->estimated_W.push_back(estimates.at(t.ns));
     });
     return pictures;
   }

@@ -164,10 +164,10 @@ TEST_F(TruthFile, ReadsBackWhatWasWritten) {
 TEST_F(TruthFile, RefusesWhatIsNone) {
   EXPECT_EQ(refusal(), "'" + file_.string() + "' cannot be read");
   std::ofstream(file_) << "{\"scenario\": \"x\"}";
-  EXPECT_NE(refusal().find("is no truth of a cloud"), std::string::npos) << refusal();
+  EXPECT_NE(refusal().find("is not a truth file of a cloud"), std::string::npos) << refusal();
   EXPECT_NE(refusal().find("'world' not found"), std::string::npos) << refusal();
   std::ofstream(file_) << "LASF";
-  EXPECT_NE(refusal().find("is no truth of a cloud"), std::string::npos) << refusal();
+  EXPECT_NE(refusal().find("is not a truth file of a cloud"), std::string::npos) << refusal();
 }
 
 TEST(TruthFileName, StandsBesideTheCloud) {

@@ -103,10 +103,10 @@ TEST(Georeference, OneLaneDoesNotTellTheTiltAboutIt) {
   for (int k = 0; k < 20; ++k) lane.emplace_back(10.0 * k, 0.3 * (k % 2), 95.0);
   const auto fit = fit_georeference(under(Eigen::Affine3d::Identity(), lane), {0.01, 0.02});
   ASSERT_FALSE(fit);
-  EXPECT_THAT(fit.reason(), HasSubstr("lie 0.1 m (rms) off one line, must be 3 m at least"));
+  EXPECT_THAT(fit.reason(), HasSubstr("are 0.1 m (rms) off one line, must be at least 3 m"));
   lane.resize(3);
   EXPECT_THAT(fit_georeference(under(Eigen::Affine3d::Identity(), lane), {0.01, 0.02}).reason(),
-              HasSubstr("3 places are known, a block of pictures needs 4 at least"));
+              HasSubstr("3 positions are known, a block of pictures needs at least 4"));
 }
 
 GeoreferenceRequest request(std::uint64_t seed) {
@@ -177,7 +177,7 @@ TEST(Georeference, DirectTakesWhatTheVehicleTold) {
   GeoreferenceOptions options;
   options.principal_distance_std = 0.0;
   EXPECT_EQ(georeference(r, options)->error_m({5, 6, 7}), Vector3d(0, 0, 0));  // nobody told
-  for (const Vector3d& p : r.cameras_W) r.told_W.push_back(p + Vector3d(0.03, -0.01, 0.04));
+  for (const Vector3d& p : r.cameras_W) r.estimated_W.push_back(p + Vector3d(0.03, -0.01, 0.04));
   EXPECT_NEAR((georeference(r, options)->error_m({5, 6, 7}) - Vector3d(0.03, -0.01, 0.04)).norm(),
               0.0, 1e-9);
   options.method = Method::kTruth;

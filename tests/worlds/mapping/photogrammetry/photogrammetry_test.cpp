@@ -53,20 +53,20 @@ Made sample(const WorldModel& world, const std::vector<Pose>& poses, double half
 
 const Vector3d kLow(-2.0, -1.5, 0.0), kHigh(2.0, 1.5, 2.0);
 
-enum class Side { kGround, kTop, kWest, kEast, kSouth, kNorth, kNowhere };
+enum class Side { kGround, kTop, kWest, kEast, kSouth, kNorth, kNotFound };
 
 Side side_of(const Vector3d& p) {
   constexpr double kOff_m = 1e-4;
   const bool in_plan = (p.head<2>().array() > kLow.head<2>().array() - kOff_m).all() &&
                        (p.head<2>().array() < kHigh.head<2>().array() + kOff_m).all();
-  if (!in_plan) return std::abs(p.z()) < kOff_m ? Side::kGround : Side::kNowhere;
+  if (!in_plan) return std::abs(p.z()) < kOff_m ? Side::kGround : Side::kNotFound;
   if (std::abs(p.z() - kHigh.z()) < kOff_m) return Side::kTop;
-  if (p.z() < -kOff_m || p.z() > kHigh.z()) return Side::kNowhere;
+  if (p.z() < -kOff_m || p.z() > kHigh.z()) return Side::kNotFound;
   if (std::abs(p.x() - kLow.x()) < kOff_m) return Side::kWest;
   if (std::abs(p.x() - kHigh.x()) < kOff_m) return Side::kEast;
   if (std::abs(p.y() - kLow.y()) < kOff_m) return Side::kSouth;
   if (std::abs(p.y() - kHigh.y()) < kOff_m) return Side::kNorth;
-  return Side::kNowhere;
+  return Side::kNotFound;
 }
 
 std::map<Side, int> count_sides(const Made& made) {
@@ -85,7 +85,7 @@ TEST(Photogrammetry, ABoxHasPointsWhereRaysMeetItAndNowhereElse) {
   const double density = 1500.0;
   const Made made = sample(world, grid_poses(), 8.0, plain(density));
   const std::map<Side, int> count = count_sides(made);
-  EXPECT_EQ(count.count(Side::kNowhere), 0u) << "on no surface, or below the box";
+  EXPECT_EQ(count.count(Side::kNotFound), 0u) << "on no surface, or below the box";
 
   // Every picture aims at the same density of the ground, and each ray within the box's shadow
   // meets the box: the top where it goes through the top's shadow, which is the top enlarged.

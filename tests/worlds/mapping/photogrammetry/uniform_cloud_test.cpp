@@ -94,7 +94,7 @@ TEST(UniformCloud, WeedsGrowBetweenRowsUpToTheirHeight) {
   }
   EXPECT_LE(highest, 0.5);
   EXPECT_GT(highest, 0.4);
-  EXPECT_GE(nearest, options.weeds.beside_rows_m);
+  EXPECT_GE(nearest, options.weeds.offset_from_rows_m);
   // Tufts cover 0.5 E[pi R^2] = 8.7 % of the ground, overlaps and the free strip taken off.
   const double share = weeds / static_cast<double>(made.cloud.points.size());
   EXPECT_GT(share, 0.06);

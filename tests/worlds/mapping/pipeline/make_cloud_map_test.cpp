@@ -375,7 +375,7 @@ TEST(MakeCloudMap, SaysWhatStandsThereWhereThereAreNoRows) {
     return p.z() + bare.origin_W.z() >
            parcel.ground_m(p.x() + bare.origin_W.x(), p.y() + bare.origin_W.y()) + 0.3;
   });
-  EXPECT_EQ(refusal(bare), "no rows found: nothing stands more than 0.55 m above the ground");
+  EXPECT_EQ(refusal(bare), "no rows found: nothing is more than 0.55 m above the ground");
   RandomStream random(5, "", "bushes");
   for (int bush = 0; bush < 30; ++bush) {
     const Eigen::Vector2d middle =
@@ -402,8 +402,8 @@ TEST(MakeCloudMap, SurvivesPointsThatAreNoParcel) {
   ParcelCloud far;
   far.points = {{0, 0, 0}, {1e6f, 0, 0}, {0, 1e6f, 0}};
   EXPECT_EQ(refusal(far),
-            "the cloud's 3 points lie over 1000000 m x 1000000 m, less than one in 4 m2; remove "
-            "points that lie far off, or cut it into parcels");
+            "the cloud's 3 points are spread over 1000000 m x 1000000 m, less than one in 4 m2; "
+            "remove points that are far off, or cut it into parcels");
   // A point in 4 m2, over more than the terrain's histograms can hold.
   ParcelCloud wide;
   for (int i = 0; i < 1000; ++i) {
@@ -423,7 +423,7 @@ TEST(MakeCloudMap, RefusesOptionsThatDoNotFit) {
   CloudMapOptions options;
   options.spacing_low_m = 3.0;
   options.spacing_high_m = 2.0;
-  EXPECT_EQ(refusal(cloud, options), "least row spacing = 3 m, must be < the largest, 2 m");
+  EXPECT_EQ(refusal(cloud, options), "smallest row spacing = 3 m, must be < the largest, 2 m");
   options = {};
   options.terrain_cell_m = 0.0;
   EXPECT_EQ(refusal(cloud, options), "terrain cell = 0, must be > 0");

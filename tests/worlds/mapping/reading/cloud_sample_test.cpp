@@ -12,10 +12,10 @@ namespace {
 
 TEST(CloudSample, KeepsAllOfFew) {
   CloudSample sample;
-  for (std::size_t k = 0; k < CloudSample::kMost; ++k) sample.add({1.0 * k, 0, 0});
-  ASSERT_EQ(sample.points().size(), CloudSample::kMost);
+  for (std::size_t k = 0; k < CloudSample::kMax; ++k) sample.add({1.0 * k, 0, 0});
+  ASSERT_EQ(sample.points().size(), CloudSample::kMax);
   EXPECT_EQ(sample.window(), 1u);
-  for (std::size_t k = 0; k < CloudSample::kMost; ++k) EXPECT_EQ(sample.points()[k].x(), 1.0 * k);
+  for (std::size_t k = 0; k < CloudSample::kMax; ++k) EXPECT_EQ(sample.points()[k].x(), 1.0 * k);
 }
 
 /// One of each window, in order, and every place inside a window alike: a raster whose width
@@ -25,7 +25,7 @@ TEST(CloudSample, KeepsOneOfEachWindowOfMany) {
   CloudSample sample;
   for (std::size_t k = 0; k < kCount; ++k) sample.add({1.0 * k, 0, 0});
   const std::uint64_t window = sample.window();
-  EXPECT_EQ(window, 64u);  // the least power of two that leaves at most kMost of 3 million
+  EXPECT_EQ(window, 64u);  // the least power of two that leaves at most kMax of 3 million
   ASSERT_NEAR(static_cast<double>(sample.points().size()), kCount / 64.0, 1.0);
   std::array<double, kColumns> columns{};
   for (std::size_t k = 0; k < sample.points().size(); ++k) {
@@ -91,8 +91,8 @@ TEST(RepeatedPlaces, EstimatesWhatDoesNot) {
   for (int k = 0; k < kPlaces; ++k) places.add({1e-3 * k, 1e-3 * (k % 977), 0});
   for (int k = 0; k < kPlaces; k += 20) places.add({1e-3 * k, 1e-3 * (k % 977), 0});
   EXPECT_FALSE(places.is_exact());
-  // At least half of kMost places are remembered: their repeated ones vary by their square root.
-  const double remembered = 0.5 * RepeatedPlaces::kMost / 20.0;
+  // At least half of kMax places are remembered: their repeated ones vary by their square root.
+  const double remembered = 0.5 * RepeatedPlaces::kMax / 20.0;
   EXPECT_NEAR(static_cast<double>(places.count()), kRepeated,
               4.0 * kRepeated / std::sqrt(remembered));
 }

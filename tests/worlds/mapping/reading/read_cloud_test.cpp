@@ -135,8 +135,8 @@ TEST_F(ReadCloud, TheOriginGivenIsTheOrigin) {
   }
   options.origin = GeoOrigin{rad_from_deg(46.0), rad_from_deg(9.5), 0.0};
   EXPECT_EQ(error_of(folder_ / "a.xyz", options),
-            "point cloud 'a.xyz' lies 111 km from the origin given (latitude 46.00000 deg, "
-            "longitude 9.50000 deg), must be within 20 km; give an origin near the cloud, or none");
+            "point cloud 'a.xyz' is 111 km from the given origin (latitude 46.00000 deg, longitude "
+            "9.50000 deg), must be within 20 km; give an origin near the cloud, or none");
 }
 
 /// Vines of the Riseholme vineyard, surveyed in both systems: Ordnance Survey's easting and
@@ -218,8 +218,8 @@ TEST_F(ReadCloud, TheSystemOfAFileCanBeReplaced) {
   // On the parallel of 45 degrees, of radius N cos 45 deg = 4517.6 km, six degrees are 472.2 km to
   // the west and, as the parallel curves away from the tangent plane's east, 17.5 km to the north.
   EXPECT_EQ(report_.sentences[0],
-            "The coordinates were taken as EPSG:25833, as asked; the file names EPSG:25832, which "
-            "puts them 473 km away.");
+            "The coordinates were taken as EPSG:25833, as requested; the file names EPSG:25832, "
+            "which puts them 473 km away.");
   EXPECT_EQ(report_.crs_warning, report_.sentences[0]);
   // The same system by another name is no conflict.
   options.crs = "EPSG:3044";  // ETRS89 / UTM 32 with northing first, read as easting and northing
@@ -243,7 +243,7 @@ TEST_F(ReadCloud, StrayPointsAreLeftOut) {
   EXPECT_LT(report_.bounds_W.sizes().z(), 4.0);
   EXPECT_LT(cloud.origin_W.norm(), 3.0);
   ASSERT_EQ(report_.sentences.size(), 1u);
-  EXPECT_EQ(report_.sentences[0], "2 points were left out: they lie far from the other 5000.");
+  EXPECT_EQ(report_.sentences[0], "2 points were left out: they are far from the other 5000.");
 
   // Scanners write zeros where nothing came back: here 3 % of all.
   points = good;
@@ -317,7 +317,7 @@ TEST_F(ReadCloud, RepeatedPointsAreCountedAndKept) {
   EXPECT_EQ(report_.repeated, 31u);
   EXPECT_TRUE(report_.repeated_is_exact);
   EXPECT_EQ(report_.sentences,
-            std::vector<std::string>{"31 of 1031 points lie exactly where another one lies."});
+            std::vector<std::string>{"31 of 1031 points coincide exactly with another one."});
 }
 
 TEST_F(ReadCloud, OneSpotIsRefused) {
@@ -353,7 +353,7 @@ TEST_F(ReadCloud, DegreesAreRefusedOrUnderstood) {
                          place.altitude_m);
   }
   const std::filesystem::path file = write_points("degrees.ply", degrees);
-  EXPECT_NE(error_of(file).find("point cloud 'degrees.ply' looks as if it were in degrees (x 9.49"),
+  EXPECT_NE(error_of(file).find("point cloud 'degrees.ply' seems to be in degrees (x 9.49"),
             std::string::npos)
       << error_of(file);
   CloudReadOptions options;
@@ -366,9 +366,10 @@ TEST_F(ReadCloud, DegreesAreRefusedOrUnderstood) {
   EXPECT_NE(error.find("point cloud 'm.ply' cannot be brought to the local frame: point (5400"),
             std::string::npos)
       << error;
-  EXPECT_NE(error.find("lies outside of the crs 'WGS 84'; give the system of its coordinates by "
-                       "--crs EPSG:<code>, or --crs none where they are metres of a local frame"),
-            std::string::npos)
+  EXPECT_NE(
+      error.find("is outside the area of the crs 'WGS 84'; give the system of its coordinates by "
+                 "--crs EPSG:<code>, or --crs none if they are metres of a local frame"),
+      std::string::npos)
       << error;
 }
 
@@ -399,8 +400,7 @@ TEST_F(ReadCloud, OtherFaultsAreNamed) {
   EXPECT_EQ(error_of(file, options),
             "point cloud 'a.ply' cannot be brought to the local frame: crs = 'EPSG:nonsense' is "
             "not a coordinate reference system, must be like EPSG:32632; give the system of its "
-            "coordinates by --crs EPSG:<code>, or --crs none where they are metres of a local "
-            "frame");
+            "coordinates by --crs EPSG:<code>, or --crs none if they are metres of a local frame");
 
   EXPECT_EQ(error_of(write("nan.xyz", "nan nan nan\n1 inf 2\n")),
             "point cloud 'nan.xyz' has no points left: 2 are not finite, 0 are marked as withheld");

@@ -28,7 +28,7 @@ struct Found {
     const HeightAbove above(terrain.field, cloud.origin_W);
     const CanopyRaster raster =
         make_canopy_raster(cloud, above, 0.1, body_height_m(cloud, above, 0.55, 6.0), 6.0);
-    const auto patches = agreeing_patches(find_row_patches(coarsen(raster, 2), {}), {});
+    const auto patches = consistent_windows(find_row_patches(coarsen(raster, 2), {}), {});
     if (patches.empty()) return;
     spacing_m = median_spacing_m(patches);
     RowTrackingOptions tracking;

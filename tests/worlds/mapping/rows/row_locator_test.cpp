@@ -49,11 +49,11 @@ TEST(RowLocator, FindsTheNearestRowAndThePlaceOnIt) {
       }
     }
     const double length_m = lines[static_cast<std::size_t>(nearest)].length_m();
-    const bool is_beside = best_s_m > 1e-6 && best_s_m < length_m - 1e-6;
+    const bool is_alongside = best_s_m > 1e-6 && best_s_m < length_m - 1e-6;
     const RowPlace place = locator.locate(p.x(), p.y());
     // Between two rows a square of the grid belongs to one of them.
     if (second_m - best_m < 0.8) continue;
-    if (!is_beside) continue;
+    if (!is_alongside) continue;
     if (best_m < reach_m - 1e-6) {
       ASSERT_EQ(place.row, nearest) << p.transpose();
       EXPECT_NEAR(std::abs(place.y_m), best_m, 1e-4) << p.transpose();

@@ -1,5 +1,5 @@
 #pragma once
-/// Test a part of your own against physics: build a tiny world, put a vehicle and the part in it,
+/// Test of a custom part against physics: build a tiny world, put a vehicle and the part in it,
 /// step, assert.
 ///
 ///   TEST(MyController, FollowsARow) {
@@ -12,9 +12,9 @@
 ///     EXPECT_LT(run.metric("rover", "cross_track_max_m"), 0.2);
 ///   }
 ///
-/// Part parameters are given as the inside of a YAML mapping, with the keys of scenario files:
-/// "lookahead_m: 0.5, rate_Hz: 20". Everything is checked as in a file: a ConfigError says what is
-/// wrong. No files are written. Needs no GoogleTest.
+/// Part parameters are the content of a YAML mapping, with the keys of scenario files:
+/// "lookahead_m: 0.5, rate_Hz: 20". Everything is checked as in a file; a ConfigError explains the
+/// fault. No files are written. Needs no GoogleTest.
 
 #include <filesystem>
 #include <map>
@@ -32,22 +32,22 @@ class Simulation;
 
 namespace vinerow::testing {
 
-/// A run in memory that a test steps and asks.
+/// Run in memory, stepped and queried by a test.
 class TestRun {
  public:
-  /// A scenario file. @param sets  overrides as on the command line,
+  /// Loads a scenario file. @param sets  overrides as on the command line,
   /// "rover.controller.lookahead_m=0.5"
   static TestRun from_file(const std::filesystem::path& file,
                            const std::vector<std::string>& sets = {});
-  /// A scenario text. @param folder  where its relative paths start
+  /// Loads a scenario text. @param folder  base of its relative paths
   static TestRun from_yaml(const std::string& yaml, const std::filesystem::path& folder = ".");
 
-  /// Steps on by this much simulated time, or to the end of the mission. @throws SimulationError
+  /// Advances by this simulated time, or to the end of the mission. @throws SimulationError
   TestRun& run_for_s(double duration_s);
   TestRun& run_to_end();
 
   double time_s() const;
-  /// Every controller said that it has finished.
+  /// True if every controller has finished.
   bool finished() const;
   /// Metric so far. @throws ConfigError with the nearest name for an unknown vehicle or metric
   double metric(const std::string& vehicle, const std::string& name) const;
@@ -55,20 +55,20 @@ class TestRun {
   /// True pose and twist at the last instant.
   const Odometry& truth(const std::string& vehicle) const;
   /// Last value of any signal, e.g. signal<FollowerState>("rover/follower").
-  /// @throws ConfigError if there is none, it has another type, or was never written
+  /// @throws ConfigError if the signal does not exist, has another type, or was never written
   template <class T>
   const T& signal(const std::string& name) const {
     return static_cast<const Signal<T>&>(written_signal(name, message_type<T>())).value();
   }
   std::string digest() const;
-  /// The same run with all that it can do.
+  /// Full interface of the run.
   Session& session() { return session_; }
   Simulation& simulation() { return session_.simulation(); }
 
  private:
   friend class SmallWorld;
   explicit TestRun(Session session) : session_(std::move(session)) {}
-  /// @throws ConfigError unless it bears this message and has been written
+  /// @throws ConfigError unless the signal has this message type and has been written
   const SignalBase& written_signal(const std::string& name, const MessageType& type) const;
 
   Session session_;
@@ -77,9 +77,9 @@ class TestRun {
 /// Builds a TestRun: by default a flat block of two 20 m rows, 2.5 m apart, with one alley between
 /// them, and a physics step of 1 ms. Every call returns the builder.
 ///
-/// A part is named by its type, as in a scenario file, or is one of yours, without a plug-in: its
-/// spec and its factory. The first call with a spec makes the type known to the whole world; others
-/// name it. `parameters` is the inside of a YAML mapping throughout.
+/// A part is given by its type, as in a scenario file, or, for a custom part without a plug-in, by
+/// its spec and factory. The first call with a spec makes the type known in the whole world; other
+/// calls name it. `parameters` is always the content of a YAML mapping.
 class SmallWorld {
  public:
   SmallWorld();
@@ -87,20 +87,20 @@ class SmallWorld {
   SmallWorld(SmallWorld&&) noexcept;
   SmallWorld& operator=(SmallWorld&&) noexcept;
 
-  /// Another world.
+  /// Replaces the default world.
   SmallWorld& world(const std::string& type, const std::string& parameters = "");
   SmallWorld& world(PartSpec spec, PartFactory<WorldModel, WorldContext> make,
                     const std::string& parameters = "");
 
-  /// @param parameters  of the vehicle; spawn is `alley: 0` unless given as "spawn: {...}" among
-  /// them
+  /// @param parameters  parameters of the vehicle; spawn is `alley: 0` unless they contain
+  /// "spawn: {...}"
   SmallWorld& vehicle(const std::string& name, const std::string& type,
                       const std::string& parameters = "");
   SmallWorld& vehicle(const std::string& name, PartSpec spec,
                       PartFactory<Vehicle, VehicleContext> make,
                       const std::string& parameters = "");
 
-  /// What the vehicle is told of the world; without it the true rows.
+  /// Map of the vehicle; without it the true rows.
   SmallWorld& map(const std::string& vehicle, const std::string& type,
                   const std::string& parameters = "");
   SmallWorld& map(const std::string& vehicle, PartSpec spec, PartFactory<RowMap, MapContext> make,
@@ -111,14 +111,14 @@ class SmallWorld {
   SmallWorld& sensor(const std::string& vehicle, const std::string& name, PartSpec spec,
                      PartFactory<Sensor, SensorContext> make, const std::string& parameters = "");
 
-  /// Without it the estimate is the truth.
+  /// Estimator of the vehicle. Default: the estimate is the truth.
   SmallWorld& estimator(const std::string& vehicle, const std::string& type,
                         const std::string& parameters = "");
   SmallWorld& estimator(const std::string& vehicle, PartSpec spec,
                         PartFactory<Estimator, EstimatorContext> make,
                         const std::string& parameters = "");
 
-  /// An estimator beside the one on which the vehicle acts.
+  /// Adds an observer: an estimator that does not control the vehicle.
   SmallWorld& observer(const std::string& vehicle, const std::string& name, const std::string& type,
                        const std::string& parameters = "");
   SmallWorld& observer(const std::string& vehicle, const std::string& name, PartSpec spec,
@@ -131,7 +131,7 @@ class SmallWorld {
                       PartFactory<Planner, PlannerContext> make,
                       const std::string& parameters = "");
 
-  /// Works for a controller: a vehicle without one is refused.
+  /// Requires a controller: a vehicle without one is rejected.
   SmallWorld& guidance(const std::string& vehicle, const std::string& type,
                        const std::string& parameters = "");
   SmallWorld& guidance(const std::string& vehicle, PartSpec spec,
@@ -150,27 +150,26 @@ class SmallWorld {
                       PartFactory<Payload, PayloadContext> make,
                       const std::string& parameters = "");
 
-  /// Judges every vehicle, beside all built-in metrics.
+  /// Adds a metric that judges every vehicle, in addition to all built-in metrics.
   SmallWorld& metric(PartSpec spec, PartFactory<Metric, MetricContext> make);
 
-  /// A phase of a mission (docs/concepts/missions.md): these vehicles at work.
-  /// @param keys  of the phase: "after: [survey], timeout_s: 60", "map: from build_map"
+  /// Adds a phase of a mission (docs/concepts/missions.md) with these vehicles.
   SmallWorld& phase(const std::string& name, const std::vector<std::string>& vehicles,
                     const std::string& keys = "");
-  /// A phase that is a job.
-  /// @param keys  of the phase, with the products it takes: "cloud: from build_cloud"
+  /// Adds a phase that is a job.
+  /// @param keys  of the phase, with its input products: "cloud: from build_cloud"
   SmallWorld& job(const std::string& phase, const std::string& type,
                   const std::string& parameters = "", const std::string& keys = "");
   SmallWorld& job(const std::string& phase, PartSpec spec, PartFactory<Job, JobContext> make,
                   const std::string& parameters = "", const std::string& keys = "");
 
-  /// Parts of a plug-in, by its file.
+  /// Loads the parts of a plug-in, by its file.
   SmallWorld& plugin(const std::filesystem::path& file);
   SmallWorld& seed(std::uint64_t seed);
   SmallWorld& physics_step_s(double step_s);
   SmallWorld& duration_s(double duration_s);
 
-  /// The scenario text that the calls so far amount to.
+  /// Scenario text of the calls so far.
   std::string yaml() const;
   /// @throws ConfigError
   TestRun build() const;

@@ -1,4 +1,4 @@
-#include "controllers/planning/flight/flight_way.h"
+#include "controllers/planning/flight/flight_path.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "controllers/parts/paths/lift.h"
-#include "controllers/planning/routes/route_room.h"
+#include "controllers/planning/routes/route_clearance.h"
 #include "controllers/planning/routes/row_check.h"
 #include "engine/api/map.h"
 #include "engine/core/error.h"
@@ -18,7 +18,8 @@ namespace {
 constexpr double kBesideLeg_m = 0.05;
 constexpr double kCheckPitch_m = 0.25;
 
-/// Where a point stands beside the first straight of a leg: distance along it and to its left.
+/// Coordinates of a point relative to the first straight of a leg: distance along it and to its
+/// left.
 Eigen::Vector2d place_along(const RouteLeg& leg, const Eigen::Vector2d& p) {
   const Pose2 entry = leg.entry();
   const Eigen::Vector2d along = direction(entry.yaw_rad), way = p - entry.p;
@@ -29,8 +30,8 @@ double first_length_m(const RouteLeg& leg) {
   return (leg.line_W[1] - leg.line_W[0]).norm();
 }
 
-/// The place on the leg's line beside a vehicle that stands in that alley: what flies goes sideways
-/// and need not come back to the entrance.
+/// The point on the leg's line next to a vehicle that is in that alley: a flying vehicle moves
+/// sideways and need not return to the entrance.
 std::optional<Eigen::Vector2d> find_place_on_leg(const RouteLeg& leg, const RowMap& map,
                                                  const Eigen::Vector2d& start) {
   const Eigen::Vector2d place = place_along(leg, start);
@@ -44,15 +45,15 @@ std::optional<Eigen::Vector2d> find_place_on_leg(const RouteLeg& leg, const RowM
   return leg.entry().p + std::max(place.x(), 0.0) * direction(leg.entry().yaw_rad);
 }
 
-class GridWay final : public FlightWay {
+class GridPath final : public FlightWay {
  public:
-  GridWay(const RoutePlannerParams& params, std::unique_ptr<PoseSearch> search,
-          const PlannerContext& context)
+  GridPath(const RoutePlannerParams& params, std::unique_ptr<PoseSearch> search,
+           const PlannerContext& context)
       : params_(params),
         map_(*context.map),
         field_(map_.occupancy),
         footprint_(field_, context.vehicle_description->outline_B(), params.margin_m),
-        room_(map_, footprint_, params.check_step_m),
+        free_space_(map_, footprint_, params.check_step_m),
         planner_(make_route_planner(params, std::move(search), context)) {}
 
   Result<PlannedPath> plan(const Eigen::Vector3d& start_W) override {
@@ -65,7 +66,7 @@ class GridWay final : public FlightWay {
     }
     const double yaw_rad =
         choose_heading(start_W.head<2>(), legs->front(), params_.turning_radius_m,
-                       [this](const PathPieces& pieces) { return room_.is_free(pieces); });
+                       [this](const PathSegments& pieces) { return free_space_.is_free(pieces); });
     return planner_->plan({quaternion_from_rpy({0.0, 0.0, yaw_rad}), start_W});
   }
 
@@ -76,14 +77,14 @@ class GridWay final : public FlightWay {
   const RowMap& map_;
   DistanceField field_;
   Footprint footprint_;
-  RouteRoom room_;
+  RouteClearance free_space_;
   std::unique_ptr<Planner> planner_;
 };
 
-class ClosedFormWay final : public FlightWay {
+class ClosedFormPath final : public FlightWay {
  public:
-  ClosedFormWay(const RoutePlannerParams& params, TurnKind turns, double reach_m,
-                const PlannerContext& context)
+  ClosedFormPath(const RoutePlannerParams& params, TurnKind turns, double reach_m,
+                 const PlannerContext& context)
       : params_(params), reach_m_(reach_m), map_(*context.map), scene_(context.scene) {
     turn_.kind = turns;
     turn_.radius_m = params.turning_radius_m;
@@ -95,7 +96,7 @@ class ClosedFormWay final : public FlightWay {
     auto legs = make_row_route(map_, params_.route, start_W.head<2>());
     if (!legs) return Failure{legs.reason()};
     std::vector<RouteLeg> route = *legs;
-    PathPieces pieces;
+    PathSegments pieces;
     append_approach(start_W.head<2>(), route.front(), pieces);
     for (std::size_t i = 0; i < route.size(); ++i) {
       if (i > 0) {
@@ -104,7 +105,7 @@ class ClosedFormWay final : public FlightWay {
           return Failure{fmt::format("turn from alley {} to alley {}: {}", route[i - 1].alley,
                                      route[i].alley, turn.reason())};
         }
-        for (const PathPiece& piece : *turn) {
+        for (const PathSegment& piece : *turn) {
           report_.numbers["turn_length_m"] += piece.length_m;
           pieces.push_back(piece);
         }
@@ -121,19 +122,20 @@ class ClosedFormWay final : public FlightWay {
   const PlanReport* report() const override { return &report_; }
 
  private:
-  bool is_free(const PathPieces& pieces) const {
+  bool is_free(const PathSegments& pieces) const {
     return !find_path_into_row(make_planned_path(pieces, kCheckPitch_m), map_, reach_m_);
   }
 
-  /// A Dubins path; none where the vehicle stands in the alley, whose leg begins beside it then.
-  void append_approach(const Eigen::Vector2d& start, RouteLeg& leg, PathPieces& pieces) const {
+  /// Appends a Dubins path; nothing if the vehicle is in the alley, whose leg then starts next to
+  /// it.
+  void append_approach(const Eigen::Vector2d& start, RouteLeg& leg, PathSegments& pieces) const {
     if (const auto on_leg = find_place_on_leg(leg, map_, start)) {
       leg.line_W.front() = *on_leg;
       return;
     }
     const double yaw_rad =
         choose_heading(start, leg, params_.turning_radius_m,
-                       [this](const PathPieces& candidate) { return is_free(candidate); });
+                       [this](const PathSegments& candidate) { return is_free(candidate); });
     append_dubins({start, yaw_rad},
                   calc_dubins({start, yaw_rad}, leg.entry(), params_.turning_radius_m),
                   PathKind::kTransit, params_.speed_mps, pieces);
@@ -149,24 +151,24 @@ class ClosedFormWay final : public FlightWay {
 
 }  // namespace
 
-std::unique_ptr<FlightWay> make_grid_way(const RoutePlannerParams& params,
-                                         std::unique_ptr<PoseSearch> search,
-                                         const PlannerContext& context) {
+std::unique_ptr<FlightWay> make_grid_path(const RoutePlannerParams& params,
+                                          std::unique_ptr<PoseSearch> search,
+                                          const PlannerContext& context) {
   if (context.map == nullptr || context.map->occupancy.empty()) {
     throw ConfigError(context.part +
                       " (row_flight): the map has no occupancy grid: set occupancy_cell_m, or "
                       "turns: dubins");
   }
-  return std::make_unique<GridWay>(params, std::move(search), context);
+  return std::make_unique<GridPath>(params, std::move(search), context);
 }
 
-std::unique_ptr<FlightWay> make_closed_form_way(const RoutePlannerParams& params, TurnKind turns,
-                                                double reach_m, const PlannerContext& context) {
-  return std::make_unique<ClosedFormWay>(params, turns, reach_m, context);
+std::unique_ptr<FlightWay> make_closed_form_path(const RoutePlannerParams& params, TurnKind turns,
+                                                 double reach_m, const PlannerContext& context) {
+  return std::make_unique<ClosedFormPath>(params, turns, reach_m, context);
 }
 
 double choose_heading(const Eigen::Vector2d& start, const RouteLeg& first, double radius_m,
-                      const std::function<bool(const std::vector<PathPiece>&)>& is_free) {
+                      const std::function<bool(const std::vector<PathSegment>&)>& is_free) {
   constexpr int kHeadings = 72;
   const Pose2 entry = first.entry();
   const Eigen::Vector2d place = place_along(first, start), way = entry.p - start;
@@ -182,7 +184,7 @@ double choose_heading(const Eigen::Vector2d& start, const RouteLeg& first, doubl
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first - 1e-9; });
   for (const auto& [length_m, yaw_rad] : candidates) {
-    PathPieces pieces;
+    PathSegments pieces;
     append_dubins({start, yaw_rad}, calc_dubins({start, yaw_rad}, entry, radius_m),
                   PathKind::kTransit, 0.0, pieces);
     if (is_free(pieces)) return yaw_rad;

@@ -1,4 +1,4 @@
-#include "engine/sim/standing_ground.h"
+#include "engine/sim/placement_ground.h"
 
 #include <algorithm>
 
@@ -6,7 +6,7 @@
 
 namespace vinerow {
 
-StandingGround::StandingGround(const WorldModel& world, const SceneQuery& scene)
+PlacementGround::PlacementGround(const WorldModel& world, const SceneQuery& scene)
     : world_(world), scene_(scene) {
   has_terrain_mesh_ =
       std::any_of(world.meshes.begin(), world.meshes.end(), [](const MeshInstance& instance) {
@@ -14,21 +14,21 @@ StandingGround::StandingGround(const WorldModel& world, const SceneQuery& scene)
       });
 }
 
-std::optional<double> StandingGround::height_m(double x, double y) const {
+std::optional<double> PlacementGround::height_m(double x, double y) const {
   const auto terrain = terrain_m(x, y, kFromAbove_m);
   return terrain ? terrain : scene_.ground_height_m(x, y, kFromAbove_m);
 }
 
-std::optional<double> StandingGround::beside_m(double x, double y, double here_m, bool obstacles,
-                                               double beside_m) const {
-  constexpr double kSteepest = 1.0;  // tan 45 deg
+std::optional<double> PlacementGround::beside_m(double x, double y, double here_m, bool obstacles,
+                                                double beside_m) const {
+  constexpr double kSteepest = 1.0;  // tan 45 deg; steeper ground is no place for a wheel
   const double rise_m = kSteepest * beside_m;
   const auto height =
       obstacles ? scene_.ground_height_m(x, y, here_m + rise_m) : terrain_m(x, y, here_m + rise_m);
   return height && *height >= here_m - rise_m ? height : std::nullopt;
 }
 
-std::optional<double> StandingGround::terrain_m(double x, double y, double z_from) const {
+std::optional<double> PlacementGround::terrain_m(double x, double y, double z_from) const {
   std::optional<double> highest;
   if (world_.terrain && world_.terrain->contains(x, y)) {
     const double height = world_.terrain->height_m(x, y);

@@ -1,4 +1,4 @@
-#include "controllers/planning/survey/survey_area.h"
+#include "controllers/planning/survey/survey_lanes.h"
 
 #include <gtest/gtest.h>
 
@@ -6,22 +6,22 @@
 #include <filesystem>
 #include <fstream>
 
-#include "controllers/planning/survey/survey_lanes.h"
 #include "engine/core/error.h"
+#include "engine/io/geo/area_file.h"
 #include "engine/math/angles.h"
 #include "engine/math/geo.h"
 
-namespace vinerow::test::survey_area_test {
+namespace vinerow::test::survey_lanes_test {
 namespace {
 
 using Eigen::Vector2d;
 
-const controllers::Polygon2 kSquare = {{0, 0}, {100, 0}, {100, 100}, {0, 100}};
+const Polygon kSquare = {{0, 0}, {100, 0}, {100, 100}, {0, 100}};
 /// An arrow head: its notch reaches to the middle.
-const controllers::Polygon2 kArrow = {{0, 0}, {200, 100}, {0, 200}, {80, 100}};
+const Polygon kArrow = {{0, 0}, {200, 100}, {0, 200}, {80, 100}};
 
-std::string fault_of(const controllers::Polygon2& polygon) {
-  return controllers::find_polygon_fault(polygon).value_or("none");
+std::string fault_of(const Polygon& polygon) {
+  return io::find_area_fault(polygon).value_or("none");
 }
 
 TEST(SurveyArea, TellsWhichEdgesCross) {
@@ -38,8 +38,8 @@ TEST(SurveyArea, TellsWhichEdgesCross) {
   EXPECT_EQ(fault_of({{0, 0}, {50, 50}, {100, 100}}),
             "its 3 points enclose 0.000 m2, must be at least 1 m2");
   EXPECT_EQ(fault_of({{0, 0}, {100, 0}, {-8e6, 100}}),
-            "its points 1 and 3 lie 8000 km apart, must be at most 50 km");
-  controllers::Polygon2 circle;
+            "its points 1 and 3 are 8000 km apart, must be at most 50 km");
+  Polygon circle;
   for (int i = 0; i < 5001; ++i) {
     const double angle_rad = 2.0 * 3.141592653589793 * i / 5001;
     circle.emplace_back(100.0 * std::cos(angle_rad), 100.0 * std::sin(angle_rad));
@@ -48,20 +48,20 @@ TEST(SurveyArea, TellsWhichEdgesCross) {
 }
 
 TEST(SurveyArea, CleansClosedRings) {
-  EXPECT_EQ(controllers::clean_polygon({{0, 0}, {0, 0}, {9, 0}, {9, 9}, {0, 0}}).size(), 3u);
+  EXPECT_EQ(without_repeats({{0, 0}, {0, 0}, {9, 0}, {9, 9}, {0, 0}}).size(), 3u);
 }
 
 TEST(SurveyArea, WidensEveryEdge) {
-  const controllers::Polygon2 wide = controllers::widen_polygon(kSquare, 10.0);
-  EXPECT_NEAR(controllers::polygon_area_m2(wide), 120.0 * 120.0, 1e-9);
+  const Polygon wide = widen(kSquare, 10.0);
+  EXPECT_NEAR(signed_area_m2(wide), 120.0 * 120.0, 1e-9);
   // Clockwise too, and inwards.
-  EXPECT_NEAR(controllers::polygon_area_m2(
-                  controllers::widen_polygon({kSquare.rbegin(), kSquare.rend()}, -10.0)),
+  EXPECT_NEAR(signed_area_m2(
+                  widen({kSquare.rbegin(), kSquare.rend()}, -10.0)),
               -80.0 * 80.0, 1e-9);
   // The arrow's sharp tips are cut off; all of it stays inside.
-  const controllers::Polygon2 arrow = controllers::widen_polygon(kArrow, 5.0);
+  const Polygon arrow = widen(kArrow, 5.0);
   EXPECT_EQ(fault_of(arrow), "none");
-  for (const Vector2d& p : kArrow) EXPECT_TRUE(controllers::is_inside_polygon(p, arrow));
+  for (const Vector2d& p : kArrow) EXPECT_TRUE(contains(arrow, p));
   for (const Vector2d& p : arrow) {
     EXPECT_LT((p - kArrow[0]).norm() < 60 ? (p - kArrow[0]).norm() : 0.0, 11.0);
   }
@@ -79,20 +79,20 @@ TEST(SurveyArea, ReadsGeoJsonAndCsv) {
   }
   const auto geojson = folder / "vinerow_survey_area.geojson";
   std::ofstream(geojson) << R"({"type":"Polygon","coordinates":[[)" << ring << "]]}";
-  const controllers::Polygon2 polygon = controllers::read_survey_area(geojson, origin);
+  const Polygon polygon = io::read_area(geojson, origin);
   ASSERT_EQ(polygon.size(), 3u);
   EXPECT_LT((polygon[2] - Vector2d(50, 80)).norm(), 0.2);  // six digits of a degree
 
   std::ofstream(geojson) << R"({"type":"Point","coordinates":[8,44]})";
-  EXPECT_THROW(controllers::read_survey_area(geojson, origin), ConfigError);
+  EXPECT_THROW(io::read_area(geojson, origin), ConfigError);
 
   const auto csv = folder / "vinerow_survey_area.CSV";
   std::ofstream(csv) << "x,y\n# corners\n0,0\r\n100;0\n 50, 80 \n0,0\n";
-  EXPECT_EQ(controllers::read_survey_area(csv, origin),
-            (controllers::Polygon2{{0, 0}, {100, 0}, {50, 80}}));
+  EXPECT_EQ(io::read_area(csv, origin),
+            (Polygon{{0, 0}, {100, 0}, {50, 80}}));
   std::ofstream(csv) << "0,0\n1,2,3\n";
   try {
-    controllers::read_survey_area(csv, origin);
+    io::read_area(csv, origin);
     FAIL();
   } catch (const ConfigError& e) {
     EXPECT_NE(std::string(e.what()).find(":2: '1,2,3' must be two numbers"), std::string::npos);
@@ -101,7 +101,7 @@ TEST(SurveyArea, ReadsGeoJsonAndCsv) {
 
 TEST(SurveyLanes, RunAlongTheDirectionOfLeastWidth) {
   // A strip 400 m by 90 m, turned by 30 degrees: brute force over directions agrees.
-  controllers::Polygon2 strip;
+  Polygon strip;
   for (const Vector2d& p :
        {Vector2d(0, 0), Vector2d(400, 20), Vector2d(380, 90), Vector2d(-9, 80)}) {
     const double c = std::cos(kPi / 6), s = std::sin(kPi / 6);
@@ -127,7 +127,7 @@ TEST(SurveyLanes, CountAndSpacingFollowThePaper) {
   needs.spacing_m = 45.0;
   needs.end_margin = 0.0;
   // 405 m wide: ceil(405 / 45) + 1 = 10 lanes of 260 m (paper A's reference).
-  const controllers::Polygon2 parcel = {{0, 0}, {260, 0}, {260, 405}, {0, 405}};
+  const Polygon parcel = {{0, 0}, {260, 0}, {260, 405}, {0, 405}};
   const auto lanes = controllers::cut_lanes(parcel, {0.0}, needs);
   ASSERT_EQ(lanes.size(), 10u);
   EXPECT_NEAR(lanes[1].across_m - lanes[0].across_m, 45.0, 1e-9);
@@ -153,21 +153,21 @@ TEST(SurveyLanes, EveryPlaceIsSeenFromTheLanesBesideIt) {
   needs.spacing_m = 20.0;
   needs.footprint_width_m = 60.0;
   needs.footprint_length_m = 30.0;
-  for (const controllers::Polygon2& polygon :
-       {kSquare, kArrow, controllers::Polygon2{{0, 0}, {150, 40}, {120, 90}, {10, 60}}}) {
+  for (const Polygon& polygon :
+       {kSquare, kArrow, Polygon{{0, 0}, {150, 40}, {120, 90}, {10, 60}}}) {
     for (const double yaw : {0.0, 0.4, 1.2, -0.9}) {
       const controllers::LaneFrame frame{yaw};
       const auto lanes = controllers::cut_lanes(polygon, frame, needs);
       const double spacing = lanes[1].across_m - lanes[0].across_m;
       for (double x = 0.5; x < 200.0; x += 3.0) {
         for (double y = 0.5; y < 200.0; y += 3.0) {
-          if (!controllers::is_inside_polygon({x, y}, polygon)) continue;
+          if (!contains(polygon, {x, y})) continue;
           const Vector2d at = frame.to_lane({x, y});
           int seen = 0, beside = 0;
           for (const controllers::SurveyLane& lane : lanes) {
             if (std::abs(lane.across_m - at.y()) > spacing) continue;
             ++beside;
-            for (const controllers::LanePiece& piece : lane.pieces) {
+            for (const controllers::LaneSegment& piece : lane.pieces) {
               seen += at.x() >= piece.from_m + 15.0 - 1e-6 && at.x() <= piece.to_m - 15.0 + 1e-6;
             }
           }
@@ -185,7 +185,7 @@ TEST(SurveyLanes, SwitchTheCameraOffAboveLongNotches) {
   needs.footprint_width_m = 60.0;
   needs.footprint_length_m = 20.0;
   // A U: arms 50 m wide at both ends, 200 m between them.
-  const controllers::Polygon2 u = {{0, 0},    {300, 0}, {300, 200}, {250, 200},
+  const Polygon u = {{0, 0},    {300, 0}, {300, 200}, {250, 200},
                                    {250, 60}, {50, 60}, {50, 200},  {0, 200}};
   const auto lanes = controllers::cut_lanes(u, {0.0}, needs);
   EXPECT_EQ(lanes.front().pieces.size(), 1u);
@@ -195,4 +195,4 @@ TEST(SurveyLanes, SwitchTheCameraOffAboveLongNotches) {
 }
 
 }  // namespace
-}  // namespace vinerow::test::survey_area_test
+}  // namespace vinerow::test::survey_lanes_test

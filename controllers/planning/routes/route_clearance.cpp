@@ -1,4 +1,4 @@
-#include "controllers/planning/routes/route_room.h"
+#include "controllers/planning/routes/route_clearance.h"
 
 #include <fmt/format.h>
 
@@ -26,27 +26,27 @@ const PlantRow* find_row_at(const RowMap& map, const Eigen::Vector2d& p, double&
 
 }  // namespace
 
-bool RouteRoom::is_free(const std::vector<PathPiece>& pieces) const {
-  return std::all_of(pieces.begin(), pieces.end(), [&](const PathPiece& piece) {
+bool RouteClearance::is_free(const std::vector<PathSegment>& pieces) const {
+  return std::all_of(pieces.begin(), pieces.end(), [&](const PathSegment& piece) {
     return footprint_.is_free_along(piece.start, piece.length_m, piece.curvature_per_m, step_m_);
   });
 }
 
-double RouteRoom::clearance_m(const PathPiece& piece) const {
+double RouteClearance::clearance_m(const PathSegment& piece) const {
   return footprint_.clearance_along_m(piece.start, piece.length_m, piece.curvature_per_m, step_m_);
 }
 
-std::string RouteRoom::tell(const Pose2& pose) const {
+std::string RouteClearance::tell(const Pose2& pose) const {
   double distance_m = 0.0;
   if (const PlantRow* row = find_row_at(map_, pose.p, distance_m)) {
     return fmt::format(
-        "{} lies in a row: {:.2f} m from the centre line of row {}, whose canopy is {:.2f} m wide",
+        "{} is in a row: {:.2f} m from the centre line of row {}, whose canopy is {:.2f} m wide",
         to_string(pose), distance_m, row->id, row->canopy_width_m);
   }
-  return describe_room(pose, footprint_);
+  return describe_clearance(pose, footprint_);
 }
 
-std::optional<std::string> RouteRoom::find_blocked_end(const RouteLeg& leg) const {
+std::optional<std::string> RouteClearance::find_blocked_end(const RouteLeg& leg) const {
   for (const auto& [end, name] : {std::pair(leg.entry(), "entrance"), {leg.exit(), "exit"}}) {
     if (footprint_.is_free(end)) continue;
     return fmt::format("{} of alley {} blocked: {}", name, leg.alley, tell(end));
@@ -54,11 +54,11 @@ std::optional<std::string> RouteRoom::find_blocked_end(const RouteLeg& leg) cons
   return std::nullopt;
 }
 
-std::optional<std::string> RouteRoom::find_blocked(const RouteLeg& leg) const {
+std::optional<std::string> RouteClearance::find_blocked(const RouteLeg& leg) const {
   if (auto end = find_blocked_end(leg)) return end;
-  std::vector<PathPiece> pieces;
+  std::vector<PathSegment> pieces;
   append_leg(leg, 0.0, pieces);
-  for (const PathPiece& piece : pieces) {
+  for (const PathSegment& piece : pieces) {
     const int parts = static_cast<int>(std::ceil(piece.length_m / step_m_));
     for (int i = 0; i <= parts; ++i) {
       const Pose2 pose = piece.at(piece.length_m * i / parts);

@@ -1,11 +1,11 @@
-#include "controllers/planning/search/way_cost.h"
+#include "controllers/planning/search/path_cost.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace vinerow::controllers {
 
-WayCost::WayCost(const WayCostParams& params, const Footprint& footprint)
+PathCost::PathCost(const PathCostParams& params, const Footprint& footprint)
     : params_(params), field_(footprint.field()) {
   const std::vector<Eigen::Vector2d>& outline = footprint.outline_B();
   for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -14,19 +14,19 @@ WayCost::WayCost(const WayCostParams& params, const Footprint& footprint)
   }
 }
 
-double WayCost::rough_clearance_m(const Pose2& pose) const {
+double PathCost::rough_clearance_m(const Pose2& pose) const {
   const Eigen::Vector2d ahead = direction(pose.yaw_rad), left = left_of(ahead);
-  double least_m = params_.wanted_clearance_m;
+  double min_m = params_.wanted_clearance_m;
   for (const Eigen::Vector2d& p_B : looked_at_B_) {
-    least_m = std::min(least_m, field_.at(pose.p + p_B.x() * ahead + p_B.y() * left));
+    min_m = std::min(min_m, field_.at(pose.p + p_B.x() * ahead + p_B.y() * left));
   }
-  return least_m;
+  return min_m;
 }
 
-double WayCost::of_arc(const Pose2& start, double length_m, double curvature_per_m) const {
+double PathCost::of_arc(const Pose2& start, double length_m, double curvature_per_m) const {
   if (params_.clearance_weight <= 0.0 || length_m <= 0.0) return length_m;
   const int parts = std::max(1, static_cast<int>(std::ceil(length_m / params_.step_m)));
-  double lacking = 0.0;  // mean share of the wanted clearance that is not there
+  double lacking = 0.0;  // mean missing share of the wanted clearance
   for (int i = 0; i < parts; ++i) {
     const double s = length_m * (i + 0.5) / parts;
     const double clearance_m = rough_clearance_m(advance(start, s, s * curvature_per_m));
@@ -35,11 +35,11 @@ double WayCost::of_arc(const Pose2& start, double length_m, double curvature_per
   return length_m * (1.0 + params_.clearance_weight * lacking);
 }
 
-double WayCost::of(const PathPiece& piece) const {
+double PathCost::of(const PathSegment& piece) const {
   return of_arc(piece.start, piece.length_m, piece.curvature_per_m);
 }
 
-double WayCost::of(const std::vector<PathPiece>& pieces) const {
+double PathCost::of(const std::vector<PathSegment>& pieces) const {
   double sum = 0.0;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     sum += of(pieces[i]);
@@ -49,9 +49,9 @@ double WayCost::of(const std::vector<PathPiece>& pieces) const {
   return sum;
 }
 
-double WayCost::of(const Pose2& start, const DubinsPath& path) const {
+double PathCost::of(const Pose2& start, const DubinsPath& path) const {
   constexpr double kShortest_m = 1e-6;  // as append_dubins
-  double sum = -params_.bend_m;         // the first piece is none
+  double sum = -params_.bend_m;         // the first piece is no change of curvature
   Pose2 pose = start;
   for (const DubinsPath::Piece& piece : path.pieces) {
     if (piece.length_m < kShortest_m) continue;

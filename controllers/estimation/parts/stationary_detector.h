@@ -1,5 +1,5 @@
 #pragma once
-/// Tells whether a ground vehicle stands.
+/// Detector of a stationary ground vehicle.
 
 #include <Eigen/Core>
 #include <cmath>
@@ -8,18 +8,19 @@
 
 namespace vinerow::controllers {
 
-/// Quiet for a while: every sign of motion sets the clock back.
-class StandDetector {
+/// Stationary means quiet for a given time; every sign of motion restarts the clock.
+class StationaryDetector {
  public:
-  /// Rim speed below which wheels stand; rate and change of |f| below which an IMU is quiet: some
-  /// five times a consumer unit's noise per sample.
+  /// Limits below which wheels (rim speed) and an IMU (angular rate, deviation of |f| from gravity)
+  /// are quiet. Those of the IMU are about five times a consumer unit's noise per sample.
   static constexpr double kWheel_mps = 0.01;
   static constexpr double kRate_radps = 0.02;
   static constexpr double kForce_mps2 = 0.15;
-  /// A steady drive is as quiet as a stand: only a slow estimate is believed to stand.
+  /// A steady drive is as quiet as a stop, so the IMU counts only if the estimated speed is below
+  /// this.
   static constexpr double kSpeed_mps = 0.2;
 
-  explicit StandDetector(double quiet_s) : quiet_s_(quiet_s) {}
+  explicit StationaryDetector(double quiet_s) : quiet_s_(quiet_s) {}
 
   void see_wheels(Time now, double speed_mps) { see(now, std::abs(speed_mps) < kWheel_mps); }
   /// @param w_B  without bias  @param speed_mps  of the estimate

@@ -1,4 +1,4 @@
-#include "controllers/dwa/vehicle_room.h"
+#include "controllers/dwa/vehicle_clearance.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -26,7 +26,7 @@ double depth_in(const std::vector<Eigen::Vector2d>& outline, const Eigen::Vector
 /// The largest discs inside an outline: about the points of a grid, without those inside others.
 std::vector<DiscOutline::Disc> fill_with_discs(const std::vector<Eigen::Vector2d>& outline,
                                                const Eigen::AlignedBox2d& box) {
-  // An even number of parts puts points on the axis, where the largest discs are.
+  // An even number of intervals puts points on the axis, where the largest discs are.
   const Eigen::Vector2i count =
       2 * (0.5 * box.sizes() / kInsideSpacing_m).array().ceil().cast<int>();
   std::vector<DiscOutline::Disc> all, largest;
@@ -76,7 +76,7 @@ DiscOutline DiscOutline::polygon(const std::vector<Eigen::Vector2d>& outline_B, 
     const int parts = std::max(1, static_cast<int>(std::ceil((b - a).norm() / spacing_m)));
     for (int k = 0; k < parts; ++k) result.discs_.push_back({a + (b - a) * k / parts, 0.0});
   }
-  // Something small that lies inside touches no edge; discs inside see it.
+  // A small object inside touches no edge; discs inside detect it.
   for (const Disc& disc : fill_with_discs(outline_B, box)) result.discs_.push_back(disc);
   const double slice_m = box.sizes().x() / kCoverDiscs;
   for (int i = 0; i < kCoverDiscs; ++i) {
@@ -103,9 +103,10 @@ double DiscOutline::uncovered_m(const std::vector<Eigen::Vector2d>& outline_B) c
   return worst_m;
 }
 
-Room RoomFinder::measure_discs(const std::vector<DiscOutline::Disc>& discs,
-                               const Eigen::Vector2d& p_W, const Eigen::Vector2d& ahead) const {
-  Room room{kInfinity, kInfinity};
+FreeSpace FreeSpaceFinder::measure_discs(const std::vector<DiscOutline::Disc>& discs,
+                                         const Eigen::Vector2d& p_W,
+                                         const Eigen::Vector2d& ahead) const {
+  FreeSpace room{kInfinity, kInfinity};
   const Eigen::Vector2d left = left_of(ahead);
   for (const DiscOutline::Disc& disc : discs) {
     const Eigen::Vector2d at = p_W + disc.centre_B.x() * ahead + disc.centre_B.y() * left;
@@ -117,13 +118,13 @@ Room RoomFinder::measure_discs(const std::vector<DiscOutline::Disc>& discs,
   return room;
 }
 
-Room RoomFinder::measure(const DiscOutline& outline, const Eigen::Vector2d& p_W,
-                         const Eigen::Vector2d& ahead) const {
+FreeSpace FreeSpaceFinder::measure(const DiscOutline& outline, const Eigen::Vector2d& p_W,
+                                   const Eigen::Vector2d& ahead) const {
   return measure_discs(outline.discs(), p_W, ahead);
 }
 
-bool RoomFinder::meets(const DiscOutline& outline, const Eigen::Vector2d& p_W,
-                       const Eigen::Vector2d& ahead, const Room& need) const {
+bool FreeSpaceFinder::meets(const DiscOutline& outline, const Eigen::Vector2d& p_W,
+                            const Eigen::Vector2d& ahead, const FreeSpace& need) const {
   if (!outline.cover().empty() && measure_discs(outline.cover(), p_W, ahead).meets(need)) {
     return true;
   }

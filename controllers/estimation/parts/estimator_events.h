@@ -1,5 +1,5 @@
 #pragma once
-/// What an estimator tells people as events, without repeating itself.
+/// Events of an estimator, limited in rate.
 
 #include <string>
 #include <vector>
@@ -9,32 +9,32 @@
 
 namespace vinerow::controllers {
 
-/// Something that is counted and may happen often: told the first time and then, if it went on, at
-/// most every 10 s.
-class CountedNews {
+/// Rate limit for an event that may occur often: due the first time and then, if the count has
+/// grown, at most every 10 s.
+class CountedEvent {
  public:
   static constexpr Duration kQuiet{10'000'000'000};
 
-  /// @param count  how often it happened so far  @returns whether to tell of it now
+  /// @param count  occurrences so far @returns whether to report it now
   bool is_due(Time now, int count) {
-    if (count == told_ || (told_ > 0 && now - last_ < kQuiet)) return false;
-    told_ = count;
+    if (count == reported_ || (reported_ > 0 && now - last_ < kQuiet)) return false;
+    reported_ = count;
     last_ = now;
     return true;
   }
 
  private:
-  int told_ = 0;
+  int reported_ = 0;
   Time last_;
 };
 
 /// Writes the signal "estimator_event".
-class EstimatorNews {
+class EstimatorEvents {
  public:
   void connect(Ports& ports) { out_ = ports.write<Event>("estimator_event"); }
   void tell(Event::Level level, std::string text);
-  /// A signal holds one event: what was told together is written one tick after another. Allocates
-  /// only where something is told.
+  /// Writes the next waiting event. A signal holds one event, so events of the same tick are
+  /// written in successive ticks. Allocates only when events are queued.
   void write(Time now);
 
  private:

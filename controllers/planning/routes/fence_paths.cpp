@@ -1,4 +1,4 @@
-#include "controllers/planning/routes/fence_ways.h"
+#include "controllers/planning/routes/fence_paths.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,8 +23,8 @@ bool do_cross(const Vec& a, const Vec& b, const Vec& c, const Vec& d) {
          !(a_side == 0.0 && b_side == 0.0 && c_side == 0.0 && d_side == 0.0);
 }
 
-Polygon2 make_circle(const Vec& centre, double radius_m) {
-  Polygon2 polygon;
+Polygon make_circle(const Vec& centre, double radius_m) {
+  Polygon polygon;
   for (int i = 0; i < kCircleCorners; ++i) {
     const double angle_rad = 2.0 * kPi * i / kCircleCorners;
     polygon.push_back(centre + radius_m * Vec(std::cos(angle_rad), std::sin(angle_rad)));
@@ -34,41 +34,41 @@ Polygon2 make_circle(const Vec& centre, double radius_m) {
 
 }  // namespace
 
-FenceWays::FenceWays(const io::MissionFile& mission, const GeoOrigin& origin, double margin_m) {
+FencePaths::FencePaths(const io::MissionFile& mission, const GeoOrigin& origin, double margin_m) {
   const LocalFrame frame(origin);
   const auto local = [&](Geodetic place) {
     place.altitude_m = origin.altitude_m;
     return Vec(frame.to_local(place).head<2>());
   };
   for (const io::FencePolygon& fence : mission.fence_polygons) {
-    Polygon2 polygon;
+    Polygon polygon;
     for (const Geodetic& point : fence.points) polygon.push_back(local(point));
-    add(fence.inclusion, clean_polygon(polygon));
+    add(fence.inclusion, without_repeats(polygon));
   }
   for (const io::FenceCircle& fence : mission.fence_circles) {
-    // What is kept out of lies inside its polygon, what is kept in holds it.
+    // The polygon contains an exclusion circle; an inclusion circle contains its polygon.
     const double outside = fence.inclusion ? 1.0 : 1.0 / std::cos(kPi / kCircleCorners);
     add(fence.inclusion, make_circle(local(fence.centre), outside * fence.radius_m));
   }
   for (const Fence& fence : fences_) add_bends(fence, margin_m);
 }
 
-void FenceWays::add(bool inclusion, Polygon2 polygon) {
+void FencePaths::add(bool inclusion, Polygon polygon) {
   if (polygon.size() < 3) return;
-  if (polygon_area_m2(polygon) < 0.0) std::reverse(polygon.begin(), polygon.end());
+  if (signed_area_m2(polygon) < 0.0) std::reverse(polygon.begin(), polygon.end());
   fences_.push_back({inclusion, std::move(polygon)});
 }
 
-void FenceWays::add_bends(const Fence& fence, double margin_m) {
-  const Polygon2& polygon = fence.polygon;
+void FencePaths::add_bends(const Fence& fence, double margin_m) {
+  const Polygon& polygon = fence.polygon;
   const std::size_t n = polygon.size();
   for (std::size_t i = 0; i < n; ++i) {
     const Vec before = (polygon[i] - polygon[(i + n - 1) % n]).normalized();
     const Vec after = (polygon[(i + 1) % n] - polygon[i]).normalized();
     const double turn = cross(before, after);
-    // Ways bend where free ground takes more than half a circle about the corner.
+    // Paths bend only at corners with more than 180 degrees of free ground.
     if (fence.inclusion == (turn > 0.0)) continue;
-    // Right of the edges is outside. Beyond three margins the corner counts as cut off.
+    // Outside is to the right of the edges. The bend is at most three margins from the corner.
     const Vec outwards = Vec(before.y() + after.y(), -before.x() - after.x()).normalized();
     const double share = std::max(outwards.dot(Vec(after.y(), -after.x())), 1.0 / 3.0);
     const Vec bend = polygon[i] + (fence.inclusion ? -1.0 : 1.0) * margin_m / share * outwards;
@@ -76,16 +76,16 @@ void FenceWays::add_bends(const Fence& fence, double margin_m) {
   }
 }
 
-bool FenceWays::is_free(const Vec& p_W) const {
+bool FencePaths::is_free(const Vec& p_W) const {
   return std::all_of(fences_.begin(), fences_.end(), [&](const Fence& fence) {
-    return is_inside_polygon(p_W, fence.polygon) == fence.inclusion;
+    return contains(fence.polygon, p_W) == fence.inclusion;
   });
 }
 
-bool FenceWays::is_free(const Vec& from_W, const Vec& to_W) const {
+bool FencePaths::is_free(const Vec& from_W, const Vec& to_W) const {
   if (!is_free(from_W) || !is_free(to_W)) return false;
   for (const Fence& fence : fences_) {
-    const Polygon2& polygon = fence.polygon;
+    const Polygon& polygon = fence.polygon;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
       if (do_cross(from_W, to_W, polygon[i], polygon[(i + 1) % polygon.size()])) return false;
     }
@@ -93,7 +93,7 @@ bool FenceWays::is_free(const Vec& from_W, const Vec& to_W) const {
   return true;
 }
 
-std::optional<std::vector<Vec>> FenceWays::find_way(const Vec& from_W, const Vec& to_W) const {
+std::optional<std::vector<Vec>> FencePaths::find_path(const Vec& from_W, const Vec& to_W) const {
   if (is_free(from_W, to_W)) return std::vector<Vec>{};
   if (!is_free(from_W) || !is_free(to_W)) return std::nullopt;
   std::vector<Vec> places = {from_W, to_W};

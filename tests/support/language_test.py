@@ -1,0 +1,87 @@
+#!/usr/bin/env python3
+"""Counts words of the old private dialect in docs, READMEs and comments of headers, and fails if there is one.
+
+docs/contributing/language.md has the rules. An entry: the pattern, and what to write instead. Code in backquotes and fenced blocks does not
+count, nor do the names of files. `--count` lists the counts of each folder, `--sources` looks at sources and their texts too.
+"""
+
+import collections
+import pathlib
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+WORDS = {
+    r"tell(s|ing)?|told": "report, describe, show, return, state; or name the fact directly",
+    r"whoever|whichever of": "name the subject",
+    r"anew": "again, from scratch; 'recomputed'",
+    r"(?<!dead )reckon(s|ed|ing)?": "compute, consider",
+    r"dear(er|est)?": "expensive",
+    r"for ever": "forever, endlessly",
+    r"of nobody|by nobody|nobody's": "no vehicle, no sensor, not ... by anything",
+    r"that (is|are) none|none of that": "NaN, empty, missing, not a ...",
+    r"the begin of|at the begin\b|its begin\b|'s begin\b": "start, beginning",
+    r"beside the (truth|paper|printed|log)": "next to, compared with",
+    r"stands parked|lies parked": "is parked",
+    r"hang(s)? together": "are correlated, are connected",
+    r"in the way": "an obstacle, blocking",
+    r"be it": "whether",
+    r"thereof|therein|thereby|wherein": "of it, in it",
+    r"is asked (by|for)|are asked (by|for)": "is queried by, is requested",
+    r"what is (told|said)": "name it",
+    r"has none|have none": "has no ..., lacks",
+    r"so many": "that many; up to; or name the number",
+}
+CODE = re.compile(r"```.*?```|``[^`]*``|`[^`\n]*`|<!--.*?-->|\]\([^)]*\)", re.DOTALL)
+COMMENT = re.compile(r"//[^\n]*")
+
+
+def prose(path: pathlib.Path, sources: bool) -> list[tuple[int, str]]:
+    """Lines of prose with their numbers."""
+    text = path.read_text(encoding="utf-8")
+    if path.suffix == ".md":
+        text = CODE.sub(lambda m: re.sub(r"[^\n]", " ", m.group(0)), text)
+        return list(enumerate(text.split("\n"), 1))
+    lines = []
+    for number, line in enumerate(text.split("\n"), 1):
+        found = COMMENT.search(line)
+        if found:
+            lines.append((number, re.sub(r"`[^`]*`", " ", found.group(0))))
+        if sources:
+            lines += [(number, quoted) for quoted in re.findall(r'"((?:\\.|[^"\\])*)"', line)]
+    return lines
+
+
+def files(sources: bool) -> list[pathlib.Path]:
+    names = subprocess.run(["git", "ls-files", "*.md", "*.h"] + (["*.cpp"] if sources else []), cwd=ROOT, capture_output=True,
+                           text=True, check=True).stdout.split()
+    skip = ("tests/", "docs/contributing/language.md", "docs/glossary.md", "docs/reference/parts.md")
+    return [ROOT / name for name in names if not name.startswith(skip) and (ROOT / name).exists()]
+
+
+def main() -> int:
+    sources = "--sources" in sys.argv
+    patterns = [(re.compile(rf"\b(?:{word})\b", re.IGNORECASE), instead) for word, instead in WORDS.items()]
+    counts = collections.Counter()
+    only = [argument for argument in sys.argv[1:] if not argument.startswith("--")]
+    for path in files(sources):
+        name = path.relative_to(ROOT).as_posix()
+        if only and not name.startswith(tuple(only)):
+            continue
+        for number, line in prose(path, sources):
+            for pattern, instead in patterns:
+                for found in pattern.finditer(line):
+                    counts["/".join(name.split("/")[:2])] += 1
+                    if "--count" not in sys.argv:
+                        print(f"{name}:{number}: '{found.group(0)}': {instead}")
+    if "--count" in sys.argv:
+        for folder, count in counts.most_common():
+            print(f"{count:6} {folder}")
+    print(f"{sum(counts.values())} words of the old dialect")
+    return 1 if counts else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -12,7 +12,7 @@ install(FILES ${CMAKE_BINARY_DIR}/generated/vinerow/version.h DESTINATION ${CMAK
 install(DIRECTORY assets DESTINATION ${CMAKE_INSTALL_DATADIR}/vinerow)
 # README.md and CHANGELOG.md link to files under docs/, so they lie as in the tree.
 install(FILES README.md LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/vinerow)
-install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/vinerow PATTERN Doxyfile EXCLUDE)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/vinerow PATTERN Doxyfile EXCLUDE PATTERN site EXCLUDE)
 install(EXPORT vinerowTargets NAMESPACE vinerow:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/vinerow)
 
 # The Eigen that the library is compiled with, where that is a copy (eigen_on_aarch64.cmake): for plug-ins.

@@ -135,7 +135,7 @@ std::string metrics_page(const Registry& registry) {
       "`null`, and a criterion on it is not met. Deviation metrics sample at the controller's "
       "rate. Relative accuracy alone is easily gamed (coarse waypoints, a tiny lookahead): read it "
       "next to the mean deviation, the maximum deviation and the time. `summary.json` also holds "
-      "`estimation.<vehicle>` (its `estimator`, `null` if it has none, and `truth`, what the "
+      "`estimation.<vehicle>` (its `estimator`, `null` without one, and `truth`, what the "
       "estimator takes from the truth) and `planning.<vehicle>` (counters of the planner: nodes, "
       "iterations, clearance).");
   page += "\n## Of vehicles\n";

@@ -20,8 +20,8 @@ DwaGuide::DwaGuide(const DwaGuideParams& params, DiscOutline outline,
                    std::vector<Eigen::Vector2d> outline_B, const DistanceField& known)
     : params_(params),
       outline_B_(std::move(outline_B)),
-      margins_(known, unknown_),
-      law_(params.law, std::move(outline), margins_),
+      free_space_(known, unknown_),
+      law_(params.law, std::move(outline), free_space_),
       polygon_(DiscOutline::polygon(outline_B_)),
       plan_(params.plan),
       recovery_(params.recovery),
@@ -99,7 +99,7 @@ LocalCommand DwaGuide::drive_forward(Time now, const DwaState& state,
     return make_stop(state);
   }
   const double see_m = speed * params_.law.horizon_s + 0.5 * speed * speed / acceleration;
-  const double free_m = plan_.calc_free_m(margins_, polygon_, state.pose, see_m);
+  const double free_m = plan_.calc_free_m(free_space_, polygon_, state.pose, see_m);
   const bool is_near_end = plan_.remaining_m() <= params_.finish_m;
   // Places beyond the stop may be occupied by other vehicles.
   const bool is_free = free_m >= std::min({see_m, plan_.remaining_m(), stop_.left_m()});
@@ -150,7 +150,7 @@ DwaChoice DwaGuide::choose_forward(const DwaState& state, const ObstacleMemory& 
   if (memory.obstacles_W().empty()) {
     lane_left_m_ = 0.0;
   } else {
-    plan_.find_lane(margins_, law_.outline(), lane_left_m_, &lane_left_m_);
+    plan_.find_lane(free_space_, law_.outline(), lane_left_m_, &lane_left_m_);
   }
   lane_.copy_moved(plan_.window(), lane_left_m_);
   DwaTask task;
@@ -200,9 +200,9 @@ LocalCommand DwaGuide::make_follow(const DwaState& state, double speed_mps, doub
   LocalCommand command;
   command.mode = LocalCommand::Mode::kFollow;
   command.v_mps = speed_mps;
-  double min_m = margins_.measure(polygon_, state.pose).min_m();
+  double min_m = free_space_.measure(polygon_, state.pose).min_m();
   for (double s = 0.25; s <= free_m; s += 0.25) {
-    min_m = std::min(min_m, margins_.measure(polygon_, plan_.follow_pose(s)).min_m());
+    min_m = std::min(min_m, free_space_.measure(polygon_, plan_.follow_pose(s)).min_m());
   }
   command.clearance_m = std::min(min_m, kMaxClearance_m);
   return command;
@@ -222,7 +222,8 @@ LocalCommand DwaGuide::make_stop(const DwaState& state) const {
   LocalCommand command;
   command.front_axle_rad = state.steering.front_rad;
   command.rear_axle_rad = state.steering.rear_rad;
-  command.clearance_m = std::min(margins_.measure(polygon_, state.pose).min_m(), kMaxClearance_m);
+  command.clearance_m =
+      std::min(free_space_.measure(polygon_, state.pose).min_m(), kMaxClearance_m);
   return command;
 }
 

@@ -80,7 +80,7 @@ class DwaGuide {
   DwaGuideParams params_;
   std::vector<Eigen::Vector2d> outline_B_;
   PointField unknown_;
-  FreeSpaceFinder margins_;
+  FreeSpaceFinder free_space_;
   DwaLaw law_;
   DiscOutline polygon_;  ///< the true outline, for checks of following
   double front_m_ = 0.0;

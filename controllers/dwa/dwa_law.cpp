@@ -122,12 +122,12 @@ DwaTerms DwaLaw::judge(const Rollout& rollout, const DwaTask& task) const {
   terms.path_m /= rollout.count;
   terms.heading_error_rad = wrap_angle(end.yaw_rad - path[near].yaw_rad);
   terms.goal_m = (end.p - task.goal_W).norm();
-  terms.clearance_m = margins_.measure_cover(outline_, end.p, end.ahead).min_m();
+  terms.clearance_m = free_space_.measure_cover(outline_, end.p, end.ahead).min_m();
   return terms;
 }
 
 FreeSpace DwaLaw::calc_need(const Pose2& pose, const FreeSpace& wanted) const {
-  const FreeSpace now = margins_.measure(outline_, pose);
+  const FreeSpace now = free_space_.measure(outline_, pose);
   return {std::min(wanted.known_m, now.known_m - kStationarySlack_m),
           std::min(wanted.unknown_m, now.unknown_m - kStationarySlack_m)};
 }
@@ -166,8 +166,8 @@ DwaChoice DwaLaw::choose(const DwaState& state, const DwaTask& task) const {
                  &rollout);
         // Number of poses before the first that lacks clearance.
         int free = 0;
-        while (free < rollout.count && margins_.meets(outline_, rollout.nodes[free].p,
-                                                      rollout.nodes[free].ahead, task.need)) {
+        while (free < rollout.count && free_space_.meets(outline_, rollout.nodes[free].p,
+                                                         rollout.nodes[free].ahead, task.need)) {
           ++free;
         }
         const double travel_m = std::abs(v) * params_.step_s * free;
@@ -195,9 +195,10 @@ DwaChoice DwaLaw::choose(const DwaState& state, const DwaTask& task) const {
   // Smallest clearance along the chosen rollout, for the report.
   roll_out(state.pose, best.v_mps, state.steering, best.steering, params_.geometry,
            params_.horizon_s, params_.step_s, &rollout);
-  best.room = margins_.measure(outline_, state.pose);
+  best.room = free_space_.measure(outline_, state.pose);
   for (int i = 0; best.is_admissible && i < rollout.count; ++i) {
-    const FreeSpace room = margins_.measure(outline_, rollout.nodes[i].p, rollout.nodes[i].ahead);
+    const FreeSpace room =
+        free_space_.measure(outline_, rollout.nodes[i].p, rollout.nodes[i].ahead);
     best.room = {std::min(best.room.known_m, room.known_m),
                  std::min(best.room.unknown_m, room.unknown_m)};
   }

@@ -113,8 +113,8 @@ struct DwaTask {
 
 class DwaLaw {
  public:
-  DwaLaw(const DwaParams& params, DiscOutline outline, const FreeSpaceFinder& rooms)
-      : params_(params), outline_(std::move(outline)), margins_(rooms) {}
+  DwaLaw(const DwaParams& params, DiscOutline outline, const FreeSpaceFinder& free_space)
+      : params_(params), outline_(std::move(outline)), free_space_(free_space) {}
 
   /// The best of all samples. No heap; 324 rollouts at the default counts.
   /// @returns is_admissible false and zero speed if no sample moves freely
@@ -131,7 +131,7 @@ class DwaLaw {
  private:
   DwaParams params_;
   DiscOutline outline_;
-  FreeSpaceFinder margins_;
+  FreeSpaceFinder free_space_;
 };
 
 }  // namespace vinerow::controllers

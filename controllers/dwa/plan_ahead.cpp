@@ -53,9 +53,9 @@ Pose2 PlanAhead::follow_pose(double ahead_m) const {
   return pose;
 }
 
-double PlanAhead::calc_free_m(const FreeSpaceFinder& rooms, const DiscOutline& outline,
+double PlanAhead::calc_free_m(const FreeSpaceFinder& free_space, const DiscOutline& outline,
                               const Pose2& pose, double length_m) const {
-  const FreeSpace now = rooms.measure(outline, pose);
+  const FreeSpace now = free_space.measure(outline, pose);
   const double end_m = std::min(length_m, remaining_m());
   double free_m = 0.0;
   for (int i = here_; i < window_.size(); ++i) {
@@ -64,9 +64,9 @@ double PlanAhead::calc_free_m(const FreeSpaceFinder& rooms, const DiscOutline& o
     const Pose2 follow = follow_pose(ahead_m);
     const Eigen::Vector2d ahead = direction(follow.yaw_rad);
     const FreeSpace cheap{params_.follow_margin_m, params_.obstacle_margin_m};
-    if (!rooms.meets(outline, follow.p, ahead, cheap)) {
-      const FreeSpace there = rooms.measure(outline, follow.p, ahead);
-      const FreeSpace plan = rooms.measure(outline, window_[i].p, window_[i].ahead);
+    if (!free_space.meets(outline, follow.p, ahead, cheap)) {
+      const FreeSpace there = free_space.measure(outline, follow.p, ahead);
+      const FreeSpace plan = free_space.measure(outline, window_[i].p, window_[i].ahead);
       const FreeSpace need{
           std::min({params_.follow_margin_m, plan.known_m, now.known_m}) - kRounding_m,
           std::min(params_.obstacle_margin_m, now.unknown_m - kRounding_m)};
@@ -79,27 +79,27 @@ double PlanAhead::calc_free_m(const FreeSpaceFinder& rooms, const DiscOutline& o
   return end_m;
 }
 
-bool PlanAhead::is_lane_free(const FreeSpaceFinder& rooms, const DiscOutline& outline,
+bool PlanAhead::is_lane_free(const FreeSpaceFinder& free_space, const DiscOutline& outline,
                              double left_m) const {
   const double reach_m = std::abs(left_m - at_.lateral_error_m) / params_.crab_slope;
   for (int i = window_.index_at(at_.distance_m + reach_m); i < window_.size(); ++i) {
     const LocalPath::Sample& sample = window_[i];
     if (sample.distance_m > at_.distance_m + params_.lane_length_m) break;
     const Eigen::Vector2d p = sample.p + left_m * left_of(sample.ahead);
-    if (rooms.meets(outline, p, sample.ahead, {params_.margin_m, params_.obstacle_margin_m})) {
+    if (free_space.meets(outline, p, sample.ahead, {params_.margin_m, params_.obstacle_margin_m})) {
       continue;
     }
     // If the plan itself is nearer to the map than the margin, that distance is allowed.
-    const double known_m = rooms.measure(outline, sample.p, sample.ahead).known_m;
+    const double known_m = free_space.measure(outline, sample.p, sample.ahead).known_m;
     const FreeSpace need{std::min(params_.margin_m, known_m - kRounding_m),
                          params_.obstacle_margin_m};
-    if (!rooms.measure(outline, p, sample.ahead).meets(need)) return false;
+    if (!free_space.measure(outline, p, sample.ahead).meets(need)) return false;
   }
   return true;
 }
 
-bool PlanAhead::find_lane(const FreeSpaceFinder& rooms, const DiscOutline& outline, double before_m,
-                          double* left_m) const {
+bool PlanAhead::find_lane(const FreeSpaceFinder& free_space, const DiscOutline& outline,
+                          double before_m, double* left_m) const {
   // A change of the displacement costs half as much as the displacement itself.
   const auto cost = [&](double left) { return std::abs(left) + 0.5 * std::abs(left - before_m); };
   const int count = static_cast<int>(params_.lane_max_m / params_.lane_step_m + 1e-9);
@@ -107,7 +107,7 @@ bool PlanAhead::find_lane(const FreeSpaceFinder& rooms, const DiscOutline& outli
   *left_m = 0.0;
   for (int i = -count; i <= count; ++i) {
     const double left = i * params_.lane_step_m;
-    if (cost(left) >= best || !is_lane_free(rooms, outline, left)) continue;
+    if (cost(left) >= best || !is_lane_free(free_space, outline, left)) continue;
     best = cost(left);
     *left_m = left;
   }

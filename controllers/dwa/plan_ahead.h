@@ -47,17 +47,18 @@ class PlanAhead {
   /// Distance over which the poses of follow_pose() are free, at most `length_m`. For obstacles of
   /// the map only the vehicle's own deviation counts: where the plan itself comes nearer than the
   /// margin, the planner has accepted that.
-  double calc_free_m(const FreeSpaceFinder& rooms, const DiscOutline& outline, const Pose2& pose,
-                     double length_m) const;
+  double calc_free_m(const FreeSpaceFinder& free_space, const DiscOutline& outline,
+                     const Pose2& pose, double length_m) const;
 
   /// Sideways displacement of the plan (positive left) that is free over lane_length_m from where
   /// it can be reached; the smallest, near `before_m`.
   /// @param left_m  out; 0 if none is free  @returns whether one is free
-  bool find_lane(const FreeSpaceFinder& rooms, const DiscOutline& outline, double before_m,
+  bool find_lane(const FreeSpaceFinder& free_space, const DiscOutline& outline, double before_m,
                  double* left_m) const;
 
  private:
-  bool is_lane_free(const FreeSpaceFinder& rooms, const DiscOutline& outline, double left_m) const;
+  bool is_lane_free(const FreeSpaceFinder& free_space, const DiscOutline& outline,
+                    double left_m) const;
 
   PlanAheadParams params_;
   Path path_;

@@ -1,6 +1,6 @@
 #pragma once
 /// Two exceptions for failures that a user can meet, each with its exit status
-/// (docs/contributing/architecture.md).
+/// (docs/reference/exit_status.md).
 
 #include <stdexcept>
 #include <string>

@@ -20,7 +20,7 @@ class RunShelf;
 
 namespace vinerow::run {
 
-/// Exit status of `vinerow run` (docs/contributing/architecture.md).
+/// Exit status of `vinerow run` (docs/reference/exit_status.md).
 enum class RunStatus { kAllMet = 0, kCriterionFailed = 1, kBadInput = 2, kBrokenOff = 3 };
 
 struct Progress {

@@ -23,8 +23,11 @@ std::string list_metrics(const std::string& wrong, std::vector<std::string> know
   std::stable_sort(known.begin(), known.end(), [&](const std::string& a, const std::string& b) {
     return edit_distance(wrong, a) < edit_distance(wrong, b);
   });
-  const bool is_cut = known.size() > kMaxWithHint;
-  return scenario::list_known(known, kMaxWithHint) + (is_cut ? "; see 'vinerow list metric'" : "");
+  if (known.size() <= kMaxWithHint) return scenario::list_known(known, kMaxWithHint);
+  // Only numbers of jobs have no owner.
+  const bool of_job = wrong.find('.') == std::string::npos;
+  return scenario::list_known(known, kMaxWithHint) +
+         (of_job ? "; see 'vinerow list job'" : "; see 'vinerow list metric'");
 }
 
 double find_metric(const scenario::Criterion& criterion,

@@ -196,7 +196,7 @@ class Session {
   std::vector<SessionPhase> phases() const;
   /// Events since the last call, or since time 0.
   std::vector<SessionEvent> take_events();
-  /// Digest of every signal written so far (docs/contributing/architecture.md).
+  /// Digest of every signal written so far (docs/concepts/determinism.md).
   std::string digest() const;
   std::uint64_t seed() const;
 

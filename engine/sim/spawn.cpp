@@ -117,16 +117,16 @@ Pose find_spawn_pose(const scenario::SpawnConfig& spawn, const WorldModel& world
     heading.p_W = *spawn.p_W;
   }
   const double x = heading.p_W.x(), y = heading.p_W.y();
-  const PlacementGround stationary(world, scene);
-  const auto ground = stationary.height_m(x, y);
+  const PlacementGround surface(world, scene);
+  const auto ground = surface.height_m(x, y);
   if (!ground) {
     throw ConfigError(fmt::format(
         "{}: vehicles.{}.spawn is at x = {:.3f} m, y = {:.3f} m, where world '{}' has no ground{}",
         spawn.where.text(), vehicle, x, y, world.name, remedy));
   }
-  const bool obstacles = stationary.takes_obstacles(x, y);
+  const bool obstacles = surface.takes_obstacles(x, y);
   const auto height_at = [&](double dx, double dy) {
-    return stationary.beside_m(x + dx, y + dy, *ground, obstacles, kReach_m);
+    return surface.beside_m(x + dx, y + dy, *ground, obstacles, kReach_m);
   };
   const Eigen::Vector3d normal(
       -calc_slope(*ground, height_at(kReach_m, 0), height_at(-kReach_m, 0)),

@@ -278,7 +278,7 @@ TEST_F(MapCommand, RefusesInOneSentence) {
       "map " + cloud_ + " --boundary " + folder_->file("bow.csv", "0,0\n10,10\n10,0\n0,10\n") + out,
       "crosses its edge from point");
   expect_refused("map " + cloud_ + " --out /proc/none/map",
-                 "folder '/proc/none/map' cannot be made");
+                 "folder '/proc/none/map' cannot be created");
 }
 
 TEST_F(MapCommand, FindsNoRowsInAMeadow) {

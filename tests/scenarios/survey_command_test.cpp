@@ -121,7 +121,7 @@ TEST(SurveyCommand, RefusesInOneSentence) {
   expect_refused(start + "--speed_mps fast", "--speed_mps: 'fast' is not a number");
   expect_refused(start + "--side_overlap 1.2", "side_overlap = 1.2, must be");
   expect_refused(start + "--camera leica", "camera = 'leica'");
-  expect_refused(start + "--out /proc/none/out", "folder '/proc/none/out' cannot be made");
+  expect_refused(start + "--out /proc/none/out", "folder '/proc/none/out' cannot be created");
   expect_refused("survey --polygon " + field, "give the position of its (0, 0) with --origin");
   expect_refused("survey --polygon none.csv --origin 44,8", "'none.csv' does not exist");
   expect_refused("survey", "give either a scenario or --polygon");

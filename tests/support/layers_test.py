@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Reads every #include of the tree and fails on an arrow the wrong way (docs/contributing/architecture.md holds the table)."""
+"""Reads every #include of the tree and fails on an arrow the wrong way (docs/architecture.md holds the table)."""
 
 import pathlib
 import re

@@ -135,7 +135,7 @@ class Video(unittest.TestCase):
     def test_a_folder_of_plots_that_cannot_be_made_is_bad_input(self):
         run = self.vinerow("report", "run", "--out", "page.html", "--plots", "/proc/none")
         self.assertEqual(run.returncode, 2)
-        self.assertIn("folder '/proc/none' cannot be made", run.stderr)
+        self.assertIn("folder '/proc/none' cannot be created", run.stderr)
 
     def test_plots_of_a_report_are_files_that_stand_alone(self):
         run = self.vinerow("report", "run", "--out", "page.html", "--plots", "plots")

@@ -17,7 +17,7 @@ from docslib.links import headings, resolved, rewritten, targets, without_commen
 
 INDEX = "docs/index.md"
 # READMEs that no section of the index names, nor belong to a README above them, follow this page.
-FOLDERS = "docs/contributing/architecture.md"
+FOLDERS = "docs/architecture.md"
 
 
 @dataclass

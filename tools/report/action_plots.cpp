@@ -11,7 +11,7 @@
 namespace vinerow::tools::report {
 namespace {
 
-/// Below this speed slip is not plotted (docs/contributing/architecture.md, slip_rms).
+/// Below this speed slip is not plotted (docs/reference/metrics.md, slip_rms).
 constexpr double kSlips_mps = 0.05;
 
 /// Value as plotted: angles in degrees.

@@ -63,8 +63,8 @@ FileMeshStore::FileMeshStore(std::filesystem::path folder) : folder_(std::move(f
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
   if (error) {
-    throw ConfigError(fmt::format("folder '{}' for mesh files cannot be made: {}", folder_.string(),
-                                  error.message()));
+    throw ConfigError(fmt::format("folder '{}' for mesh files cannot be created: {}",
+                                  folder_.string(), error.message()));
   }
 }
 

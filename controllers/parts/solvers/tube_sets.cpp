@@ -76,7 +76,7 @@ Result<SeriesSupport> make_tube(const TubeModel& model) {
 }
 
 /// The smallest ratio of limit and reach, and the limit that it belongs to.
-GustMargin free_space_of(const TubeModel& model, const SeriesSupport& S) {
+GustMargin gust_margin_of(const TubeModel& model, const SeriesSupport& S) {
   GustMargin room;
   room.factor = std::numeric_limits<double>::infinity();
   const auto look = [&room](double limit, double reach, const std::string& name) {
@@ -157,7 +157,7 @@ Result<GustMargin> calc_gust_margin(const TubeModel& model) {
   check(model);
   const Result<SeriesSupport> S = make_tube(model);
   if (!S) return Failure{S.reason()};
-  return free_space_of(model, *S);
+  return gust_margin_of(model, *S);
 }
 
 Result<TubeSets> make_tube_sets(const TubeModel& model, TubeShape shape) {
@@ -166,7 +166,7 @@ Result<TubeSets> make_tube_sets(const TubeModel& model, TubeShape shape) {
   if (!S) return Failure{S.reason()};
   TubeSets sets;
   sets.A_K = model.A + model.B * model.K;
-  sets.room = free_space_of(model, *S);
+  sets.room = gust_margin_of(model, *S);
   const double factor = sets.room.factor;
   if (!(factor > 1.0)) {
     return Failure{fmt::format(

@@ -53,7 +53,7 @@ class GridPath final : public FlightWay {
         map_(*context.map),
         field_(map_.occupancy),
         footprint_(field_, context.vehicle_description->outline_B(), params.margin_m),
-        free_space_(map_, footprint_, params.check_step_m),
+        clearance_(map_, footprint_, params.check_step_m),
         planner_(make_route_planner(params, std::move(search), context)) {}
 
   Result<PlannedPath> plan(const Eigen::Vector3d& start_W) override {
@@ -66,7 +66,7 @@ class GridPath final : public FlightWay {
     }
     const double yaw_rad =
         choose_heading(start_W.head<2>(), legs->front(), params_.turning_radius_m,
-                       [this](const PathSegments& pieces) { return free_space_.is_free(pieces); });
+                       [this](const PathSegments& pieces) { return clearance_.is_free(pieces); });
     return planner_->plan({quaternion_from_rpy({0.0, 0.0, yaw_rad}), start_W});
   }
 
@@ -77,7 +77,7 @@ class GridPath final : public FlightWay {
   const RowMap& map_;
   DistanceField field_;
   Footprint footprint_;
-  RouteClearance free_space_;
+  RouteClearance clearance_;
   std::unique_ptr<Planner> planner_;
 };
 

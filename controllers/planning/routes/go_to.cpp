@@ -89,7 +89,7 @@ class GoTo final : public Planner {
         scene_(context.scene),
         field_(map_.occupancy),
         footprint_(field_, context.vehicle_description->outline_B(), params.margin_m),
-        free_space_(map_, footprint_, kCheckStep_m) {}
+        clearance_(map_, footprint_, kCheckStep_m) {}
 
   const PlanReport* report() const override { return &report_; }
 
@@ -159,7 +159,7 @@ class GoTo final : public Planner {
         make_analytic_turns(from, to, {.radius_m = radius_m_, .longest_lead_m = 0.0});
     for (const AnalyticTurn& word : words) {
       const PathSegments pieces = make_pieces(from, to, word);
-      if (free_space_.is_free(pieces)) return pieces;
+      if (clearance_.is_free(pieces)) return pieces;
       break;  // only the shortest: a longer one may be a long detour
     }
     SearchReport done;
@@ -174,7 +174,7 @@ class GoTo final : public Planner {
 
   void measure(const PathSegments& pieces) {
     double min_m = std::numeric_limits<double>::infinity();
-    for (const PathSegment& piece : pieces) min_m = std::min(min_m, free_space_.clearance_m(piece));
+    for (const PathSegment& piece : pieces) min_m = std::min(min_m, clearance_.clearance_m(piece));
     report_.numbers["length_m"] = calc_length_m(pieces);
     report_.numbers["clearance_m"] = min_m;
   }
@@ -186,7 +186,7 @@ class GoTo final : public Planner {
   const SceneQuery* scene_;
   DistanceField field_;
   Footprint footprint_;
-  RouteClearance free_space_;
+  RouteClearance clearance_;
   PlanReport report_;
 };
 

@@ -37,7 +37,7 @@ class RoutePlanner final : public Planner {
         scene_(context.scene),
         field_(map_.occupancy),
         footprint_(field_, context.vehicle_description->outline_B(), params.margin_m),
-        free_space_(map_, footprint_, params.check_step_m) {}
+        clearance_(map_, footprint_, params.check_step_m) {}
 
   const PlanReport* report() const override { return &report_; }
 
@@ -56,9 +56,9 @@ class RoutePlanner final : public Planner {
     auto legs = make_row_route(map_, params_.route, pose.p);
     if (!legs) return Failure{legs.reason()};
     std::vector<RouteLeg> route = *legs;
-    if (!footprint_.is_free(pose)) return Failure{"start in collision: " + free_space_.tell(pose)};
+    if (!footprint_.is_free(pose)) return Failure{"start in collision: " + clearance_.tell(pose)};
     for (const RouteLeg& leg : route) {
-      if (const auto fault = free_space_.find_blocked_end(leg)) return Failure{*fault};
+      if (const auto fault = clearance_.find_blocked_end(leg)) return Failure{*fault};
     }
 
     PathSegments pieces;
@@ -97,7 +97,7 @@ class RoutePlanner final : public Planner {
     if (is_aligned && ahead_m > 0.0 && std::abs(cross(along, way)) < kAlongTheLine_rad * ahead_m) {
       const PathSegment straight =
           make_straight(pose.p, entry.p, PathKind::kTransit, -1, params_.speed_mps);
-      if (free_space_.is_free({straight})) {
+      if (clearance_.is_free({straight})) {
         pieces.push_back(straight);
         return std::nullopt;
       }
@@ -117,7 +117,7 @@ class RoutePlanner final : public Planner {
 
   /// Appends the leg with detours around obstacles in it.
   std::optional<std::string> append_driven(const RouteLeg& leg, PathSegments& pieces) {
-    if (!free_space_.find_blocked(leg)) {
+    if (!clearance_.find_blocked(leg)) {
       append_leg(leg, params_.speed_mps, pieces);
       return std::nullopt;
     }
@@ -125,7 +125,7 @@ class RoutePlanner final : public Planner {
     constexpr int kFirstProblem = 1'000'000, kProblemsPerLeg = 1000;
     std::vector<SearchReport> done;
     const auto way = drive_around(
-        leg, footprint_, free_space_, *search_, kFirstProblem + kProblemsPerLeg * leg.alley,
+        leg, footprint_, clearance_, *search_, kFirstProblem + kProblemsPerLeg * leg.alley,
         {params_.turning_radius_m, params_.check_step_m, params_.speed_mps}, done);
     for (const SearchReport& search : done) add_work(search);
     if (!way) return way.reason();
@@ -144,7 +144,7 @@ class RoutePlanner final : public Planner {
       if (dubins.length_m() > (1.0 + kShareLonger) * (joint.p - pose.p).norm()) continue;
       PathSegments merge;
       append_dubins(pose, dubins, PathKind::kTransit, params_.turn_speed_mps, merge);
-      if (!free_space_.is_free(merge)) continue;
+      if (!clearance_.is_free(merge)) continue;
       pieces.insert(pieces.end(), merge.begin(), merge.end());
       leg.line_W.front() = joint.p;
       return true;
@@ -205,7 +205,7 @@ class RoutePlanner final : public Planner {
   void measure(const PathSegments& pieces) {
     double min_m = std::numeric_limits<double>::infinity(), min_in_turns_m = min_m;
     for (const PathSegment& piece : pieces) {
-      const double room_m = free_space_.clearance_m(piece);
+      const double room_m = clearance_.clearance_m(piece);
       min_m = std::min(min_m, room_m);
       if (piece.kind != PathKind::kTurn) continue;
       min_in_turns_m = std::min(min_in_turns_m, room_m);
@@ -237,7 +237,7 @@ class RoutePlanner final : public Planner {
   const SceneQuery* scene_;
   DistanceField field_;
   Footprint footprint_;
-  RouteClearance free_space_;
+  RouteClearance clearance_;
   PlanReport report_;
 };
 

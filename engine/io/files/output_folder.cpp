@@ -13,7 +13,7 @@ void make_folder(const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder, failed);
   if (failed) {
     throw ConfigError(
-        fmt::format("folder '{}' cannot be made: {}", folder.string(), failed.message()));
+        fmt::format("folder '{}' cannot be created: {}", folder.string(), failed.message()));
   }
 }
 

@@ -6,7 +6,7 @@
 namespace vinerow::io {
 
 /// Creates a folder and its missing parents.
-/// @throws ConfigError "folder '/proc/x' cannot be made: No such file or directory"
+/// @throws ConfigError "folder '/proc/x' cannot be created: No such file or directory"
 void make_folder(const std::filesystem::path& folder);
 
 /// The same for the parent folder of a file.

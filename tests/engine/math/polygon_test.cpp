@@ -112,5 +112,39 @@ TEST(Polygon, FindsWhereItCrossesItself) {
       << "a corner on another edge";
 }
 
+TEST(Polygon, LosesRepeatedCornersAndTheClosingOne) {
+  EXPECT_EQ(without_repeats({{0, 0}, {0, 0}, {9, 0}, {9, 9}, {0, 0}}),
+            (Polygon{{0, 0}, {9, 0}, {9, 9}}));
+}
+
+TEST(Polygon, WidensEveryEdge) {
+  const Polygon square = {{0, 0}, {100, 0}, {100, 100}, {0, 100}};
+  EXPECT_NEAR(signed_area_m2(widen(square, 10.0)), 120.0 * 120.0, 1e-9);
+  // Clockwise too, and inwards.
+  EXPECT_NEAR(signed_area_m2(widen({square.rbegin(), square.rend()}, -10.0)), -80.0 * 80.0, 1e-9);
+  EXPECT_EQ(widen(square, 0.0), square);
+  // Nothing is left of a square of 100 m that loses 51 m on each side.
+  EXPECT_TRUE(widen(square, -51.0).empty());
+  // An arrow head: its sharp tips are cut off at twice the margin, and all of it stays inside.
+  const Polygon arrow = {{0, 0}, {200, 100}, {0, 200}, {80, 100}};
+  const Polygon wide = widen(arrow, 5.0);
+  EXPECT_FALSE(find_crossing(wide));
+  for (const Vector2d& p : arrow) EXPECT_TRUE(contains(wide, p));
+  for (const Vector2d& p : wide) EXPECT_LT(distance_m(arrow, p), 2.0 * 5.0 + 1e-9);
+}
+
+TEST(Polygon, InsetKeepsWhatIsFarEnoughFromEveryEdge) {
+  const Polygon square = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+  EXPECT_NEAR(signed_area_m2(inset(square, 0.25)), 1.5 * 1.5, 1e-12);
+  EXPECT_TRUE(inset(square, 1.01).empty());
+}
+
+TEST(Polygon, ACornerWithinRoundingOfAnEdgeTouchesIt) {
+  // The third corner is on the first edge but for rounding: 0.1 * 3 is not 0.3.
+  const double y = 0.1 * 3.0 - 0.3;
+  EXPECT_TRUE(find_crossing({{0, 0}, {100, 0}, {100, 50}, {50, y}, {0, 50}}));
+  EXPECT_FALSE(find_crossing({{0, 0}, {100, 0}, {100, 50}, {50, 1e-6}, {0, 50}}));
+}
+
 }  // namespace
 }  // namespace vinerow::polygon_test

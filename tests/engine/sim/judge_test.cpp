@@ -145,6 +145,29 @@ TEST(CheckCriteria, KnowsNoRangeOfWhatOthersMeasure) {
   EXPECT_EQ(refusal_of("rover.sprayer_litres_lost", {}, -1, {"travel"}), "");
 }
 
+TEST(CheckCriteria, KnowsWhatPayloadsDeclare) {
+  Registry registry;
+  PartSpec tank;
+  tank.name = "tank";
+  tank.results = {{"litres_left", "l", ResultRange::from_zero(), "left", "What is left.", ""}};
+  registry.add_payload(tank, {});
+  scenario::Scenario scenario;
+  scenario.vehicles.resize(2);
+  scenario.vehicles[0].name = "rover";
+  scenario.vehicles[1].name = "drone";
+  scenario.vehicles[0].payloads.push_back({"spray", {}});
+  scenario.vehicles[0].payloads[0].part.type = "tank";
+  const auto declared = [&](const char* metric) {
+    return find_declared_result(scenario, registry, metric);
+  };
+  ASSERT_TRUE(declared("rover.spray_litres_left"));
+  EXPECT_FALSE(declared("rover.spray_litres_left")->range.can_be_in(-2.0, -1.0));
+  EXPECT_FALSE(declared("drone.spray_litres_left"));
+  EXPECT_FALSE(declared("rover.spray_litres_lost"));
+  EXPECT_FALSE(declared("rover.litres_left"));
+  ASSERT_TRUE(declared("drone.min_vehicle_distance_m"));
+}
+
 TEST(CheckCriteria, RefusesMetricsThatDoNotExist) {
   EXPECT_THROW(check_criteria({criterion("rover.b", {}, 1.0)}, {{"rover", {{"a", 0.0}}}},
                               [](const std::string&) { return nullptr; }),

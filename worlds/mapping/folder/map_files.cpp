@@ -39,7 +39,7 @@ void save_meshes(const std::vector<RowMesh>& meshes, const std::string& folder) 
   std::filesystem::create_directories(folder, error);
   if (error) {
     throw ConfigError(
-        fmt::format("folder '{}' cannot be made for the map: {}", folder, error.message()));
+        fmt::format("folder '{}' cannot be created for the map: {}", folder, error.message()));
   }
   for (const auto& [numbers, file] : mesh_files(folder)) std::filesystem::remove(file, error);
   std::map<int, int> hulls;

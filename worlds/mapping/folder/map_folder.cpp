@@ -90,7 +90,7 @@ void save_map(const CloudMap& map, const fs::path& folder) {
   }
   fs::create_directories(folder, error);
   if (error) {
-    throw ConfigError(fmt::format("folder '{}' cannot be made for the map: {}", folder.string(),
+    throw ConfigError(fmt::format("folder '{}' cannot be created for the map: {}", folder.string(),
                                   error.message()));
   }
   // Until map.json is there again the folder is no map.

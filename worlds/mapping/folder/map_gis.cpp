@@ -240,7 +240,7 @@ void save_gis(const CloudMap& map, const ParcelCloud& cloud, const std::filesyst
   std::error_code error;
   std::filesystem::create_directories(folder / "gis", error);
   if (error) {
-    throw ConfigError(fmt::format("folder '{}' cannot be made for the map: {}",
+    throw ConfigError(fmt::format("folder '{}' cannot be created for the map: {}",
                                   (folder / "gis").string(), error.message()));
   }
   Eigen::AlignedBox3f box;

@@ -432,7 +432,7 @@ TEST_F(MapFolder, RefusesToWriteWhatIsNotSound) {
   EXPECT_EQ(test::config_error_of([&] {
               save_map(test::map_of_world("vineyard"), "/proc/none/map");
             }).substr(0, 51),
-            "folder '/proc/none/map' cannot be made for the map:");
+            "folder '/proc/none/map' cannot be created for the map:");
 }
 
 }  // namespace

@@ -51,12 +51,13 @@ const ParameterTable<TrajectoryParams>& trajectory_table() {
                   "a landing continues this far below the plan's end until the vehicle is on the "
                   "ground; a touchdown is detected up to this far above it")
           .number("acceleration_mps2", "m/s2", limits(&TrajectoryLimits::acceleration_mps2),
-                  between(1e-3, 1e4), "along the path, both ways")
+                  between(1e-3, 1e4), "acceleration and deceleration along the path")
           .number("lateral_acceleration_mps2", "m/s2",
                   limits(&TrajectoryLimits::lateral_acceleration_mps2), between(1e-3, 1e4),
-                  "across the path: 1.63 m/s in a turn of 1.77 m radius")
+                  "maximum acceleration across the path; the default allows 1.63 m/s in a turn of "
+                  "1.77 m radius")
           .number("yaw_rate_radps", "rad/s", limits(&TrajectoryLimits::yaw_rate_radps),
-                  between(1e-3, 1e4), "most")
+                  between(1e-3, 1e4), "maximum yaw rate")
           .number("yaw_acceleration_radps2", "rad/s2",
                   limits(&TrajectoryLimits::yaw_acceleration_radps2), between(1e-3, 1e4),
                   "largest; times the inertia it is the torque of a turn")

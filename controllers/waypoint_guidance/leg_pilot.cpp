@@ -148,7 +148,7 @@ WantedCourse LegPilot::query_law(const LegFrame& frame, const GuidanceState& sta
   }
   const double share = std::clamp(frame.along_m(state.position) / frame.length_m(), 0.0, 1.0);
   if (std::abs(left_m) <=
-      calc_cross_track_tolerance_m(share, options_.tolerance_most_m, options_.tolerance_least_m)) {
+      calc_cross_track_tolerance_m(share, options_.tolerance_max_m, options_.tolerance_min_m)) {
     return {course_rad_, 0.0};
   }
   const Eigen::Vector2d way = frame.to_W().head<2>() - state.position;

@@ -22,8 +22,8 @@ struct LegPilotOptions {
   bool is_smooth = true;
   bool is_predicted = true;
   double cross_track_length_m = 15.0;
-  double tolerance_most_m = 4.0;   ///< eps_0 of eq. 3
-  double tolerance_least_m = 1.0;  ///< eps_min
+  double tolerance_max_m = 4.0;  ///< eps_0 of eq. 3
+  double tolerance_min_m = 1.0;  ///< eps_min
   double turn_end_rad = 0.0873;
 };
 

@@ -70,10 +70,12 @@ const ParameterTable<GivenParams>& given_table() {
                   "or R tan(|dchi|/2) + V (phi/(2 rate) + lags) before the waypoint")
           .number("cross_track_length_m", "m", pilot(&LegPilotOptions::cross_track_length_m),
                   kPositive, "length of law smooth")
-          .number("tolerance_most_m", "m", pilot(&LegPilotOptions::tolerance_most_m), kPositive,
+          .number("tolerance_max_m", "m", pilot(&LegPilotOptions::tolerance_max_m), kPositive,
                   "law paper: tolerance at a leg's start")
-          .number("tolerance_least_m", "m", pilot(&LegPilotOptions::tolerance_least_m), kPositive,
+          .formerly("tolerance_most_m")
+          .number("tolerance_min_m", "m", pilot(&LegPilotOptions::tolerance_min_m), kPositive,
                   "law paper: smallest tolerance")
+          .formerly("tolerance_least_m")
           .number("airspeed_mps", "m/s", &G::airspeed_mps, kPositive,
                   "if the plan has no airspeed; default the vehicle's cruise speed")
           .number("airspeed_rate_mps2", "m/s2", of(&P::airspeed_rate_mps2), kPositive,
@@ -107,7 +109,7 @@ const ParameterTable<GivenParams>& given_table() {
                   "a vehicle that is in the air already starts on the plan's first leg if that is "
                   "nearer than this, else flies to its first waypoint")
           .number("loiter_radius_m", "m", &G::loiter_radius_m, kPositive,
-                  "of circles; default 1.5 times that of a turn")
+                  "radius of circles; default 1.5 times the turn radius")
           .choice("loiter_side", of(&P::loiter_side), {{"left", 1.0}, {"right", -1.0}},
                   "direction of circles")
           .number("loiter_s", "s", of(&P::loiter_s), kPositive,

@@ -56,8 +56,7 @@ constexpr ParameterRange between(double min, double max) {
   return {min, max, false};
 }
 /// min < value <= max
-constexpr ParameterRange above(double min,
-                               double max = std::numeric_limits<double>::infinity()) {
+constexpr ParameterRange above(double min, double max = std::numeric_limits<double>::infinity()) {
   return {min, max, true};
 }
 
@@ -240,25 +239,24 @@ inline constexpr Access kGroup = {
 
 /// T: std::vector of structs
 template <class T>
-inline constexpr Access kGroups = {
-    [](const Row& row, const Value& value, void* member) {
-      T& list = *static_cast<T*>(member);
-      list.clear();
-      for (const ParameterSet& group : groups_of(value)) {
-        rows_of(row).read(group, &list.emplace_back(), "");
-      }
-    },
-    [](const Row& row, const void* member) -> std::optional<Value> {
-      std::vector<ParameterSet> groups;
-      for (const auto& item : *static_cast<const T*>(member)) {
-        groups.push_back(rows_of(row).write(&item, row.spec.name));
-      }
-      return groups;
-    },
-    [](const void* member, std::size_t i) -> const void* {
-      const T& list = *static_cast<const T*>(member);
-      return i < list.size() ? &list[i] : nullptr;
-    }};
+inline constexpr Access kGroups = {[](const Row& row, const Value& value, void* member) {
+                                     T& list = *static_cast<T*>(member);
+                                     list.clear();
+                                     for (const ParameterSet& group : groups_of(value)) {
+                                       rows_of(row).read(group, &list.emplace_back(), "");
+                                     }
+                                   },
+                                   [](const Row& row, const void* member) -> std::optional<Value> {
+                                     std::vector<ParameterSet> groups;
+                                     for (const auto& item : *static_cast<const T*>(member)) {
+                                       groups.push_back(rows_of(row).write(&item, row.spec.name));
+                                     }
+                                     return groups;
+                                   },
+                                   [](const void* member, std::size_t i) -> const void* {
+                                     const T& list = *static_cast<const T*>(member);
+                                     return i < list.size() ? &list[i] : nullptr;
+                                   }};
 
 }  // namespace parameter_rows
 
@@ -330,7 +328,7 @@ class ParameterTable {
   }
   /// The same with a shared list of choices, e.g. a std::array<Choice<T>, N>.
   template <class F, class Choices>
-    requires requires(const Choices& c) { c.begin(); }
+  requires requires(const Choices& c) { c.begin(); }
   ParameterTable& choice(std::string name, F member, const Choices& choices, std::string words) {
     return choose<Type<decltype(at(member))>>(std::move(name), member, choices, std::move(words));
   }
@@ -362,9 +360,8 @@ class ParameterTable {
   template <class F, class... More>
   ParameterTable& members(std::string name, std::string unit, const ParameterRange& range,
                           std::string words, F first, More... more) {
-    parameter_rows::Row row =
-        parameter_rows::make_row(std::move(name), ParameterKind::kNumberList, std::move(unit),
-                                 std::move(words), range, {});
+    parameter_rows::Row row = parameter_rows::make_row(
+        std::move(name), ParameterKind::kNumberList, std::move(unit), std::move(words), range, {});
     double& place = at(first);
     row.spec.size = 1 + static_cast<int>(sizeof...(More));
     const std::ptrdiff_t begin = offset_of(place);
@@ -415,6 +412,11 @@ class ParameterTable {
   /// Lets the last row's path name a file that does not exist.
   ParameterTable& may_be_missing() {
     rows_.last().spec.must_exist = false;
+    return *this;
+  }
+  /// Accepts an earlier key for the last row in files; the loader warns.
+  ParameterTable& formerly(std::string name) {
+    rows_.last().spec.former_name = std::move(name);
     return *this;
   }
   /// Change the description or range of an included row.
@@ -508,8 +510,7 @@ class ParameterTable {
   ParameterTable& add_group(std::string name, ParameterKind kind, std::string words, const T& place,
                             const parameter_rows::Access* access,
                             const parameter_rows::Rows& fields) {
-    parameter_rows::Row row =
-        parameter_rows::make_row(std::move(name), kind, "", std::move(words));
+    parameter_rows::Row row = parameter_rows::make_row(std::move(name), kind, "", std::move(words));
     row.spec.fields = fields.specs();
     row.detail = std::make_shared<const parameter_rows::Rows>(fields);
     return add(std::move(row), place, access);

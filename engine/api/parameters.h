@@ -46,6 +46,7 @@ struct ParameterSpec {
   int size = 0;                       ///< for number lists: required length; 0 = any
   std::vector<ParameterSpec> fields;  ///< for groups
   bool must_exist = true;             ///< for paths: the loader rejects a missing file or folder
+  std::string former_name = {};       ///< earlier key; files may still use it, with a warning
 };
 
 /// Values that passed the checks of their specs. Reading a name or type that the spec does not have

@@ -17,7 +17,8 @@ const ParameterTable<WindGust>& gust_table() {
       ParameterTable<P>()
           .number("at_s", "s", &P::start_s, between(0.0, 1e7), "start of the pulse")
           .required()
-          .number("duration_s", "s", &P::duration_s, kPositive, "from calm to calm")
+          .number("duration_s", "s", &P::duration_s, kPositive,
+                  "duration of a gust, from calm to calm")
           .number("amplitude_mps", "m/s", &P::amplitude_mps, between(0.0, kStorm_mps),
                   "horizontal, in the middle of the pulse")
           .required()
@@ -47,7 +48,8 @@ const ParameterTable<GustStatistics>& random_gust_table() {
           .required()
           .number("amplitude_mps", "m/s", &P::amplitude_mps, between(0.0, kStorm_mps),
                   "horizontal, in the middle of the pulse; from a random direction")
-          .number("duration_s", "s", &P::duration_s, kPositive, "from calm to calm")
+          .number("duration_s", "s", &P::duration_s, kPositive,
+                  "duration of a gust, from calm to calm")
           .rule(judge_gusts);
   return table;
 }

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 class ScenarioReader {
  public:
   ScenarioReader(const io::YamlNode& root, const io::SourceMark& file, const Registry& registry)
-      : root_(root), file_(file), context_{registry, root, Duration{0}} {}
+      : root_(root), file_(file), context_{registry, root, Duration{0}, &scenario_.warnings} {}
 
   Scenario read(const std::string& default_name) {
     check_version();

@@ -199,7 +199,8 @@ struct Scenario {
   RecordConfig record;
   PicturesConfig pictures;
   std::vector<std::filesystem::path> plugins;
-  std::string resolved_yaml;  ///< includes and overrides applied, defaults written out
+  std::string resolved_yaml;               ///< includes and overrides applied, defaults written out
+  std::vector<std::string> warnings = {};  ///< "file.yaml:12: ..." about former names of keys
 };
 
 /// Value for a key path. Errors name the value's own mark; relative paths in it start at its own

@@ -214,6 +214,34 @@ void check_part_signals(const VehicleConfig& vehicle, const std::string& path,
   }
 }
 
+/// Replaces former keys of parameters by the present ones, in groups too, and adds a warning each.
+void use_present_names(io::YamlNode& mapping, const std::string& path,
+                       const std::vector<ParameterSpec>& specs, const ReadContext& context) {
+  for (const ParameterSpec& spec : specs) {
+    for (io::YamlEntry& entry : mapping.entries) {
+      if (spec.former_name.empty() || entry.key != spec.former_name) continue;
+      const std::string key_path = join_path(path, entry.key);
+      if (mapping.has(spec.name)) {
+        io::fail_at(entry.mark, fmt::format("{} is the former name of {}, which is given too",
+                                            key_path, spec.name));
+      }
+      if (context.warnings) {
+        context.warnings->push_back(fmt::format("{}: {}: this key is now named {}",
+                                                entry.mark.text(), key_path, spec.name));
+      }
+      entry.key = spec.name;
+    }
+    io::YamlNode* given = spec.fields.empty() ? nullptr : mapping.find(spec.name);
+    if (!given) continue;
+    const std::string group_path = join_path(path, spec.name);
+    if (given->is_mapping()) use_present_names(*given, group_path, spec.fields, context);
+    for (std::size_t i = 0; i < given->items.size(); ++i) {
+      use_present_names(given->items[i], fmt::format("{}[{}]", group_path, i), spec.fields,
+                        context);
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> fixed_signals(const PartSpec& spec) {
@@ -225,14 +253,16 @@ std::vector<std::string> fixed_signals(const PartSpec& spec) {
   return signals;
 }
 
-ReadPart read_part(const io::YamlEntry& entry, const std::string& path, PartKind kind,
+ReadPart read_part(const io::YamlEntry& given, const std::string& path, PartKind kind,
                    const ReadContext& context, const std::vector<std::string>& extra_keys) {
+  io::YamlEntry entry = given;
   const std::vector<std::string> types = context.registry.names(kind);
   io::YamlNode located = entry.value;
   if (located.is_null()) located.mark = entry.mark;
   require_mapping(located, path,
                   fmt::format("{{type: {}}}", types.empty() ? "..." : types.front()));
   const PartSpec& spec = read_type(entry, path, kind, context);
+  use_present_names(entry.value, path, spec.parameters, context);
 
   std::vector<ParameterSpec> fields = spec.parameters;
   std::vector<std::string> known = names_of(fields);

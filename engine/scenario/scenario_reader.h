@@ -20,7 +20,8 @@ struct ReadContext {
   const Registry& registry;
   const io::YamlNode&
       root;  ///< the whole merged scenario, searched to find where a misplaced key belongs
-  Duration physics_step;  ///< periods must be multiples of it
+  Duration physics_step;                         ///< periods must be multiples of it
+  std::vector<std::string>* warnings = nullptr;  ///< of the scenario, may be null
 };
 
 struct ReadParameters {

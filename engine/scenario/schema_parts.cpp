@@ -127,6 +127,10 @@ Json properties_of(const std::vector<ParameterSpec>& fields, bool partial,
     properties[field.name] = partial && !definition.empty()
                                  ? partial_parameter_schema(field, definition)
                                  : parameter_schema(field, partial);
+    if (field.former_name.empty()) continue;
+    Json& former = properties[field.former_name] = properties[field.name];
+    former["deprecated"] = true;
+    former["description"] = "former name of " + field.name;
   }
   return properties;
 }

@@ -64,8 +64,9 @@ const ParameterTable<LidarParams>& lidar_table() {
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .number("field_of_view_deg", "deg", &P::field_of_view_deg, between(0.0, 360.0),
-                  "between the first and the last beam")
-          .number("angle_step_deg", "deg", &P::angle_step_deg, kPositive, "between beams")
+                  "angle between the first and the last beam")
+          .number("angle_step_deg", "deg", &P::angle_step_deg, kPositive,
+                  "angle between neighbouring beams")
           .number("min_range_m", "m", &P::min_range_m, above(0.0, 1e4),
                   "shortest distance it reports")
           .number("max_range_m", "m", &P::max_range_m, above(0.0, 1e4),

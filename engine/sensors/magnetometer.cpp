@@ -39,7 +39,7 @@ const ParameterTable<MagnetometerParams>& magnetometer_table() {
                   "white noise of a reading, each axis")
           .number("resolution_nT", "nT", &P::resolution_nT, between(0.0, 1e6),
                   "step of the reading; 0: none")
-          .number("range_uT", "uT", &P::range_uT, kPositive, "saturation")
+          .number("range_uT", "uT", &P::range_uT, kPositive, "limit at which readings saturate")
           .numbers("hard_iron_uT", "uT", &P::hard_iron_uT, kAnyNumber,
                    "constant field of the vehicle in S, x, y, z")
           .number("hard_iron_std_uT", "uT", &P::hard_iron_std_uT, between(0.0, 1e3),

@@ -36,7 +36,8 @@ ParameterTable<TriadFigures> make_triad_table(const TriadNames& n) {
       .numbers(n.name + "_misalignments_deg", "deg", &P::misalignments_rad, kAnyNumber,
                "x towards y and z, y towards x and z, z towards x and y, added to the drawn ones",
                6, kDegrees)
-      .number(n.name + "_range_" + n.unit_key, n.unit, &P::range_u, kPositive, "saturation", n.si)
+      .number(n.name + "_range_" + n.unit_key, n.unit, &P::range_u, kPositive,
+              "limit at which readings saturate", n.si)
       .number(n.name + "_resolution_" + n.unit_key, n.unit, &P::resolution_u, between(0.0, 100.0),
               "step of the reading; 0: none", n.si);
   return table;
@@ -70,9 +71,8 @@ Triad::Triad(const TriadNames& names, const TriadFigures& figures, const PartCon
   for (int i = 0; i < 3; ++i) {
     bias_u_[i] = figures_.turn_on_bias_std_u * device.normal();
     for (int j = 0; j < 3; ++j) {
-      gain_(i, j) +=
-          i == j ? figures_.scale_errors[i] + figures_.scale_error_std * device.normal()
-                 : misalignments(i, j) + figures_.misalignment_std_rad * device.normal();
+      gain_(i, j) += i == j ? figures_.scale_errors[i] + figures_.scale_error_std * device.normal()
+                            : misalignments(i, j) + figures_.misalignment_std_rad * device.normal();
     }
     instability_[i] = BiasInstability(process_std, context.period.s());
     instability_[i].start(bias_random_);

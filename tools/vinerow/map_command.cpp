@@ -247,7 +247,7 @@ void add_map_command(CLI::App& app, int& exit_status) {
   a.method = add_table_flags(*command, mapping::cloud_map_job_table().specs(),
                              {.without = {"boundary", "numbering"},
                               .names = {{"row_spacing_m", "--spacing"},
-                                        {"least_row_length_m", "--row-length"},
+                                        {"min_row_length_m", "--row-length"},
                                         {"occupancy_cell_m", "--cell"}},
                               .group = "Method",
                               .general = {"crs", "thin"}});

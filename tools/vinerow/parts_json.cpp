@@ -39,6 +39,7 @@ PartJson parameters_json(const std::vector<ParameterSpec>& specs) {
     PartJson json = {{"name", spec.name}, {"kind", word_of(spec.kind)}, {"unit", spec.unit}};
     json["description"] = spec.description;
     json["required"] = spec.required;
+    if (!spec.former_name.empty()) json["former_name"] = spec.former_name;
     std::visit(
         [&]<class T>(const T& value) {
           if constexpr (!std::is_same_v<T, std::monostate>) json["default"] = value;

@@ -100,6 +100,9 @@ std::string type_text() {
 void add_options(const CLI::App& command, std::string& page) {
   std::string rows;
   for (const CLI::Option* option : command.get_options()) {
+    // Hidden options have no group; the help option of the program stands for that of each command.
+    const bool is_repeated = option == command.get_help_ptr() && command.get_parent();
+    if (option->get_group().empty() || is_repeated) continue;
     const std::string name =
         option->get_positional() ? option->get_name(true) : option->get_name(false, true);
     const std::string value = option->get_items_expected_max() > 0 ? option->get_type_name() : "";

@@ -56,7 +56,12 @@ scenario::Scenario load(const ScenarioArguments& arguments, Registry& registry) 
   registry = make_registry(arguments.plugins);
   for (const auto& plugin : scenario::load_plugin_list(arguments.file, arguments.overrides))
     load_plugin(plugin, registry);
-  return scenario::load_scenario(arguments.file, registry, arguments.overrides);
+  scenario::Scenario scenario =
+      scenario::load_scenario(arguments.file, registry, arguments.overrides);
+  for (const std::string& warning : scenario.warnings) {
+    fmt::print(stderr, "vinerow: warning: {}\n", warning);
+  }
+  return scenario;
 }
 
 }  // namespace vinerow::tools

@@ -37,7 +37,7 @@ const ParameterTable<FixedWingFault>& wing_fault_table() {
                    {"battery_empty", F::Kind::kBatteryEmpty}},
                   "what fails")
           .required()
-          .number("at_s", "s", &F::at_s, between(0.0, 1e9), "when")
+          .number("at_s", "s", &F::at_s, between(0.0, 1e9), "time of the fault")
           .required()
           .choice("elevon", &F::left, {{"left", true}, {"right", false}},
                   "elevon that stays at its present deflection");
@@ -55,13 +55,14 @@ const ParameterTable<LaunchParams>& launch_table() {
                   "thrown, pushed along a rail, or flying from the start")
           .number("launch_height_m", "m", &P::height_m, kPositive,
                   "centre of mass above the ground before the push")
-          .degrees("launch_elevation_deg", &P::elevation_rad, between(-10.0, 80.0), "of the push")
+          .degrees("launch_elevation_deg", &P::elevation_rad, between(-10.0, 80.0),
+                   "elevation of the launch track")
           .degrees("launch_incidence_deg", &P::incidence_rad, between(-20.0, 20.0),
-                   "of the body above the push")
+                   "pitch of the body relative to the launch track")
           .number("launch_length_m", "m", &P::length_m, kPositive,
-                  "of the push, evenly accelerated")
+                  "length of the launch track; the acceleration is constant")
           .number("launch_speed_mps", "m/s", &P::speed_mps, kPositive,
-                  "at the end of the push, over ground")
+                  "ground speed at the end of the launch track")
           .number("launch_throttle", "", &P::throttle, between(0.0, 0.99),
                   "throttle command above which the push starts")
           .number("start_height_m", "m", &P::start_height_m, kPositive,
@@ -77,14 +78,17 @@ const ParameterTable<AirframeShape>& airframe_table() {
   using P = AirframeShape;
   static const ParameterTable<P> table =
       ParameterTable<P>()
-          .number("root_chord_m", "m", &P::root_chord_m, kPositive, "of mesh and collision shape")
-          .number("tip_chord_m", "m", &P::tip_chord_m, kPositive, "of mesh and collision shape")
-          .degrees("sweep_deg", &P::sweep_rad, between(-45.0, 70.0), "of the leading edge")
-          .degrees("dihedral_deg", &P::dihedral_rad, between(-20.0, 20.0), "as drawn")
+          .number("root_chord_m", "m", &P::root_chord_m, kPositive,
+                  "chord at the root, of mesh and collision shape")
+          .number("tip_chord_m", "m", &P::tip_chord_m, kPositive,
+                  "chord at the tip, of mesh and collision shape")
+          .degrees("sweep_deg", &P::sweep_rad, between(-45.0, 70.0), "sweep of the leading edge")
+          .degrees("dihedral_deg", &P::dihedral_rad, between(-20.0, 20.0),
+                   "dihedral angle in pictures")
           .number("leading_edge_m", "m", &P::leading_edge_m, between(-10.0, 10.0),
                   "root's leading edge ahead of the centre of mass")
           .number("fin_height_m", "m", &P::fin_height_m, between(0.01, 10.0),
-                  "of the fins at the tips")
+                  "height of the fins at the wing tips")
           .number("belly_height_m", "m", &P::belly_m, kPositive,
                   "height of the centre of mass when it rests on the ground");
   return table;
@@ -94,14 +98,15 @@ const ParameterTable<FixedWingParams>& fixed_wing_table() {
   using P = FixedWingParams;
   static const ParameterTable<P> table =
       ParameterTable<P>()
-          .number("mass_kg", "kg", &P::mass_kg, kPositive, "everything that flies")
+          .number("mass_kg", "kg", &P::mass_kg, kPositive, "take-off mass")
           .numbers("inertia_kgm2", "kg m2", &P::inertia_kgm2, kPositive,
                    "Jx, Jy, Jz about the body's axes")
           .number("inertia_xz_kgm2", "kg m2", &P::inertia_xz_kgm2, between(-1e6, 1e6),
                   "Jxz, integral of x z dm with z down")
           .include(&P::wing, wing_table())
           .include(&P::propeller, propeller_table())
-          .degrees("elevon_limit_deg", &P::elevon_limit_rad, between(1.0, 60.0), "either side")
+          .degrees("elevon_limit_deg", &P::elevon_limit_rad, between(1.0, 60.0),
+                   "maximum deflection to either side")
           .number("elevon_lag_s", "s", &P::elevon_lag_s, between(0.0, 10.0),
                   "time constant of the servos")
           .number("elevon_rate_degps", "deg/s", &P::elevon_rate_radps, between(0.0, 1e5),
@@ -110,8 +115,10 @@ const ParameterTable<FixedWingParams>& fixed_wing_table() {
           .reword("electronics_W", "power drawn by autopilot, servos, camera and radio")
           .number("cruise_speed_mps", "m/s", &P::cruise_speed_mps, kPositive,
                   "airspeed, for controllers")
-          .number("max_speed_mps", "m/s", &P::max_speed_mps, kPositive, "for controllers")
-          .degrees("max_bank_deg", &P::max_bank_rad, between(1.0, 80.0), "for controllers")
+          .number("max_speed_mps", "m/s", &P::max_speed_mps, kPositive,
+                  "maximum speed that controllers command")
+          .degrees("max_bank_deg", &P::max_bank_rad, between(1.0, 80.0),
+                   "maximum bank that controllers command")
           .number("landing_sink_limit_mps", "m/s", &P::landing_sink_limit_mps, kPositive,
                   "meeting the ground faster than this, along its normal, is a crash")
           .degrees("landing_tilt_limit_deg", &P::landing_tilt_limit_rad, between(1.0, 90.0),

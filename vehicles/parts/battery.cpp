@@ -14,7 +14,8 @@ const ParameterTable<BatteryParams>& battery_table() {
   using P = BatteryParams;
   static const ParameterTable<P> table =
       ParameterTable<P>()
-          .number("battery_capacity_Wh", "Wh", &P::capacity_Wh, kPositive, "full charge")
+          .number("battery_capacity_Wh", "Wh", &P::capacity_Wh, kPositive,
+                  "energy of a full charge")
           .number("electronics_W", "W", &P::electronics_W, between(0.0, 1e5),
                   "power drawn by computers, sensors and radio")
           .number("initial_charge", "", &P::initial_charge, between(0.0, 1.0),

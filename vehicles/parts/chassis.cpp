@@ -18,7 +18,8 @@ const ParameterTable<ChassisParams>& chassis_table() {
           .number("wheel_base_m", "m", &P::wheel_base_m, kPositive, "front to rear axle")
           .number("track_m", "m", &P::track_m, kPositive, "left to right wheel centre")
           .number("wheel_radius_m", "m", &P::wheel_radius_m, kPositive, "rolling radius")
-          .number("tyre_width_m", "m", &P::tyre_width_m, kPositive, "for the picture and the hull")
+          .number("tyre_width_m", "m", &P::tyre_width_m, kPositive,
+                  "width of the tyre, in pictures and in the hull")
           .number("wheel_speed_limit_radps", "rad/s", &P::wheel_speed_limit_radps, kPositive,
                   "largest wheel speed command in both directions")
           .number("mass_kg", "kg", &P::mass_kg, kPositive, "wheels included")

@@ -23,9 +23,9 @@ const ParameterTable<LandingFootParams>& landing_foot_table() {
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .number("gear_stiffness_N_per_m", "N/m", &P::stiffness_N_per_m, kPositive,
-                  "of a leg with its foot, along and across")
+                  "stiffness of a leg with its foot, along and across")
           .number("gear_damping_Ns_per_m", "N s/m", &P::damping_Ns_per_m, between(0.0, 1e5),
-                  "of a leg with its foot")
+                  "damping of a leg with its foot")
           .number("gear_friction", "", &P::friction, between(0.0, 10.0),
                   "Coulomb coefficient of feet on ground");
   return table;

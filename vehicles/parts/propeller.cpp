@@ -20,7 +20,8 @@ const ParameterTable<PropellerParams>& propeller_table() {
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .number("propeller_area_m2", "m2", &P::area_m2, kPositive, "S_p, area of the disc")
-          .number("propeller_coefficient", "", &P::coefficient, between(0.0, 2.0), "C_p")
+          .number("propeller_coefficient", "", &P::coefficient, between(0.0, 2.0),
+                  "C_p: propeller coefficient")
           .number("propeller_speed_mps", "m/s", &P::speed_mps, kPositive,
                   "k, speed of the air behind the disc at full throttle")
           .number("propeller_windmill", "", &P::windmill, between(0.0, 1.0),

@@ -25,7 +25,7 @@ const ParameterTable<RotorParams>& rotor_table() {
           .number("rotor_fall_lag_s", "s", &P::fall_lag_s, between(0.0, 10.0),
                   "time constant of a rotor that slows down")
           .number("rotor_inertia_kgm2", "kg m2", &P::inertia_kgm2, between(0.0, 1.0),
-                  "of blades, hub and motor bell about the axis");
+                  "moment of inertia of blades, hub and motor bell about the axis");
   return table;
 }
 

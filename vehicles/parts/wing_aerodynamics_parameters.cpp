@@ -15,13 +15,14 @@ const ParameterTable<WingParams>& wing_table() {
       ParameterTable<P>()
           .number("wing_area_m2", "m2", &P::area_m2, kPositive, "reference area")
           .number("wing_span_m", "m", &P::span_m, kPositive,
-                  "from tip to tip, reference of roll and yaw")
+                  "span from tip to tip; reference length of roll and yaw moments")
           .number("wing_chord_m", "m", &P::chord_m, kPositive,
                   "mean aerodynamic chord, reference of pitch")
           .boolean("stall", &P::stall, "true: lift collapses beyond stall_angle_deg")
           .degrees("stall_angle_deg", &P::stall_angle_rad, between(1.0, 80.0),
                    "angle of attack at which half of the flow has separated, either side")
-          .number("lift_0", "", &P::lift_0, between(-2.0, 2.0), "C_L0")
+          .number("lift_0", "", &P::lift_0, between(-2.0, 2.0),
+                  "C_L0: lift coefficient at zero angle of attack")
           .number("lift_alpha", "1/rad", &P::lift_alpha, between(0.0, 10.0),
                   "C_La, lift of the angle of attack")
           .number("lift_rate", "1/rad", &P::lift_rate, between(-50.0, 50.0),

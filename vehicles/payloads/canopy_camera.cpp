@@ -54,7 +54,7 @@ const ParameterTable<CanopyCameraParams>& canopy_camera_table() {
                    "heading of each camera relative to the vehicle's, positive to the left", 0,
                    kDegrees)
           .degrees("pitch_deg", &P::pitch_rad, between(-90.0, 90.0),
-                   "of the optical axes, positive looks down")
+                   "pitch of the optical axes; positive looks down")
           .boolean("stabilised", &P::stabilised,
                    "a gimbal takes the vehicle's roll and pitch out of the pictures")
           .degrees("fov_horizontal_deg", &P::fov_horizontal_rad, between(1.0, 170.0),

@@ -90,8 +90,9 @@ const ParameterTable<SprayerSettings>& sprayer_table() {
                   "sections open beside a row of the map; legs: on the plan's legs only")
           .number("row_reach_m", "m", of(&P::row_reach_m), kPositive,
                   "rows nearer to the boom's middle than this are sprayed")
-          .degrees("most_angle_deg", of(&P::max_angle_rad), between(1.0, 89.0),
+          .degrees("max_angle_deg", of(&P::max_angle_rad), between(1.0, 89.0),
                    "largest angle between heading and row at which sections open")
+          .formerly("most_angle_deg")
           .number("beyond_end_m", "m", of(&P::beyond_end_m), between(-10.0, 10.0),
                   "sections stay open this far beyond a row's end; negative: close before")
           .number("min_speed_mps", "m/s", of(&P::min_speed_mps), between(0.0, 10.0),

@@ -48,7 +48,7 @@ const ParameterTable<QuadrotorFault>& fault_table() {
                    {"battery_empty", F::Kind::kBatteryEmpty}},
                   "what fails")
           .required()
-          .number("at_s", "s", &F::at_s, between(0.0, 1e9), "when")
+          .number("at_s", "s", &F::at_s, between(0.0, 1e9), "time of the fault")
           .required()
           .integer(
               "rotor", &F::rotor, between(1, kRotors),
@@ -70,17 +70,17 @@ const ParameterTable<QuadrotorParams>& quadrotor_table() {
           .choice("layout", &P::layout,
                   {{"x", QuadrotorLayout::kX}, {"plus", QuadrotorLayout::kPlus}},
                   "two rotors ahead, or one")
-          .number("mass_kg", "kg", &P::mass_kg, kPositive, "everything that flies")
+          .number("mass_kg", "kg", &P::mass_kg, kPositive, "take-off mass")
           .numbers("inertia_kgm2", "kg m2", &P::inertia_kgm2, kPositive,
                    "moments about the body's axes")
-          .number("arm_m", "m", &P::arm_m, kPositive, "from the middle to a rotor's hub")
+          .number("arm_m", "m", &P::arm_m, kPositive, "distance from the centre to a rotor's hub")
           .number("rotor_radius_m", "m", &P::rotor_radius_m, kPositive, "length of a blade")
           .number("rotor_height_m", "m", &P::rotor_height_m, between(0.0, 1.0),
                   "rotors' plane above the centre of mass")
           .number("stand_height_m", "m", &P::stand_height_m, kPositive,
                   "centre of mass above level ground, standing")
           .number("gear_radius_m", "m", &P::gear_radius_m, kPositive,
-                  "from the middle to a foot of the landing gear")
+                  "distance from the centre to a foot of the landing gear")
           .include(&P::foot, landing_foot_table())
           .include(&P::rotor, rotor_table())
           .number("rotor_drag_Ns_per_m", "N s/m", &P::rotor_drag_Ns_per_m, between(0.0, 1e3),
@@ -105,9 +105,10 @@ const ParameterTable<QuadrotorParams>& quadrotor_table() {
                    "touching the ground tilted more than this is a crash")
           .degrees("max_tilt_deg", &P::max_tilt_rad, between(1.0, 80.0),
                    "tilt in flight, for controllers")
-          .number("max_speed_mps", "m/s", &P::max_speed_mps, kPositive, "for controllers")
+          .number("max_speed_mps", "m/s", &P::max_speed_mps, kPositive,
+                  "maximum speed that controllers command")
           .number("min_turning_radius_m", "m", &P::min_turning_radius_m, between(0.0, 1e3),
-                  "for planners")
+                  "minimum turning radius that planners use")
           .groups("faults", &P::faults, fault_table(), "faults during the flight")
           .rule(find_fault_in_shape)
           .rule(find_fault_in_inertia);

@@ -51,27 +51,31 @@ const ParameterTable<UrdfRoverParams>& urdf_rover_table() {
           .texts("right_wheel_joints", inside(&P::options, &Options::right_joints),
                  "joints of the right wheels")
           .texts("steering_joints", inside(&P::options, &Options::steering_joints),
-                 "steering joints of the front wheels, or of all four; without the list: joints that carry a wheel and turn about the vertical through its hub")
+                 "steering joints of the front wheels, or of all four; without the list: joints "
+                 "that carry a wheel and turn about the vertical through its hub")
           .degrees("max_steer_deg", &P::max_steer_rad, between(1.0, 60.0),
-                   "of a steered wheel to each side; default: the steering joints' limits, at most 60")
+                   "maximum steering angle to each side; default: the steering joints' limits, at "
+                   "most 60")
           .include(&P::servo, steering_servo_table())
-          .choice("driven_wheels", &P::driven,
-                  {{"auto", DrivenWheels::kAuto},
-                   {"all", DrivenWheels::kAll},
-                   {"rear", DrivenWheels::kRear}},
-                  "wheels with a motor; auto: the rear ones if only the front wheels steer, else all")
+          .choice(
+              "driven_wheels", &P::driven,
+              {{"auto", DrivenWheels::kAuto},
+               {"all", DrivenWheels::kAll},
+               {"rear", DrivenWheels::kRear}},
+              "wheels with a motor; auto: the rear ones if only the front wheels steer, else all")
           .number("wheel_radius_m", "m", inside(&P::options, &Options::wheel_radius_m), kPositive,
                   "instead of the radius of the wheel's collision shape or mesh")
-          .number("max_speed_mps", "m/s", &P::max_speed_mps, kPositive, "for controllers")
+          .number("max_speed_mps", "m/s", &P::max_speed_mps, kPositive,
+                  "maximum speed that controllers command")
           .number("min_turning_radius_m", "m", &P::min_turning_radius_m, between(0.0, 1e3),
-                  "for planners and controllers; with steered axles at least their own turning "
-                  "radius")
+                  "minimum turning radius that planners and controllers use; with steered axles at "
+                  "least that of the axles")
           .number("wheel_speed_limit_radps", "rad/s", &P::wheel_speed_limit_radps, kPositive,
                   "largest wheel speed command in both directions")
           .number("static_deflection_m", "m", &P::static_deflection_m, kPositive,
-                  "of tyres and suspension under the robot's weight")
+                  "deflection of tyres and suspension under the robot's weight")
           .number("damping_ratio", "", &P::damping_ratio, between(0.0, 5.0),
-                  "of heave on the wheels")
+                  "damping ratio of heave on the wheels")
           .integer("wheel_probes", &P::wheel_probes, between(1, 3),
                    "ground rays per wheel and step on smooth ground: 1 or 3")
           .include(&P::motor, motor_table())
@@ -103,8 +107,7 @@ UrdfRoverModel read_model(const UrdfRoverParams& params, FileShelf* shelf) {
                      fmt::join(params.options.right_joints, ","),
                      fmt::join(params.options.steering_joints, ","),
                      params.options.wheel_radius_m.value_or(0.0));
-  return *keep<UrdfRoverModel>(shelf, key,
-                               [&] { return read_urdf_rover(*urdf, params.options); });
+  return *keep<UrdfRoverModel>(shelf, key, [&] { return read_urdf_rover(*urdf, params.options); });
 }
 
 /// Places of the wheels that have a motor. @throws ConfigError
@@ -134,8 +137,7 @@ std::vector<std::size_t> find_driven(const UrdfRoverParams& p, const UrdfRoverMo
 }
 
 WheeledPlatformParams platform_params(const UrdfRoverParams& p, const UrdfRoverModel& model,
-                                      const std::vector<std::size_t>& driven,
-                                      double gravity_mps2) {
+                                      const std::vector<std::size_t>& driven, double gravity_mps2) {
   std::vector<Eigen::Vector3d> hubs;
   for (const UrdfWheel& wheel : model.wheels) hubs.push_back(wheel.hub_B);
   const double weight_N = model.mass_kg * gravity_mps2;
@@ -200,7 +202,8 @@ PartSpec urdf_rover_spec() {
   PartSpec spec;
   spec.name = "urdf_rover";
   spec.description =
-      "Wheeled robot from a URDF file, with wheel and tyre forces and the file's own masses: skid steering, Ackermann steering, or four steered wheels";
+      "Wheeled robot from a URDF file, with wheel and tyre forces and the file's own masses: skid "
+      "steering, Ackermann steering, or four steered wheels";
   spec.writes = {"wheels", "battery"};
   spec.parameters = urdf_rover_table().specs();
   return spec;
@@ -224,8 +227,7 @@ void UrdfRover::describe(const UrdfRoverParams& params) {
   if (model_.steering) describe_steering(params);
   for (const std::size_t i : driven_wheels_) {
     description_.actuators.push_back({fmt::format("wheel_{}_speed_radps", model_.wheels[i].name),
-                                      "rad/s",
-                                      -params.wheel_speed_limit_radps,
+                                      "rad/s", -params.wheel_speed_limit_radps,
                                       params.wheel_speed_limit_radps});
   }
   description_.mass_kg = model_.mass_kg;
@@ -266,16 +268,16 @@ void UrdfRover::describe_steering(const UrdfRoverParams& params) {
   gear.max_axle_steer_rad = std::atan(tangent);
   gear.steered_axles = steering.axles;
   for (std::size_t corner = 0; corner < kCorners.size(); ++corner) {
-    const auto at = std::find_if(
-        model_.wheels.begin(), model_.wheels.end(),
-        [&](const UrdfWheel& wheel) { return wheel.name == kCorners[corner].name; });
+    const auto at =
+        std::find_if(model_.wheels.begin(), model_.wheels.end(),
+                     [&](const UrdfWheel& wheel) { return wheel.name == kCorners[corner].name; });
     gear.wheels[corner] = static_cast<std::size_t>(at - model_.wheels.begin());
   }
   gear.knuckles = model_.knuckles;
   build_steering(std::move(gear));
   // Of B: it stands beside the fixed rear axle, or between two axles that steer alike.
-  const double behind_m = steering.axles == 1 ? steering.rear_m
-                                              : 0.5 * (steering.rear_m - steering.front_m);
+  const double behind_m =
+      steering.axles == 1 ? steering.rear_m : 0.5 * (steering.rear_m - steering.front_m);
   description_.min_turning_radius_m =
       std::max(std::hypot(radius_m, behind_m), params.min_turning_radius_m);
 }

@@ -66,9 +66,9 @@ const ParameterTable<MeshWorldParams>& mesh_world_table() {
                    {"flat", MeshGround::kFlat}},
                   "flat height field under everything; auto: if no mesh is terrain")
           .number("ground_margin_m", "m", &P::ground_margin_m, between(0.0, 500.0),
-                  "of the flat ground beyond the objects")
+                  "width of the flat ground around the objects")
           .number("vine_spacing_m", "m", &P::vine_spacing_m, between(0.1, 100.0),
-                  "between vines of a placeholder row")
+                  "distance between vines of a placeholder row")
           .include(&P::terrain, terrain_table())
           .include(&P::planting, planting_table())
           .include(&P::origin, origin_table())

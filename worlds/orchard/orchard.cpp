@@ -57,13 +57,13 @@ const ParameterTable<OrchardParams>& orchard_table() {
                   "elements per square metre, m: the map is then the paper's "
                   "matrix, rows alone, and not the grid of occupancy_cell_m")
           .number("tree_spacing_m", "m", &P::tree_spacing_m, between(0.1, 100.0),
-                  "between trees of a row")
+                  "distance between trees of a row")
           .number("tree_height_m", "m", inside(&P::trees, &Trees::height_m), above(0.0, 60.0),
-                  "of the tallest trees")
+                  "height of the tallest trees")
           .number("crown_base_m", "m", inside(&P::trees, &Trees::crown_base_m), above(0.0, 60.0),
                   "lowest leaves above ground")
           .number("trunk_radius_m", "m", inside(&P::trees, &Trees::trunk_radius_m), above(0.0, 2.0),
-                  "of tree stems")
+                  "radius of tree stems")
           .number("leaf_cards_per_tree", "", inside(&P::trees, &Trees::leaf_cards),
                   between(20.0, 10000.0), "leaves drawn per tree at close range")
           .integer("plant_seed", inside(&P::trees, &Trees::seed), between(0, 9e15),

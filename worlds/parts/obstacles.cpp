@@ -99,11 +99,11 @@ const ParameterTable<ObstacleParams>& obstacle_table() {
           .number("y_m", "m", &P::y_m, between(-1e5, 1e5), "position north; or give alley")
           .integer("alley", &P::alley, between(0, 10000), "alley of the obstacle")
           .number("distance_m", "m", &P::distance_m, between(-1e4, 1e5),
-                  "along the alley's centre line from its first point")
+                  "distance along the alley's centre line from its first point")
           .number("lateral_m", "m", &P::lateral_m, between(-100.0, 100.0),
-                  "to the left of the alley's centre line")
+                  "offset to the left of the alley's centre line")
           .degrees("yaw_deg", &P::yaw_rad, between(-360.0, 360.0),
-                   "of the length: from east, in an alley from the alley's direction")
+                   "direction of the length, from east; in an alley from the alley's direction")
           .numbers("size_m", "m", &P::size_m, between(0.02, 100.0),
                    "length, width, height of the box")
           .boolean("mapped", &P::mapped,

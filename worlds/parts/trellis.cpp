@@ -23,14 +23,15 @@ const ParameterTable<TrellisParams>& trellis_table() {
       ParameterTable<P>()
           .boolean("posts", &P::posts, "true: rows have posts and wires")
           .number("post_spacing_m", "m", &P::post_spacing_m, between(0.1, 100.0),
-                  "between posts of a row")
+                  "distance between posts of a row")
           .number("post_height_m", "m", &P::post_height_m, above(0.0, 10.0),
-                  "of posts above ground")
+                  "height of posts above ground")
           .degrees("end_post_lean_deg", &P::end_post_lean_rad, between(0.0, 40.0),
                    "outward lean of end posts")
-          .number("trunk_radius_m", "m", &P::trunk_radius_m, above(0.0, 0.5), "of vine stems")
+          .number("trunk_radius_m", "m", &P::trunk_radius_m, above(0.0, 0.5),
+                  "radius of vine stems")
           .number("arm_height_m", "m", &P::arm_height_m, above(0.0, 10.0),
-                  "of the vines' arms and the first wire");
+                  "height of the vines' arms and of the first wire");
   return table;
 }
 

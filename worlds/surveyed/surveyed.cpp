@@ -54,7 +54,7 @@ const ParameterTable<SurveyedParams>& surveyed_table() {
           .text("row_type", &P::row_type,
                 "property `type` of the LineStrings that are rows; empty: detected")
           .number("vine_spacing_m", "m", &P::vine_spacing_m, between(0.1, 100.0),
-                  "between vines if the survey contains no vines")
+                  "distance between vines if the survey contains no vines")
           .number("headland_m", "m", &P::headland_m, between(8.0, 200.0),
                   "free ground beyond the row ends")
           .number("surroundings_m", "m", &P::surroundings_m, between(0.0, 5000.0),

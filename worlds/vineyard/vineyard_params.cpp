@@ -12,13 +12,13 @@ const ParameterTable<VineyardParams>& vineyard_table() {
           .number("row_length_m", "m", &P::row_length_m, between(1.0, 5000.0), "length of each row")
           .number("pitch_m", "m", &P::pitch_m, between(0.3, 1000.0), "distance between rows")
           .number("vine_spacing_m", "m", &P::vine_spacing_m, between(0.1, 100.0),
-                  "between vines of a row")
+                  "distance between vines of a row")
           .number("missing_vine_share", "", &P::missing_vine_share, between(0.0, 0.9),
                   "share of vines that are missing")
           .degrees("row_bearing_deg", &P::row_bearing_rad, between(-360.0, 360.0),
                    "direction of the rows, from north clockwise")
           .degrees("row_bend_deg", &P::row_bend_rad, between(-180.0, 180.0),
-                   "by which the rows turn to the left from end to end, as arcs about one "
+                   "angle by which rows turn to the left from end to end, as arcs about one "
                    "centre; 0: straight")
           .number("headland_m", "m", &P::headland_m, between(8.0, 200.0),
                   "free ground beyond the row ends")

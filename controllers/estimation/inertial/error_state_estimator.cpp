@@ -25,7 +25,6 @@ class ErrorStateEstimator final : public Estimator {
       report_.names.push_back(name);
     }
     report_.values.assign(report_.names.size(), 0.0);
-    if (!options_.old_key.empty()) news_.tell(Event::Level::kWarning, options_.old_key);
   }
 
   void connect(Ports& ports) override {

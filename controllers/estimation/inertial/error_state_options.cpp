@@ -1,7 +1,5 @@
 #include "controllers/estimation/inertial/error_state_options.h"
 
-#include <fmt/format.h>
-
 #include "engine/api/parameter_table.h"
 
 namespace vinerow::controllers {
@@ -15,7 +13,7 @@ const ParameterTable<ErrorStateOptions>& error_state_table() {
       ParameterTable<P>()
           .text("imu", &P::imu, "signal of the inertial unit")
           .text("gps", &P::gps, "signal of the satellite receiver")
-          .text("gnss", &P::gnss, "old form of gps; warns")
+          .formerly("gnss")
           .text("barometer", &P::barometer, "signal of the barometer; empty = none")
           .text("magnetometer", &P::magnetometer, "signal of the magnetometer; empty = none")
           .text("wheels", &P::wheels,
@@ -99,11 +97,6 @@ const ParameterTable<ErrorStateOptions>& error_state_table() {
           .number("standing_std_mps", "m/s", &P::standing_std_mps, kPositive,
                   "1 sigma of a stationary vehicle's speed")
           .rule([](const P& p) -> std::string {
-            return p.gnss && p.gps != P{}.gps
-                       ? "gps and its old form gnss are both given: remove gnss"
-                       : "";
-          })
-          .rule([](const P& p) -> std::string {
             return p.stationary == P::Standing::kWheels && p.wheels.empty()
                        ? "zero_velocity = wheels, but no signal is named in 'wheels'"
                        : "";
@@ -119,10 +112,6 @@ std::vector<ParameterSpec> ErrorStateOptions::parameters() {
 
 ErrorStateOptions ErrorStateOptions::read(const ParameterSet& parameters, const std::string& who) {
   ErrorStateOptions o = error_state_table().read(parameters, who + " (error_state_kalman)");
-  if (o.gnss) {
-    o.gps = *o.gnss;
-    o.old_key = fmt::format("the key gnss is old: write gps: {}", o.gps);
-  }
   if (o.start_height_std_m == 0.0) o.start_height_std_m = o.start_std_m;
   return o;
 }

@@ -1,7 +1,6 @@
 #pragma once
 /// Parameters of the estimator `error_state_kalman`.
 
-#include <optional>
 #include <string>
 
 #include "controllers/estimation/inertial/error_state_kalman.h"
@@ -14,9 +13,6 @@ struct ErrorStateOptions {
   ErrorStateKalmanParams filter;
   std::string imu = "imu", gps = "gps";                  ///< signals
   std::string barometer, magnetometer, wheels, heading;  ///< signals; empty: none
-
-  std::optional<std::string> gnss;  ///< `gps` by its old key; read() copies it to `gps`
-  std::string old_key;              ///< note about the old key; empty: none
 
   bool starts_level = false;  ///< from levelling instead of a draw about the truth
   double levelling_s = 1.0;
@@ -49,8 +45,7 @@ struct ErrorStateOptions {
   double standing_s = 0.5;
   double standing_std_mps = 0.01;
 
-  /// @throws ConfigError if zero_velocity is wheels and no wheels are named, or if gps is given by
-  /// both keys
+  /// @throws ConfigError if zero_velocity is wheels and no wheels are named
   static ErrorStateOptions read(const ParameterSet& parameters, const std::string& who);
   static std::vector<ParameterSpec> parameters();
 };

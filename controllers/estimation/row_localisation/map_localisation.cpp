@@ -86,9 +86,10 @@ const ParameterTable<MapEstimatorParams>& map_localisation_table() {
                   "limit of the innovation; fixes beyond it are rejected")
           .number("huber_sigma", "", law(&Law::huber_sigma), kPositive,
                   "innovation above which echoes weigh less")
-          .boolean("walls_tell_height", law(&Law::walls_tell_height),
+          .boolean("walls_correct_height", law(&Law::walls_correct_height),
                    "whether echoes from leaning walls correct the height; use false on maps from "
                    "point clouds, whose walls lean differently from the true ones")
+          .formerly("walls_tell_height")
           .number("false_share", "", law(&Law::false_share), between(1e-6, 0.9),
                   "share of echoes that no wall explains, for the weights of the alleys")
           .integer("bank", law(&Law::bank), between(1, 8),
@@ -113,8 +114,8 @@ MapEstimatorParams read_map_estimator_params(const ParameterSet& parameters,
 }
 
 std::vector<RangeSensorModel> make_cone_sensors(const MapEstimatorParams& params,
-                                                 const EstimatorContext& context,
-                                                 const GroundReference& ground) {
+                                                const EstimatorContext& context,
+                                                const GroundReference& ground) {
   std::vector<RangeSensorModel> sensors =
       find_range_sensors(params.ranges, context, map_localisation_name(context));
   std::erase_if(sensors, [&](const RangeSensorModel& s) { return ground.looks_down(s.name); });

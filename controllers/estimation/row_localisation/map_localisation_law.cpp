@@ -153,7 +153,7 @@ double MapLocalisationLaw::take_echo(Filter& filter, const Past& past,
     rough_m2 = spread.variance_m2;
   }
   double height_m2 = 0.0;  // variance of the echo from the height, which it must not correct
-  if (!params_.walls_tell_height) {
+  if (!params_.walls_correct_height) {
     LocalisationState::Vector up = LocalisationState::Vector::Zero();
     up[LocalisationState::kPosition + 2] = gradient.z();
     up[LocalisationState::kMap + 2] = -gradient.z();

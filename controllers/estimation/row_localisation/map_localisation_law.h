@@ -41,7 +41,7 @@ struct MapLocalisationParams {
   double max_along = 0.7;    ///< |normal . row|: facets that face more along the row are not used
   /// Whether leaning walls correct the height. If the map's walls lean differently from the true
   /// ones, all echoes have the same error, which averaging does not reduce.
-  bool walls_tell_height = true;
+  bool walls_correct_height = true;
   double max_range_m = 4.0;    ///< farther predictions are not used
   double min_speed_mps = 0.3;  ///< lower bound of the speed at which the map's error changes
   double false_share = 0.1;    ///< share of echoes that no wall explains, for the bank's weights

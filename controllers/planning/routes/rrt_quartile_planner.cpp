@@ -51,7 +51,7 @@ const ParameterTable<QuartilePlannerParams>& rrt_quartile_table() {
                   "four_wheel: both axles steer by opposite angles, curvature 2 tan(angle) "
                   "/ wheel base; two_wheel: the front axle alone, tan(angle) / wheel base")
           .degrees("steering_angle_deg", &P::steering_angle_rad, between(1.0, 60.0),
-                   "of the arcs to the left and right; default four_wheel: the "
+                   "steering angle of the arcs to the left and right; default four_wheel: from the "
                    "vehicle's turning radius, two_wheel: 30 deg (paper A)")
           .choice("heuristic", search(&Search::heuristic),
                   {{"geodesic", DistanceKind::kGeodesic}, {"euclid", DistanceKind::kEuclid}},

@@ -14,9 +14,10 @@ const ParameterTable<MissingStretch>& missing_stretch_table() {
       ParameterTable<P>()
           .integer("row", &P::row, between(0, 1e6), "number of the row")
           .required()
-          .number("from_m", "m", &P::from_m, between(-10.0, 1e5), "along the row's line")
+          .number("from_m", "m", &P::from_m, between(-10.0, 1e5),
+                  "start of the gap along the row's line")
           .required()
-          .number("to_m", "m", &P::to_m, between(-10.0, 1e5), "along the row's line")
+          .number("to_m", "m", &P::to_m, between(-10.0, 1e5), "end of the gap along the row's line")
           .required()
           .rule([](const P& p) -> std::string {
             if (p.from_m < p.to_m) return "";
@@ -32,7 +33,7 @@ const ParameterTable<RandomMissing>& random_missing_table() {
       ParameterTable<P>()
           .integer("count", &P::count, between(0, 10'000), "number of gaps")
           .required()
-          .number("length_m", "m", &P::length_m, kPositive, "of each gap");
+          .number("length_m", "m", &P::length_m, kPositive, "length of each gap");
   return table;
 }
 
@@ -44,7 +45,7 @@ const ParameterTable<RowMeshParams>& row_mesh_table() {
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .members("section_spacing_m", "m", between(0.2, 20.0),
-                   "between cross-sections, drawn evenly from the first number to the second",
+                   "distance between cross-sections, drawn evenly between the two numbers",
                    inside(&P::sections, &Sections::spacing_low_m),
                    inside(&P::sections, &Sections::spacing_high_m))
           .integer("levels", inside(&P::sections, &Sections::levels), between(2, 20),
@@ -58,9 +59,9 @@ const ParameterTable<RowMeshParams>& row_mesh_table() {
           .numbers("offset_std_m", "m", &P::offset_std_m, kNotNegative,
                    "1 sigma of a further random shift, east, north, up, which the map states")
           .number("scale", "", &P::scale, between(0.9, 1.1),
-                  "of the map about the middle of its rows")
+                  "scale of the map about the middle of its rows")
           .degrees("rotation_deg", &P::rotation_rad, between(-180.0, 180.0),
-                   "of the map about the middle of its rows, counter-clockwise")
+                   "rotation of the map about the middle of its rows, counter-clockwise")
           .boolean("move_rows", &P::move_rows,
                    "rows, alleys, parcel and occupancy grid are shifted, rotated and scaled with "
                    "the meshes; false: they stay true")

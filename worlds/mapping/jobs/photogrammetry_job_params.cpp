@@ -19,14 +19,16 @@ const ParameterTable<PhotogrammetryJobParams>& photogrammetry_job_table() {
           .integer("max_views", inside(&P::options, &Options::max_views), between(2, 1000),
                    "pictures that fix a point")
           .degrees("max_incidence_deg", inside(&P::options, &Options::max_incidence_rad),
-                   between(1.0, 89.9), "of a view off the surface's normal")
+                   between(1.0, 89.9), "maximum angle between a view and the surface normal")
           .degrees("min_baseline_deg", inside(&P::options, &Options::min_baseline_rad),
-                   between(0.0, 179.0), "widest angle between a point's rays at least")
+                   between(0.0, 179.0),
+                   "smallest accepted angle between the outermost rays of a point")
           .include(inside(&P::options, &Options::georeference), georeference_table())
           .numbers("area_m", "m", &P::area_m, kAnyNumber,
                    "x and y of each corner, east and north of the origin, instead of the "
                    "world's parcel")
-          .number("margin_m", "m", &P::margin_m, between(0.0, 1000.0), "around the area")
+          .number("margin_m", "m", &P::margin_m, between(0.0, 1000.0),
+                  "width of the margin around the area")
           .text("crs", inside(&P::file, &CloudFileOptions::crs),
                 "coordinates of the file, like EPSG:25832; default: m east, north, up of the "
                 "world's origin")

@@ -479,27 +479,6 @@ TEST(ErrorStateEstimator, LevelsWithTheHeadingOfTwoAntennas) {
   EXPECT_GT(std::abs(yaw_from_quaternion(bench.estimate.value().X_WB.q)), 2.0);
 }
 
-TEST(ErrorStateEstimator, TakesTheOldKeyOfTheReceiverAndWarns) {
-  Bench silent(at_rest());
-  silent.run(1.0);
-  EXPECT_FALSE(silent.event.has_value());
-  Bench bench(at_rest(), {{"gnss", Text("gps")}});
-  bench.run(1.0);
-  EXPECT_GT(bench.value("used_gnss_position"), 0);
-  ASSERT_TRUE(bench.event.has_value());
-  EXPECT_EQ(bench.event.sequence(), 1u);
-  EXPECT_EQ(bench.event.value().level, Event::Level::kWarning);
-  EXPECT_EQ(bench.event.value().text, "the key gnss is old: write gps: gps");
-  try {
-    Bench both(at_rest(), {{"gnss", Text("gps")}, {"gps", Text("rtk")}});
-    FAIL() << "must be refused";
-  } catch (const ConfigError& error) {
-    EXPECT_EQ(Text(error.what()),
-              "rover.estimator (error_state_kalman): gps and its old form gnss are both given: "
-              "remove gnss");
-  }
-}
-
 TEST(ErrorStateEstimator, RefusesStandingByWheelsItDoesNotRead) {
   try {
     Bench bench(at_rest(), {{"zero_velocity", Text("wheels")}});

@@ -32,11 +32,11 @@ RowMap make_leaning_map() {
 
 /// Half a minute at 1 m/s down the alley on fixes without error and echoes of the true walls.
 /// @returns estimate less truth
-Eigen::Vector3d drive(bool walls_tell_height) {
+Eigen::Vector3d drive(bool walls_correct_height) {
   const RowMap map = make_leaning_map();
   const controllers::RowMeshIndex index(map);
   controllers::MapLocalisationParams params;
-  params.walls_tell_height = walls_tell_height;
+  params.walls_correct_height = walls_correct_height;
   params.fix_slow_share = 0.5;
   const std::vector<controllers::RangeSensorModel> sensors = {
       {"left", {quaternion_from_rpy({0, 0, 0.5 * std::numbers::pi}), {0, 0, 0}}, 0.0, 1, 0.003},
@@ -77,7 +77,7 @@ double echo_variance_m2(double height_variance_m2) {
   const RowMap map = make_leaning_map();
   const controllers::RowMeshIndex index(map);
   controllers::MapLocalisationParams params;
-  params.walls_tell_height = false;
+  params.walls_correct_height = false;
   const std::vector<controllers::RangeSensorModel> sensors = {
       {"left", {quaternion_from_rpy({0, 0, 0.5 * std::numbers::pi}), {0, 0, 0}}, 0.0, 1, 0.003}};
   controllers::MapLocalisationLaw law(params, map, index, sensors);

@@ -429,10 +429,9 @@ TEST_F(MapFolder, RefusesToWriteWhatIsNotSound) {
   EXPECT_EQ(error_with([&](CloudMap& m) { m.map.terrain->heights_m[5] = NAN; }),
             "raster 'map/terrain.tif' cannot be written: the terrain has a height that is not "
             "finite");
-  EXPECT_EQ(test::config_error_of([&] {
-              save_map(test::map_of_world("vineyard"), "/proc/none/map");
-            }).substr(0, 51),
-            "folder '/proc/none/map' cannot be created for the map:");
+  const std::string error = test::config_error_of(
+      [&] { save_map(test::map_of_world("vineyard"), "/proc/none/map"); });
+  EXPECT_TRUE(error.starts_with("folder '/proc/none/map' cannot be created for the map:")) << error;
 }
 
 }  // namespace

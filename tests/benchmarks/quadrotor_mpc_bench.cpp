@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "engine/core/random.h"
-#include "tests/controllers/quadrotor_mpc/mpc_loop.h"
+#include "tests/controllers/quadrotor_mpc/mpc_flight.h"
 
 namespace vinerow::test::quadrotor_mpc_bench {
 namespace {
@@ -33,22 +33,21 @@ void upset(QuadrotorSim& sim, RandomStream& random) {
 }
 
 /// Flies until `end_s` and adds the time of each tick.
-void fly(MpcLoop& loop, double end_s, std::vector<double>& ticks_us, double& changes) {
-  const auto time = [&ticks_us](const std::function<void()>& decide) {
-    const double begin = processor_us();
-    decide();
-    ticks_us.push_back(processor_us() - begin);
-  };
+void fly(QuadrotorLoop& loop, double end_s, std::vector<double>& ticks_us, double& changes) {
   while (loop.time_s() < end_s) {
-    loop.tick(time);
-    changes += loop.mpc("qp_iterations");
+    loop.sense();
+    const double begin = processor_us();
+    loop.decide();
+    ticks_us.push_back(processor_us() - begin);
+    loop.move();
+    changes += loop.value("mpc", "qp_iterations");
   }
 }
 
 void tick_of_quadrotor_mpc(benchmark::State& state) {
   const bool is_upset = state.range(0) > 0;
   MpcSetup setup;
-  setup.physics_s = 0.005;
+  setup.physics = Duration{5'000'000};
   std::vector<double> ticks_us;
   double changes = 0.0;
   for (auto _ : state) {
@@ -56,15 +55,15 @@ void tick_of_quadrotor_mpc(benchmark::State& state) {
       setup.path = straight({0, 0, 5}, 0.3, 3.0);
       RandomStream random(1, "bench", "upset");
       for (int i = 0; i < 10; ++i) {
-        MpcLoop loop(setup);
+        QuadrotorLoop loop(setup);
         upset(loop.sim(), random);
         fly(loop, 5.0, ticks_us, changes);
       }
     } else {
       const RowsAndTurn rows = make_rows_and_turn();
       setup.path = rows.path;
-      MpcLoop loop(setup);
-      loop.sim().set_wind(gusty_side_wind(3.0, 1.0, 4.0, rows.end_s, 1));
+      QuadrotorLoop loop(setup);
+      loop.sim().set_wind(gusty_wind({0, 3, 0}, 1.0, 4.0, rows.end_s, 1, 3));
       fly(loop, rows.end_s - 1.0, ticks_us, changes);
     }
   }

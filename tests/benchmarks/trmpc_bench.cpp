@@ -12,7 +12,7 @@
 #include <ctime>
 #include <vector>
 
-#include "tests/controllers/trmpc/wing_loop.h"
+#include "tests/controllers/trmpc/wing_setup.h"
 
 namespace vinerow::test::trmpc_bench {
 namespace {
@@ -27,26 +27,27 @@ void tick_of_trmpc(benchmark::State& state) {
   const bool is_stressed = state.range(0) > 0;
   WingSetup setup;
   if (is_stressed) {
-    setup.low_m = 14.0;
-    setup.off_rad = 24.0 * M_PI / 180.0;
+    setup.higher_m = -14.0;
+    setup.turned_rad = 24.0 * M_PI / 180.0;
   }
-  if (state.range(0) == 2) setup.parameters = {{"horizon", std::int64_t{60}}};
+  if (state.range(0) == 2) setup.controller.values = {{"horizon", std::int64_t{60}}};
   std::vector<double> ticks_us;
   double setup_us = 0.0;
   for (auto _ : state) {
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
       const double begin_us = processor_us();
-      WingLoop loop(setup);
+      AircraftLoop loop(setup);
       setup_us = processor_us() - begin_us;
       GaussMarkovGust gust(seed);
       for (int k = 0; k < 240; ++k) {
-        double took_us = 0.0;
-        loop.tick(gust.next(), [&took_us](const std::function<void()>& decide) {
-          const double start_us = processor_us();
-          decide();
-          took_us = processor_us() - start_us;
-        });
-        const bool is_active = loop.tube("lon_active_rows") + loop.tube("lat_active_rows") > 0.0;
+        loop.sense();
+        const double start_us = processor_us();
+        loop.decide();
+        const double took_us = processor_us() - start_us;
+        loop.sim().set_body_gust(gust.next());
+        loop.move();
+        const bool is_active =
+            loop.value("tube", "lon_active_rows") + loop.value("tube", "lat_active_rows") > 0.0;
         if (is_active == is_stressed) ticks_us.push_back(took_us);
       }
     }

@@ -20,8 +20,8 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 class EveryAircraftController : public ::testing::TestWithParam<std::string> {
  protected:
-  AircraftLoopSetup make_setup() const {
-    AircraftLoopSetup setup;
+  AircraftSetup make_setup() const {
+    AircraftSetup setup;
     setup.controller.type = GetParam();
     return setup;
   }
@@ -43,7 +43,7 @@ double largest_deviation(const AircraftLoop& loop) {
 TEST_P(EveryAircraftController, HoldsSteadyFlightExactly) {
   // Straight on any course; climbs and turns as exactly as the table of trims is.
   for (const double course : {0.0, 1.0, kPi, -2.5}) {
-    AircraftLoopSetup setup = make_setup();
+    AircraftSetup setup = make_setup();
     setup.reference = fly_straight(course, 120.0);
     AircraftLoop loop(setup);
     loop.run_until(20.0);
@@ -55,13 +55,13 @@ TEST_P(EveryAircraftController, HoldsSteadyFlightExactly) {
   }
   for (const double bank : {-0.5, 0.6}) {
     for (const double climb : {-0.08, 0.0, 0.07}) {
-      AircraftLoopSetup setup = make_setup();
+      AircraftSetup setup = make_setup();
       setup.reference = fly_circle(0.4, 120.0, bank, climb);
       AircraftLoop loop(setup);
       double height_m = 0.0, heading_rad = 0.0;
-      loop.run_until(20.0, [&](const AircraftLoop& now) {
-        height_m = std::max(height_m, std::abs(now.deviation("h_m")));
-        heading_rad = std::max(heading_rad, std::abs(now.deviation("psi_rad")));
+      loop.run_until(20.0, [&] {
+        height_m = std::max(height_m, std::abs(loop.deviation("h_m")));
+        heading_rad = std::max(heading_rad, std::abs(loop.deviation("psi_rad")));
       });
       EXPECT_LT(height_m, 0.1) << bank << " " << climb;
       EXPECT_LT(heading_rad, rad_from_deg(0.5)) << bank << " " << climb;
@@ -74,7 +74,7 @@ TEST_P(EveryAircraftController, FliesEveryPlannedAirspeedAtItsHeight) {
   // reference says all. 0.1 m/s is less than 1 % of the airspeed.
   for (const double airspeed_mps : {10.0, 11.0, 12.0, 13.3, 14.88, 16.5}) {
     for (const double climb_rad : {0.0, 0.05}) {
-      AircraftLoopSetup setup = make_setup();
+      AircraftSetup setup = make_setup();
       setup.reference = [&](double time_s) {
         AirReference reference = fly_straight(0.3, 120.0)(time_s);
         reference.airspeed_mps = airspeed_mps;
@@ -94,7 +94,7 @@ TEST_P(EveryAircraftController, FliesEveryPlannedAirspeedAtItsHeight) {
 
 TEST_P(EveryAircraftController, ComesBackFromOffsets) {
   const auto fly = [&](auto&& change) {
-    AircraftLoopSetup setup = make_setup();
+    AircraftSetup setup = make_setup();
     change(setup);
     AircraftLoop loop(setup);
     loop.run_until(30.0);
@@ -112,7 +112,7 @@ TEST_P(EveryAircraftController, ComesBackFromOffsets) {
 
 TEST_P(EveryAircraftController, MirrorsLeftAndRight) {
   const auto fly = [&](double side) {
-    AircraftLoopSetup setup = make_setup();
+    AircraftSetup setup = make_setup();
     setup.reference = fly_circle(0.0, 100.0, 0.4 * side);
     setup.turned_rad = 0.2 * side;
     setup.roll_rad = 0.2 * side;
@@ -122,9 +122,9 @@ TEST_P(EveryAircraftController, MirrorsLeftAndRight) {
     };
     AircraftLoop loop(setup);
     std::vector<Eigen::Vector4d> track;
-    loop.run_until(6.0, [&](const AircraftLoop& now) {
-      track.emplace_back(now.deviation("h_m"), now.deviation("throttle"),
-                         side * now.deviation("psi_rad"), side * now.deviation("aileron_rad"));
+    loop.run_until(6.0, [&] {
+      track.emplace_back(loop.deviation("h_m"), loop.deviation("throttle"),
+                         side * loop.deviation("psi_rad"), side * loop.deviation("aileron_rad"));
     });
     return track;
   };
@@ -141,11 +141,11 @@ TEST_P(EveryAircraftController, MirrorsLeftAndRight) {
 
 TEST_P(EveryAircraftController, FliesTheSameBitsTwice) {
   const auto fly = [&](std::uint64_t seed) {
-    AircraftLoopSetup setup = make_setup();
+    AircraftSetup setup = make_setup();
     setup.wind = markov_wind({1, 2, 0}, 1.0, 0.7, 10.0, seed);
     AircraftLoop loop(setup);
     std::vector<Eigen::Vector3d> places;
-    loop.run_until(5.0, [&](const AircraftLoop& now) { places.push_back(now.sim().state().p_N); });
+    loop.run_until(5.0, [&] { places.push_back(loop.sim().state().p_N); });
     return places;
   };
   EXPECT_EQ(fly(1), fly(1));
@@ -153,16 +153,16 @@ TEST_P(EveryAircraftController, FliesTheSameBitsTwice) {
 }
 
 TEST_P(EveryAircraftController, FliesLanesInGusts) {
-  AircraftLoopSetup setup = make_setup();
+  AircraftSetup setup = make_setup();
   setup.reference = fly_lanes(4);
   setup.wind = markov_wind({0, 0, 0}, 1.0, 0.6, 150.0, 1);
   AircraftLoop loop(setup);
   double height_m2 = 0.0, heading_rad2 = 0.0, most_share = 0.0;
   int ticks = 0;
-  loop.run_until(120.0, [&](const AircraftLoop& now) {
-    height_m2 += std::pow(now.deviation("h_m"), 2);
-    heading_rad2 += std::pow(now.deviation("psi_rad"), 2);
-    most_share = std::max(most_share, now.deviation("limit_share"));
+  loop.run_until(120.0, [&] {
+    height_m2 += std::pow(loop.deviation("h_m"), 2);
+    heading_rad2 += std::pow(loop.deviation("psi_rad"), 2);
+    most_share = std::max(most_share, loop.deviation("limit_share"));
     ++ticks;
   });
   const double height_m = std::sqrt(height_m2 / ticks);
@@ -176,7 +176,7 @@ TEST_P(EveryAircraftController, FliesLanesInGusts) {
 }
 
 TEST_P(EveryAircraftController, HoldsHeightAndHeadingInASteadyWindItIsToldOf) {
-  AircraftLoopSetup setup = make_setup();
+  AircraftSetup setup = make_setup();
   const Eigen::Vector3d wind(3.0, -2.0, 0.0);
   setup.reference = [=](double time_s) {
     AirReference at = fly_straight(0.5, 100.0)(time_s);
@@ -192,7 +192,7 @@ TEST_P(EveryAircraftController, HoldsHeightAndHeadingInASteadyWindItIsToldOf) {
 }
 
 TEST_P(EveryAircraftController, LaunchesWaitsEndsAndStopsThePropeller) {
-  AircraftLoopSetup setup = make_setup();
+  AircraftSetup setup = make_setup();
   setup.reference = [](double time_s) {
     AirReference at = fly_straight(0.0, 100.0, 0.1)(0.0);
     at.phase = time_s < 0.5   ? AirPhase::kWait
@@ -205,40 +205,40 @@ TEST_P(EveryAircraftController, LaunchesWaitsEndsAndStopsThePropeller) {
   };
   setup.roll_rad = 0.2;
   AircraftLoop loop(setup);
-  const auto slow = [&](double airspeed_mps) {
+  const auto show = [&](double airspeed_mps) {
     Odometry odometry = loop.sim().truth();
     odometry.v_WB_B = {airspeed_mps, 0.0, 0.0};
-    return odometry;
+    loop.set_estimate([odometry](Odometry& estimate) { estimate = odometry; });
   };
-  const auto values = [&] { return loop.actuators().values; };
-  loop.set_estimate(slow(0.0));
+  const auto values = [&] { return loop.actuators(); };
+  show(0.0);
   loop.run_until(0.3);
   EXPECT_EQ(values(), (std::vector<double>{0.0, 0.0, 0.0}));
-  EXPECT_FALSE(loop.controller().finished());
+  EXPECT_FALSE(loop.finished());
   // Below 0.8 of the airspeed: full throttle, elevator as trimmed, wings left alone.
-  loop.set_estimate(slow(9.5));
+  show(9.5);
   loop.run_until(0.8);
   EXPECT_EQ(values()[0], 1.0);
   EXPECT_EQ(values()[1], values()[2]);
   EXPECT_LT(std::abs(values()[1]), rad_from_deg(10.0));
   EXPECT_EQ(loop.deviation("outside_lon_states"), 0.0);
   // Faster it is flown: the roll of 0.2 rad to the right is taken out by aileron to the left.
-  loop.set_estimate(slow(9.7));
+  show(9.7);
   loop.run_until(1.1);
   EXPECT_LT(values()[1], values()[2]);
-  loop.set_estimate(slow(12.0));
+  show(12.0);
   loop.run_until(3.5);
   EXPECT_EQ(values()[0], 0.0);
   EXPECT_NE(values()[1], 0.0);
-  EXPECT_FALSE(loop.controller().finished());
+  EXPECT_FALSE(loop.finished());
   loop.run_until(4.2);
   EXPECT_EQ(values(), (std::vector<double>{0.0, 0.0, 0.0}));
-  EXPECT_TRUE(loop.controller().finished());
+  EXPECT_TRUE(loop.finished());
   EXPECT_TRUE(loop.follower().finished);
 }
 
 TEST_P(EveryAircraftController, FliesOnUnderPowerWhenItsMissionIsOver) {
-  AircraftLoopSetup setup = make_setup();
+  AircraftSetup setup = make_setup();
   setup.reference = [](double time_s) {
     AirReference at = fly_straight(0.5, 100.0)(time_s);
     if (time_s > 2.0) at.phase = AirPhase::kDone;
@@ -247,49 +247,39 @@ TEST_P(EveryAircraftController, FliesOnUnderPowerWhenItsMissionIsOver) {
   setup.wind = markov_wind({0, 0, 0}, 0.5, 0.6, 30.0, 1);
   AircraftLoop loop(setup);
   loop.run_until(1.9);
-  EXPECT_FALSE(loop.controller().finished());
+  EXPECT_FALSE(loop.finished());
   loop.run_until(20.0);
-  EXPECT_TRUE(loop.controller().finished());
+  EXPECT_TRUE(loop.finished());
   EXPECT_TRUE(loop.follower().finished);
   EXPECT_NEAR(loop.sim().truth().X_WB.p.z(), 100.0, 2.0);
   EXPECT_LT(std::abs(loop.deviation("psi_rad")), rad_from_deg(10.0));
 }
 
 TEST_P(EveryAircraftController, KeepsPropellerOffWithoutReferenceOrEstimate) {
-  const VehicleDescription description = describe(make_mh900_like());
   for (const bool has_estimate : {false, true}) {
-    SignalBus bus;
-    Ports world(bus, "plane", "test");
-    auto estimate = world.write<Odometry>("estimate");
-    auto reference = world.write<AirReference>("reference");
-    ControllerContext context;
-    context.part = "plane.controller";
-    context.period = Duration{50'000'000};
-    context.vehicle_description = &description;
-    const PartSpec& spec = parts().spec(PartKind::kController, GetParam());
-    const auto controller = parts().make_controller(GetParam(), make_parameters(spec, {}), context);
-    Ports ports(bus, "plane", "plane.controller");
-    controller->connect(ports);
-    auto actuators = world.read<NamedValues>("actuators");
-    if (has_estimate) estimate.write(Time{}, Odometry{});
-    if (!has_estimate) reference.write(Time{}, fly_straight(0.0, 10.0)(0.0));
-    controller->step(Time{});
-    EXPECT_EQ(actuators.value().values, (std::vector<double>{0.0, 0.0, 0.0}));
-    EXPECT_FALSE(controller->finished());
+    Loop loop({.vehicle = "plane",
+               .description = describe(make_mh900_like()),
+               .tick = Duration{50'000'000}});
+    loop.add_controller({GetParam(), {}});
+    if (has_estimate) loop.write("estimate", Odometry{});
+    if (!has_estimate) loop.write("reference", fly_straight(0.0, 10.0)(0.0));
+    loop.step();
+    EXPECT_EQ(loop.actuators(), (std::vector<double>{0.0, 0.0, 0.0}));
+    EXPECT_FALSE(loop.finished());
   }
 }
 
 TEST_P(EveryAircraftController, AllocatesNothing) {
-  AircraftLoopSetup setup = make_setup();
+  AircraftSetup setup = make_setup();
   setup.wind = markov_wind({0, 3, 0}, 1.0, 0.0, 10.0, 1);
   setup.higher_m = -14.0;  // limits become active
   setup.turned_rad = 0.4;
   AircraftLoop loop(setup);
   loop.run_until(0.2);
   std::size_t allocations = 0;
-  loop.run_until(5.0, [&](const AircraftLoop&) {
+  loop.run_until(5.0, [&] {
     AllocationCounter counter;
-    loop.tick_controller();
+    loop.decide();
     allocations += counter.count();
   });
   EXPECT_EQ(allocations, 0u);
@@ -297,7 +287,7 @@ TEST_P(EveryAircraftController, AllocatesNothing) {
 
 TEST_P(EveryAircraftController, KeepsItsOutputsFiniteWhateverItIsTold) {
   for (int broken = 0; broken < 6; ++broken) {
-    AircraftLoopSetup setup = make_setup();
+    AircraftSetup setup = make_setup();
     setup.reference = [=](double time_s) {
       AirReference at = fly_straight(0.0, 100.0)(time_s);
       if (time_s < 1.0) return at;
@@ -312,17 +302,17 @@ TEST_P(EveryAircraftController, KeepsItsOutputsFiniteWhateverItIsTold) {
     if (broken == 0) odometry.X_WB.p.z() = kNan;
     if (broken == 1) odometry.v_WB_B.x() = kNan;
     if (broken == 2) odometry.X_WB.q.x() = kNan;
-    if (broken < 3) loop.set_estimate(odometry);
-    loop.run_until(2.0, [&](const AircraftLoop& now) {
-      for (const double value : now.actuators().values) {
+    if (broken < 3) loop.set_estimate([odometry](Odometry& estimate) { estimate = odometry; });
+    loop.run_until(2.0, [&] {
+      for (const double value : loop.actuators()) {
         ASSERT_TRUE(std::isfinite(value)) << broken;
       }
-      ASSERT_TRUE(std::isfinite(largest_deviation(now))) << broken;
-      ASSERT_TRUE(std::isfinite(now.deviation("limit_share"))) << broken;
-      ASSERT_TRUE(std::isfinite(now.follower().heading_error_rad)) << broken;
+      ASSERT_TRUE(std::isfinite(largest_deviation(loop))) << broken;
+      ASSERT_TRUE(std::isfinite(loop.deviation("limit_share"))) << broken;
+      ASSERT_TRUE(std::isfinite(loop.follower().heading_error_rad)) << broken;
     });
     // It recovers when the numbers do.
-    loop.set_estimate(std::nullopt);
+    loop.set_estimate({});
     if (broken >= 3) continue;
     loop.run_until(20.0);
     EXPECT_LT(largest_deviation(loop), 0.05) << broken;
@@ -330,27 +320,23 @@ TEST_P(EveryAircraftController, KeepsItsOutputsFiniteWhateverItIsTold) {
 }
 
 TEST_P(EveryAircraftController, KeepsActuatorsInTheirRanges) {
-  AircraftLoopSetup setup = make_setup();
+  AircraftSetup setup = make_setup();
   setup.higher_m = -30.0;
   setup.turned_rad = 2.5;
   AircraftLoop loop(setup);
-  loop.run_until(10.0, [&](const AircraftLoop& now) {
-    const std::vector<double>& values = now.actuators().values;
+  loop.run_until(10.0, [&] {
+    const std::vector<double>& values = loop.actuators();
     ASSERT_TRUE(values[0] >= 0.0 && values[0] <= 1.0);
     for (int i = 1; i < 3; ++i) ASSERT_LE(std::abs(values[i]), rad_from_deg(25.0) + 1e-12);
-    ASSERT_TRUE(now.sim().state().velocity.allFinite());
+    ASSERT_TRUE(loop.sim().state().velocity.allFinite());
   });
 }
 
 TEST_P(EveryAircraftController, RefusesVehiclesWithoutWingsAndThoseThatCannotFly) {
   const auto refusal = [&](const VehicleDescription& description) {
     return complaint([&] {
-      ControllerContext context;
-      context.part = "plane.controller";
-      context.period = Duration{50'000'000};
-      context.vehicle_description = &description;
-      const PartSpec& spec = parts().spec(PartKind::kController, GetParam());
-      parts().make_controller(GetParam(), make_parameters(spec, {}), context);
+      Loop({.vehicle = "plane", .description = description, .tick = Duration{50'000'000}})
+          .add_controller({GetParam(), {}});
     });
   };
   EXPECT_EQ(refusal(make_rover_description()),
@@ -372,7 +358,7 @@ TEST_P(EveryAircraftController, DocumentsItsParameters) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Controllers, EveryAircraftController,
-                         ::testing::ValuesIn(controllers_that_write("deviation")),
+                         ::testing::ValuesIn(parts_that_write(PartKind::kController, "deviation")),
                          [](const auto& test) { return test.param; });
 
 }  // namespace

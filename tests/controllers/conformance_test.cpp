@@ -81,33 +81,16 @@ TEST_P(EveryController, DoesNotCareForDirectionOrSide) {
   }
 }
 
-constexpr Time tick(std::int64_t i) {
-  return {i * 25'000'000};
-}
-
 /// A controller alone between signals.
-struct Bench {
+struct Bench : Loop {
   explicit Bench(const std::string& type) : Bench(type, vehicle_for(type)) {}
-  Bench(const std::string& type, VehicleDescription d) : description(std::move(d)) {
-    ControllerContext context;
-    context.vehicle = "rover";
-    context.part = "rover.controller";
-    context.period = Duration{25'000'000};
-    context.vehicle_description = &description;
-    Ports world(bus, "rover", "test");
-    estimate = world.write<Odometry>("estimate");
-    plan = world.write<PlannedPath>("plan");
-    authority = world.write<MovementAuthority>("authority");
-    const PartSpec& spec = parts().spec(PartKind::kController, type);
-    controller = parts().make_controller(type, make_parameters(spec, {}), context);
-    Ports ports(bus, "rover", "rover.controller");
-    controller->connect(ports);
-    actuators = world.read<NamedValues>("actuators");
-    follower = world.read<FollowerState>("follower");
+  Bench(const std::string& type, VehicleDescription vehicle)
+      : Loop({.description = std::move(vehicle)}) {
+    add_controller({type, {}});
   }
   /// No wheel turns. Steered axles may stand as they are.
   void expect_standing() const {
-    const NamedValues& values = actuators.value();
+    const NamedValues& values = read<NamedValues>("actuators");
     int wheels = 0;
     for (std::size_t i = 0; i < values.names.size(); ++i) {
       if (!values.names[i].ends_with("_speed_radps")) continue;
@@ -116,23 +99,14 @@ struct Bench {
     }
     EXPECT_GT(wheels, 0);
   }
-  VehicleDescription description;
-  SignalBus bus;
-  SignalWriter<Odometry> estimate;
-  SignalWriter<PlannedPath> plan;
-  SignalWriter<MovementAuthority> authority;
-  std::unique_ptr<Controller> controller;
-  SignalReader<NamedValues> actuators;
-  SignalReader<FollowerState> follower;
 };
 
 TEST_P(EveryController, StandsStillWithoutPlanOrEstimate) {
   Bench bench(GetParam());
-  bench.controller->step(Time{});
-  bench.estimate.write(Time{}, Odometry{});
-  bench.controller->step(Time{25'000'000});
+  bench.step();
+  bench.step(Odometry{});
   bench.expect_standing();
-  EXPECT_FALSE(bench.controller->finished());
+  EXPECT_FALSE(bench.finished());
 }
 
 TEST_P(EveryController, TakesPlansOfOnePointAndOfNone) {
@@ -140,46 +114,42 @@ TEST_P(EveryController, TakesPlansOfOnePointAndOfNone) {
     Bench bench(GetParam());
     PlannedPath plan;
     plan.points.resize(points);
-    bench.plan.write(Time{}, plan);
-    bench.estimate.write(Time{}, Odometry{});
-    bench.controller->step(Time{});
+    bench.give_plan(plan);
+    bench.step(Odometry{});
     bench.expect_standing();
   }
 }
 
 TEST_P(EveryController, AllocatesNothingAfterTakingThePlan) {
   Bench bench(GetParam());
-  bench.plan.write(Time{}, plan_mission(make_small_mission(GetParam())));
-  bench.estimate.write(Time{}, Odometry{});
-  bench.controller->step(Time{});
+  bench.give_plan(plan_mission(make_small_mission(GetParam())));
+  bench.step(Odometry{});
   Odometry pose;
   std::size_t allocations = 0;
   {
     AllocationCounter counter;
     for (int i = 1; i < 400; ++i) {
       pose.X_WB.p.x() = 0.05 * i;
-      bench.estimate.write(tick(i), pose);
-      bench.controller->step(tick(i));
+      bench.step(pose);
     }
     allocations = counter.count();
   }
   EXPECT_EQ(allocations, 0u);
-  EXPECT_GT(bench.follower.value().distance_m, 15.0);
+  EXPECT_GT(bench.follower().distance_m, 15.0);
 }
 
 TEST_P(EveryController, StandsStillAfterTheEnd) {
   Bench bench(GetParam());
   const PlannedPath plan = plan_mission(make_small_mission(GetParam()));
-  bench.plan.write(Time{}, plan);
+  bench.give_plan(plan);
   Odometry pose;
   for (int i = 0; i <= static_cast<int>(plan.points.size()) + 20; ++i) {
     const PathPoint& at = plan.points[std::min<std::size_t>(i, plan.points.size() - 1)];
     pose.X_WB = {quaternion_from_rpy({0, 0, at.yaw_rad}), at.p_W};
-    bench.estimate.write(tick(i), pose);
-    bench.controller->step(tick(i));
+    bench.step(pose);
   }
-  EXPECT_TRUE(bench.controller->finished());
-  EXPECT_TRUE(bench.follower.value().finished);
+  EXPECT_TRUE(bench.finished());
+  EXPECT_TRUE(bench.follower().finished);
   bench.expect_standing();
 }
 
@@ -215,19 +185,18 @@ TEST_P(EveryController, StandsWhereItsAuthorityEndsAndGoesOnFromThere) {
 
 TEST_P(EveryController, DoesNotBeginWithoutAuthority) {
   Bench bench(GetParam());
-  bench.plan.write(Time{}, plan_mission(make_small_mission(GetParam())));
+  bench.give_plan(plan_mission(make_small_mission(GetParam())));
   for (int i = 0; i < 100; ++i) {
-    bench.authority.write(tick(i), {-2.0, 0, "other"});
-    bench.estimate.write(tick(i), Odometry{});
-    bench.controller->step(tick(i));
+    bench.write("authority", MovementAuthority{-2.0, 0, "other"});
+    bench.step(Odometry{});
     bench.expect_standing();
   }
-  EXPECT_FALSE(bench.controller->finished());
-  EXPECT_FALSE(bench.follower.value().finished);
-  bench.authority.write(tick(100), {10.0, -1, ""});
-  bench.controller->step(tick(100));
+  EXPECT_FALSE(bench.finished());
+  EXPECT_FALSE(bench.follower().finished);
+  bench.give_authority(10.0);
+  bench.step();
   double fastest = 0.0;
-  for (const double value : bench.actuators.value().values) fastest = std::max(fastest, value);
+  for (const double value : bench.actuators()) fastest = std::max(fastest, value);
   EXPECT_GT(fastest, 0.0);
 }
 
@@ -264,13 +233,13 @@ TEST_P(EveryController, DocumentsItsParameters) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Controllers, EveryController,
-                         ::testing::ValuesIn(controllers_that_read("plan")),
+                         ::testing::ValuesIn(parts_that_read(PartKind::kController, "plan")),
                          [](const auto& test) { return test.param; });
 
 TEST(Controllers, AreEachRunByOneOfTheThreeSuites) {
-  const std::vector<std::string> ground = controllers_that_read("plan"),
-                                 rotors = controllers_that_write("wrench"),
-                                 wings = controllers_that_write("deviation");
+  const std::vector<std::string> ground = parts_that_read(PartKind::kController, "plan"),
+                                 rotors = parts_that_write(PartKind::kController, "wrench"),
+                                 wings = parts_that_write(PartKind::kController, "deviation");
   for (const std::string& name : parts().names(PartKind::kController)) {
     EXPECT_EQ(std::count(ground.begin(), ground.end(), name) +
                   std::count(rotors.begin(), rotors.end(), name) +
@@ -286,60 +255,42 @@ TEST(Controllers, AreEachRunByOneOfTheThreeSuites) {
 class EveryEstimator : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(EveryEstimator, AllocatesNothing) {
-  const VehicleDescription description = make_rover_description();
-  SignalBus bus;
-  Ports world(bus, "rover", "test");
-  auto truth = world.write<Odometry>("truth");
-  auto gps = world.write<GnssFix>("gps");
-  auto imu = world.write<ImuSample>("imu");
-  auto ins = world.write<Odometry>("ins");
-  auto range = world.write<RangeSample>("sonar");
   const RowMeshBlock block{.rows = 4, .length_m = 40.0};
   const RowMap map = make_row_mesh_map(block, RandomStream(1, "", "map"));
+  Loop loop({.map = &map,
+             .sensors = {{"sonar", "ultrasound", {quaternion_from_rpy({0, 0, 0.8}), {0, 0, 1}}}}});
+  loop.add_estimator({GetParam(), {}});
   // On the ground of an alley, where the sonar has a wall of the map before it.
   Odometry place;
   place.X_WB.p = row_mesh_ground(block, 20.0, 1.25);
-  auto command = world.write<VelocityCommand>("command");
-  const auto estimate = world.read<Odometry>("estimate");
-  EstimatorContext context;
-  context.part = "rover.estimator";
-  context.period = Duration{25'000'000};
-  context.vehicle_description = &description;
-  context.map = &map;
-  context.sensors = {{"sonar", "ultrasound", {quaternion_from_rpy({0, 0, 0.8}), {0, 0, 1}}}};
-  const PartSpec& spec = parts().spec(PartKind::kEstimator, GetParam());
-  const auto estimator = parts().make_estimator(GetParam(), make_parameters(spec, {}), context);
-  Ports ports(bus, "rover", "rover.estimator");
-  estimator->connect(ports);
-  const auto run = [&](int from, int to) {
-    for (int i = from; i < to; ++i) {
-      const Time now = tick(i);
-      truth.write(now, place);
-      command.write(now, {1.0, 0.1});
-      ImuSample sample;
-      sample.f_WS_S.z() = context.gravity_mps2;
-      imu.write(now, sample);
-      GnssFix fix;
-      fix.valid = true;
-      fix.p_W = place.X_WB.p;
-      gps.write(now, fix);
-      ins.write(now, place);
-      RangeSample echo;
-      echo.range_m = 1.0;
-      echo.max_range_m = 4.0;
-      range.write(now, echo);
-      estimator->step(now);
+  ImuSample sample;
+  sample.f_WS_S.z() = 9.80665;
+  GnssFix fix;
+  fix.valid = true;
+  fix.p_W = place.X_WB.p;
+  RangeSample echo;
+  echo.range_m = 1.0;
+  echo.max_range_m = 4.0;
+  const auto run = [&](int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      loop.write("truth", place);
+      loop.write("command", VelocityCommand{1.0, 0.1});
+      loop.write("imu", sample);
+      loop.write("gps", fix);
+      loop.write("ins", place);
+      loop.write("sonar", echo);
+      loop.step();
     }
   };
-  run(0, 1);  // signals with names take their memory when they are first written
+  run(1);  // signals with names take their memory when they are first written
   std::size_t allocations = 0;
   {
     AllocationCounter counter;
-    run(1, 1000);
+    run(999);
     allocations = counter.count();
   }
   EXPECT_EQ(allocations, 0u);
-  EXPECT_TRUE(estimate.value().X_WB.p.allFinite());
+  EXPECT_TRUE(loop.read<Odometry>("estimate").X_WB.p.allFinite());
 }
 
 INSTANTIATE_TEST_SUITE_P(Estimators, EveryEstimator,

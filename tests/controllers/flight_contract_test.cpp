@@ -8,7 +8,7 @@
 
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
-#include "tests/controllers/support/flight_loop.h"
+#include "tests/controllers/support/quadrotor_loop.h"
 #include "tests/support/no_alloc.h"
 
 namespace vinerow::test::flight_contract_test {
@@ -16,8 +16,8 @@ namespace {
 
 class FlightContract : public ::testing::TestWithParam<std::string> {
  protected:
-  FlightSetup make_setup() const {
-    FlightSetup setup;
+  QuadrotorSetup make_setup() const {
+    QuadrotorSetup setup;
     setup.controller.type = GetParam();
     setup.start.p = {0, 0, 2};
     return setup;
@@ -26,11 +26,11 @@ class FlightContract : public ::testing::TestWithParam<std::string> {
 
 TEST_P(FlightContract, FliesTheSameBitsTwice) {
   const auto fly = [&](std::uint64_t seed) {
-    FlightSetup setup = make_setup();
+    QuadrotorSetup setup = make_setup();
     setup.wind = gusty_wind({1, 2, 0}, 1.0, 1.0, 10.0, seed);
-    FlightLoop loop(setup);
+    QuadrotorLoop loop(setup);
     std::vector<Eigen::Vector3d> places;
-    loop.run_until(5.0, [&](const FlightLoop& now) { places.push_back(now.sim().state().p_W); });
+    loop.run_until(5.0, [&] { places.push_back(loop.sim().state().p_W); });
     return places;
   };
   EXPECT_EQ(fly(1), fly(1));
@@ -38,7 +38,7 @@ TEST_P(FlightContract, FliesTheSameBitsTwice) {
 }
 
 TEST_P(FlightContract, TakesOffLandsAndIsDone) {
-  FlightSetup setup = make_setup();
+  QuadrotorSetup setup = make_setup();
   setup.start.p = {0, 0, 0};
   setup.floor_m = 0.0;
   setup.rotors_on = false;
@@ -62,25 +62,25 @@ TEST_P(FlightContract, TakesOffLandsAndIsDone) {
     move(8.0, -2.0);
     return at;
   };
-  FlightLoop loop(setup);
+  QuadrotorLoop loop(setup);
   double overshoot_m = 0.0, off_m = 0.0, hardest_mps = 0.0, landed_radps = 0.0;
-  loop.run_until(17.2, [&](const FlightLoop& now) {
-    const QuadrotorState& state = now.sim().state();
-    const Phase phase = now.reference().phase;
+  loop.run_until(17.2, [&] {
+    const QuadrotorState& state = loop.sim().state();
+    const Phase phase = loop.reference().phase;
     overshoot_m = std::max(overshoot_m, state.p_W.z() - 1.5);
-    if (phase == Phase::kHover && now.time_s() > 6.0) off_m = std::abs(state.p_W.z() - 1.5);
+    if (phase == Phase::kHover && loop.time_s() > 6.0) off_m = std::abs(state.p_W.z() - 1.5);
     if (state.p_W.z() < 0.02) hardest_mps = std::max(hardest_mps, -state.v_W.z());
     double fastest_radps = 0.0;
-    for (const double speed : now.actuators().values) {
+    for (const double speed : loop.actuators()) {
       fastest_radps = std::max(fastest_radps, speed);
     }
     // Once it has landed they wind down within three seconds; it is done when they stand.
-    const bool stand = now.time_s() >= 14.0 + 3.0;
+    const bool stand = loop.time_s() >= 14.0 + 3.0;
     if (stand || phase == Phase::kWait) {
-      ASSERT_EQ(fastest_radps, 0.0) << now.time_s();
+      ASSERT_EQ(fastest_radps, 0.0) << loop.time_s();
     }
     if (phase == Phase::kDone) landed_radps = std::max(landed_radps, fastest_radps);
-    ASSERT_EQ(now.controller().finished(), stand) << now.time_s();
+    ASSERT_EQ(loop.finished(), stand) << loop.time_s();
   });
   EXPECT_GT(landed_radps, 0.0);
   EXPECT_LT(overshoot_m, 0.15);
@@ -92,71 +92,50 @@ TEST_P(FlightContract, TakesOffLandsAndIsDone) {
 }
 
 TEST_P(FlightContract, AllocatesNothing) {
-  FlightSetup setup = make_setup();
+  QuadrotorSetup setup = make_setup();
   setup.wind = gusty_wind({0, 3, 0}, 1.0, 1.0, 10.0, 1);
   setup.path = hover_at({3, 2, 4}, 1.0);  // limits become active
-  FlightLoop loop(setup);
+  QuadrotorLoop loop(setup);
   loop.run_until(0.2);
   std::size_t allocations = 0;
-  loop.run_until(3.0, [&](const FlightLoop& now) {
-    if (std::lround(now.time_s() * 1000) % 50 != 0) return;
+  loop.run_until(3.0, [&] {
+    if (std::lround(loop.time_s() * 1000) % 50 != 0) return;
     AllocationCounter counter;
-    loop.tick_controller();
+    loop.decide();
     allocations += counter.count();
   });
   EXPECT_EQ(allocations, 0u);
 }
 
 /// A controller alone between signals.
-struct Bench {
-  Bench(const std::string& type, VehicleDescription d = describe(make_q4t()))
-      : description(std::move(d)) {
-    ControllerContext context;
-    context.vehicle = "drone";
-    context.part = "drone.controller";
-    context.period = Duration{20'000'000};
-    context.vehicle_description = &description;
-    Ports world(bus, "drone", "test");
-    estimate = world.write<Odometry>("estimate");
-    reference = world.write<ReferenceTrajectory>("reference");
-    const PartSpec& spec = parts().spec(PartKind::kController, type);
-    controller = parts().make_controller(type, make_parameters(spec, {}), context);
-    Ports ports(bus, "drone", "drone.controller");
-    controller->connect(ports);
-    actuators = world.read<NamedValues>("actuators");
-    follower = world.read<FollowerState>("follower");
+struct Bench : Loop {
+  explicit Bench(const std::string& type, VehicleDescription vehicle = describe(make_q4t()))
+      : Loop(
+            {.vehicle = "drone", .description = std::move(vehicle), .tick = Duration{20'000'000}}) {
+    add_controller({type, {}});
   }
   void expect_off() const {
-    ASSERT_EQ(actuators.value().values.size(), 4u);
-    for (const double speed : actuators.value().values) EXPECT_EQ(speed, 0.0);
-    EXPECT_FALSE(controller->finished());
+    EXPECT_EQ(actuators(), std::vector<double>(4, 0.0));
+    EXPECT_FALSE(finished());
   }
-  VehicleDescription description;
-  SignalBus bus;
-  SignalWriter<Odometry> estimate;
-  SignalWriter<ReferenceTrajectory> reference;
-  std::unique_ptr<Controller> controller;
-  SignalReader<NamedValues> actuators;
-  SignalReader<FollowerState> follower;
 };
 
 TEST_P(FlightContract, KeepsRotorsOffWithoutReferenceOrEstimate) {
   Bench bench(GetParam());
-  bench.controller->step(Time{});
+  bench.step();
   bench.expect_off();
-  bench.estimate.write(Time{}, Odometry{});
-  bench.controller->step(Time{20'000'000});
+  bench.step(Odometry{});
   bench.expect_off();
   ReferenceTrajectory empty;
   empty.phase = Phase::kHover;
-  bench.reference.write(Time{}, empty);
-  bench.controller->step(Time{40'000'000});
+  bench.write("reference", empty, Time{});
+  bench.step();
   bench.expect_off();
 
   Bench blind(GetParam());
   empty.points.resize(21);
-  blind.reference.write(Time{}, empty);
-  blind.controller->step(Time{});
+  blind.write("reference", empty);
+  blind.step();
   blind.expect_off();
 }
 
@@ -182,7 +161,7 @@ TEST_P(FlightContract, DocumentsItsParameters) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Controllers, FlightContract,
-                         ::testing::ValuesIn(controllers_that_write("wrench")),
+                         ::testing::ValuesIn(parts_that_write(PartKind::kController, "wrench")),
                          [](const auto& test) { return test.param; });
 
 }  // namespace

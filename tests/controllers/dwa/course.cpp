@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "controllers/dwa/dwa.h"
 #include "engine/api/messages/sensors.h"
 #include "engine/api/world_model.h"
 #include "engine/core/random.h"
@@ -16,7 +15,6 @@ namespace {
 
 constexpr double kHalfAngle_rad = 15.0 * kPi / 180.0;
 constexpr double kStep_s = 0.01;
-constexpr int kStepsPerTick = 10;
 constexpr double kAcceleration_mps2 = 0.5;
 constexpr double kSteerRate_radps = 2.0;
 
@@ -90,6 +88,14 @@ struct Roller {
   double s_m = 0.0, lateral_m = 0.0, heading_rad = 0.0;  // while following
   bool is_following = false;
 
+  Odometry truth() const {
+    Odometry odometry;
+    odometry.X_WB = {quaternion_from_rpy({0, 0, pose.yaw_rad}), {pose.p.x(), pose.p.y(), 0.0}};
+    const double course_rad = std::atan(0.5 * (std::tan(front_rad) + std::tan(rear_rad)));
+    odometry.v_WB_B.head<2>() = v_mps * controllers::direction(course_rad);
+    return odometry;
+  }
+
   void step(const LocalCommand& command, const controllers::Path& path) {
     const double wanted = command.mode == LocalCommand::Mode::kStop ? 0.0 : command.v_mps;
     v_mps +=
@@ -134,7 +140,8 @@ struct Roller {
     lateral_m *= std::exp(-ds / 1.5);
     heading_rad *= std::exp(-ds / 1.5);
     const controllers::Pose2 on = path.pose_at(s_m);
-    pose = {on.p + lateral_m * left_of(controllers::direction(on.yaw_rad)), on.yaw_rad + heading_rad};
+    pose = {on.p + lateral_m * left_of(controllers::direction(on.yaw_rad)),
+            on.yaw_rad + heading_rad};
     front_rad = std::atan(0.75 * path.curvature_at(s_m));
     rear_rad = -front_rad;
   }
@@ -180,10 +187,8 @@ VehicleDescription make_four_wheel_rover() {
   description.height_above_ground_m = 0.45;
   description.max_speed_mps = 1.6;
   description.min_turning_radius_m = 1.767;
-  description.wheeled = {.track_m = 0.85,
-                         .wheel_base_m = 1.5,
-                         .wheel_radius_m = 0.2,
-                         .wheel_speed_limit_radps = 8.0};
+  description.wheeled = {
+      .track_m = 0.85, .wheel_base_m = 1.5, .wheel_radius_m = 0.2, .wheel_speed_limit_radps = 8.0};
   description.steered = {.front_axle_m = 0.75,
                          .rear_axle_m = 0.75,
                          .max_axle_steer_rad = 23.0 * kPi / 180.0,
@@ -201,16 +206,8 @@ std::vector<SensorMounting> make_rangers() {
           {"side_right", "ultrasound", at(0.6, -0.45, -0.5 * kPi)}};
 }
 
-ParameterSet make_dwa_parameters(const Values& values) {
-  const PartSpec spec = controllers::dwa_spec();
-  ParameterSet parameters(spec.parameters, spec.name);
-  for (const auto& [name, value] : values) parameters.set(name, value);
-  parameters.require_complete();
-  return parameters;
-}
-
-PlannedPath make_plan(const controllers::Pose2& start, const std::vector<std::pair<double, double>>& pieces,
-                      double pitch_m) {
+PlannedPath make_plan(const controllers::Pose2& start,
+                      const std::vector<std::pair<double, double>>& pieces, double pitch_m) {
   PlannedPath plan;
   controllers::Pose2 pose = start;
   const auto add = [&](double curvature) {
@@ -268,93 +265,70 @@ RowMap make_map(const Course& course) {
 
 Drive drive(const Course& course) {
   const RowMap map = make_map(course);
-  const VehicleDescription vehicle = make_four_wheel_rover();
-  ControllerContext context;
-  context.vehicle = "rover";
-  context.part = "rover.guidance";
-  context.period = Duration{100'000'000};
-  context.vehicle_description = &vehicle;
-  context.map = &map;
-  context.sensors = course.sensors;
-  const auto guidance = controllers::make_dwa(make_dwa_parameters(course.values), context);
-
-  SignalBus bus;
-  Ports world(bus, "rover", "test");
-  auto estimate = world.write<Odometry>("estimate");
-  auto plan = world.write<PlannedPath>("plan");
-  auto encoders = world.write<NamedValues>("encoders");
-  auto authority = world.write<MovementAuthority>("authority");
-  std::vector<SignalWriter<RangeSample>> ranges;
-  for (const SensorMounting& sensor : context.sensors) {
-    ranges.push_back(world.write<RangeSample>(sensor.name));
-  }
-  Ports ports(bus, "rover", "rover.guidance");
-  guidance->connect(ports);
-  const auto local_command = world.read<LocalCommand>("local_command");
-  const auto news = world.read<Event>("guidance_event");
+  Loop loop({.description = make_four_wheel_rover(),
+             .tick = Duration{100'000'000},
+             .physics = Duration{10'000'000},
+             .map = &map,
+             .sensors = course.sensors});
+  loop.add_guidance({"dwa", course.values});
+  loop.set_stop_at(course.stop_at_m);
+  loop.give_plan(course.plan);
 
   Drive result;
   const controllers::Path path(course.plan);
-  plan.write(Time{}, course.plan);
   Roller plant;
   plant.pose = course.start;
   RandomStream random(1, "rover", "ranges");
-  std::uint64_t seen_news = 0;
+  bool with_unknown = true;
+  const auto move = [&](double) {
+    const double before = plant.v_mps;
+    plant.step(loop.read<LocalCommand>("local_command"), path);
+    if (plant.v_mps < 0.0 && before >= 0.0) ++result.reversals;
+    const Polygon outline = place(loop.description().footprint_B, plant.pose);
+    result.least_known_m = std::min(result.least_known_m, least_distance(outline, course.known));
+    if (with_unknown) {
+      result.least_unknown_m =
+          std::min(result.least_unknown_m, least_distance(outline, course.unknown));
+    }
+  };
+  loop.set_plant([&] { return plant.truth(); }, move);
+  loop.set_inputs([&] {
+    with_unknown = loop.time_s() < course.unknown_until_s;
+    loop.write("encoders", NamedValues{{"axle_front_steer_rad", "axle_rear_steer_rad"},
+                                       {plant.front_rad, plant.rear_rad}});
+    for (const SensorMounting& sensor : course.sensors) {
+      RangeSample sample = measure(plant.truth().X_WB * sensor.X_BS, course, with_unknown);
+      sample.range_m += course.range_noise_m * random.normal();
+      loop.write(sensor.name, sample);
+    }
+  });
   const int ticks = static_cast<int>(course.longest_s * 10.0);
   for (int tick = 0; tick < ticks && !result.finished; ++tick) {
-    const Time now{std::int64_t{tick} * 100'000'000};
-    const bool with_unknown = now.s() < course.unknown_until_s;
-    Odometry odometry;
-    odometry.X_WB = {quaternion_from_rpy({0, 0, plant.pose.yaw_rad}),
-                     {plant.pose.p.x(), plant.pose.p.y(), 0.0}};
-    const double course_rad =
-        std::atan(0.5 * (std::tan(plant.front_rad) + std::tan(plant.rear_rad)));
-    odometry.v_WB_B.head<2>() = plant.v_mps * controllers::direction(course_rad);
-    estimate.write(now, odometry);
-    if (course.stop_at_m) authority.write(now, {course.stop_at_m(now.s()), -1, ""});
-    encoders.write(
-        now, {{"axle_front_steer_rad", "axle_rear_steer_rad"}, {plant.front_rad, plant.rear_rad}});
-    for (std::size_t i = 0; i < ranges.size(); ++i) {
-      RangeSample sample = measure(odometry.X_WB * context.sensors[i].X_BS, course, with_unknown);
-      sample.range_m += course.range_noise_m * random.normal();
-      ranges[i].write(now, sample);
-    }
+    result.time_s = loop.time_s();
+    loop.sense();
+    const std::size_t events = loop.events().size();
     std::size_t allocations = 0;
     {
       AllocationCounter counter;
-      guidance->step(now);
+      loop.decide();
       allocations = counter.count();
     }
-    const LocalCommand command = local_command.value();
-    if (news.is_newer_than(seen_news)) {
-      result.events.push_back(news.value());
-    } else if (tick > 0) {
-      result.allocations += allocations;
-    }
+    if (tick > 0 && loop.events().size() == events) result.allocations += allocations;
+    const LocalCommand& command = loop.read<LocalCommand>("local_command");
     result.commands.push_back(command);
     result.poses.push_back(plant.pose);
     result.drive_ticks += command.mode == LocalCommand::Mode::kDrive;
     result.follow_ticks += command.mode == LocalCommand::Mode::kFollow;
     result.stop_ticks += command.mode == LocalCommand::Mode::kStop;
-    for (int i = 0; i < kStepsPerTick; ++i) {
-      const double before = plant.v_mps;
-      plant.step(command, path);
-      if (plant.v_mps < 0.0 && before >= 0.0) ++result.reversals;
-      const Polygon outline = place(vehicle.footprint_B, plant.pose);
-      result.least_known_m = std::min(result.least_known_m, least_distance(outline, course.known));
-      if (with_unknown) {
-        result.least_unknown_m =
-            std::min(result.least_unknown_m, least_distance(outline, course.unknown));
-      }
-    }
+    loop.move();
     const controllers::Path::Nearest at = path.nearest(plant.pose.p, 0.0, path.length_m());
     result.farthest_off_plan_m = std::max(result.farthest_off_plan_m, std::abs(at.lateral_error_m));
     if (!plant.is_following)
       plant.s_m =
           path.nearest(plant.pose.p, std::max(plant.s_m - 2.0, 0.0), plant.s_m + 2.0).distance_m;
     result.finished = plant.s_m > path.length_m() - 0.1;
-    result.time_s = now.s();
   }
+  result.events = loop.events();
   result.end = plant.pose;
   return result;
 }

@@ -1,7 +1,7 @@
 #pragma once
 /// A vehicle with two steered axles on a flat course: pure rolling about the instantaneous centre,
 /// rate-limited steering and speed, ultrasonic readings by ray casting against true obstacles, and
-/// guidance `dwa` in the loop through its signals. No kernel, no physics.
+/// guidance `dwa` in a loop (loop.h).
 
 #include <functional>
 #include <memory>
@@ -10,15 +10,11 @@
 
 #include "controllers/parts/paths/path_curve.h"
 #include "engine/api/map.h"
-#include "engine/api/messages/commands.h"
-#include "engine/api/messages/event.h"
-#include "engine/api/stepped_parts.h"
-#include "engine/api/vehicle.h"
+#include "tests/controllers/support/loop.h"
 
 namespace vinerow::test {
 
 using Polygon = std::vector<Eigen::Vector2d>;
-using Values = std::vector<std::pair<std::string, ParameterSet::Value>>;
 
 Polygon make_box(double x_low, double x_high, double y_low, double y_high);
 /// Corners of a polygon of B at a pose.
@@ -29,9 +25,6 @@ double distance_between(const Polygon& a, const Polygon& b);
 
 /// The rover of paper A: 1.5 x 1.0 m hull with wheel noses, axles 0.75 m from the centre, 23 deg.
 VehicleDescription make_four_wheel_rover();
-
-/// Parameters of guidance `dwa` by name.
-ParameterSet make_dwa_parameters(const Values& values);
 
 /// Four rangers, two ahead and one to each side, with a cone of +-15 deg.
 std::vector<SensorMounting> make_rangers();
@@ -70,7 +63,7 @@ struct Drive {
   int reversals = 0;  ///< times the vehicle began to go backwards
   int drive_ticks = 0, follow_ticks = 0, stop_ticks = 0;
   std::size_t allocations = 0;  ///< in steps that tell no event, the first one left out
-  std::vector<Event> events;
+  std::vector<LoopEvent> events;
   std::vector<controllers::Pose2> poses;  ///< 10 Hz
   std::vector<LocalCommand> commands;     ///< 10 Hz
   controllers::Pose2 end;

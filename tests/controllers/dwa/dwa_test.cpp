@@ -195,11 +195,8 @@ template <class Change>
 std::string refusal(const Values& values, Change&& change) {
   VehicleDescription vehicle = make_four_wheel_rover();
   change(vehicle);
-  ControllerContext context;
-  context.part = "rover.guidance";
-  context.vehicle_description = &vehicle;
   try {
-    controllers::make_dwa(make_dwa_parameters(values), context);
+    Loop({.description = vehicle}).add_guidance({"dwa", values});
   } catch (const ConfigError& error) {
     return error.what();
   }

@@ -10,8 +10,8 @@
 namespace vinerow::test::fixed_wing_lqr_test {
 namespace {
 
-AircraftLoopSetup make_setup() {
-  AircraftLoopSetup setup;
+AircraftSetup make_setup() {
+  AircraftSetup setup;
   setup.controller.type = "fixed_wing_lqr";
   setup.numbers = make_reference_wing();
   return setup;
@@ -22,22 +22,22 @@ TEST(FixedWingLqr, AppliesTheReferencesGains) {
   Eigen::MatrixXd lon(2, 5), lat(1, 5);
   lon << -.1192, -.0085, .0047, -.0048, -.0243, -.0101, -.0418, .0597, .7366, .0246;
   lat << -.0290, -.0429, -.1258, -.5042, -.4278;
-  AircraftLoopSetup setup = make_setup();
+  AircraftSetup setup = make_setup();
   setup.higher_m = -1.0;
   setup.turned_rad = 0.1;
   setup.roll_rad = -0.05;
   AircraftLoop loop(setup);
   int ticks = 0;
-  loop.run_until(3.0, [&](const AircraftLoop& now) {
+  loop.run_until(3.0, [&] {
     Eigen::VectorXd x(5), y(5);
-    x << now.deviation("u_mps"), now.deviation("w_mps"), now.deviation("q_radps"),
-        now.deviation("theta_rad"), now.deviation("h_m");
-    y << now.deviation("v_mps"), now.deviation("p_radps"), now.deviation("r_radps"),
-        now.deviation("phi_rad"), now.deviation("psi_rad");
+    x << loop.deviation("u_mps"), loop.deviation("w_mps"), loop.deviation("q_radps"),
+        loop.deviation("theta_rad"), loop.deviation("h_m");
+    y << loop.deviation("v_mps"), loop.deviation("p_radps"), loop.deviation("r_radps"),
+        loop.deviation("phi_rad"), loop.deviation("psi_rad");
     const Eigen::VectorXd u = lon * x, v = lat * y;
-    EXPECT_NEAR(now.deviation("throttle"), u(0), 5e-4);
-    EXPECT_NEAR(now.deviation("elevator_rad"), u(1), 5e-4);
-    EXPECT_NEAR(now.deviation("aileron_rad"), v(0), 5e-4);
+    EXPECT_NEAR(loop.deviation("throttle"), u(0), 5e-4);
+    EXPECT_NEAR(loop.deviation("elevator_rad"), u(1), 5e-4);
+    EXPECT_NEAR(loop.deviation("aileron_rad"), v(0), 5e-4);
     ++ticks;
   });
   EXPECT_EQ(ticks, 60);
@@ -45,7 +45,7 @@ TEST(FixedWingLqr, AppliesTheReferencesGains) {
 
 TEST(FixedWingLqr, WeightsAreHeard) {
   const auto height_after = [](double height_weight_m) {
-    AircraftLoopSetup setup = make_setup();
+    AircraftSetup setup = make_setup();
     setup.higher_m = 2.0;
     const PartSpec& spec = parts().spec(PartKind::kController, "fixed_wing_lqr");
     ParameterSet weights = ParameterSet(spec.parameters, "").make_group("weights");
@@ -61,7 +61,7 @@ TEST(FixedWingLqr, WeightsAreHeard) {
 
 TEST(FixedWingLqr, StaysWithItsModelForSmallOffsets) {
   // Without the lags that the model leaves out, the nonlinear aircraft goes as x+ = (A + B K) x.
-  AircraftLoopSetup setup = make_setup();
+  AircraftSetup setup = make_setup();
   setup.told = setup.numbers;
   setup.numbers.throttle_lag_s = setup.numbers.elevon_lag_s = 6e-3;
   setup.higher_m = 0.02;
@@ -76,12 +76,12 @@ TEST(FixedWingLqr, StaysWithItsModelForSmallOffsets) {
       controllers::make_aircraft_laws(aircraft, trim, 0.05, {}, "test");
   Eigen::VectorXd x(5), y(5);
   int tick = 0;
-  loop.run_until(2.0, [&](const AircraftLoop& now) {
+  loop.run_until(2.0, [&] {
     Eigen::VectorXd x_is(5), y_is(5);
-    x_is << now.deviation("u_mps"), now.deviation("w_mps"), now.deviation("q_radps"),
-        now.deviation("theta_rad"), now.deviation("h_m");
-    y_is << now.deviation("v_mps"), now.deviation("p_radps"), now.deviation("r_radps"),
-        now.deviation("phi_rad"), now.deviation("psi_rad");
+    x_is << loop.deviation("u_mps"), loop.deviation("w_mps"), loop.deviation("q_radps"),
+        loop.deviation("theta_rad"), loop.deviation("h_m");
+    y_is << loop.deviation("v_mps"), loop.deviation("p_radps"), loop.deviation("r_radps"),
+        loop.deviation("phi_rad"), loop.deviation("psi_rad");
     if (tick++ == 0) x = x_is, y = y_is;
     EXPECT_LT((x - x_is).cwiseAbs().maxCoeff(), 2e-3) << tick;
     EXPECT_LT((y - y_is).cwiseAbs().maxCoeff(), 2e-3) << tick;

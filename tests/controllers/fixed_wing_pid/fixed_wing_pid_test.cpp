@@ -14,7 +14,7 @@ namespace {
 
 TEST(FixedWingPid, LearnsWhatItIsNotToldOf) {
   // Heavier, crooked and with a weaker propeller than told: nothing is left.
-  AircraftLoopSetup setup;
+  AircraftSetup setup;
   setup.controller.type = "fixed_wing_pid";
   setup.told = setup.numbers;
   setup.numbers.mass_kg *= 1.08;
@@ -23,9 +23,7 @@ TEST(FixedWingPid, LearnsWhatItIsNotToldOf) {
   setup.reference = fly_straight(0.3, 100.0);
   AircraftLoop loop(setup);
   double worst_m = 0.0;
-  loop.run_until(60.0, [&](const AircraftLoop& now) {
-    worst_m = std::max(worst_m, std::abs(now.deviation("h_m")));
-  });
+  loop.run_until(60.0, [&] { worst_m = std::max(worst_m, std::abs(loop.deviation("h_m"))); });
   EXPECT_LT(worst_m, 4.0);
   EXPECT_LT(std::abs(loop.deviation("h_m")), 0.1);
   EXPECT_LT(std::abs(loop.deviation("u_mps")), 0.1);
@@ -34,7 +32,7 @@ TEST(FixedWingPid, LearnsWhatItIsNotToldOf) {
 
 TEST(FixedWingPid, DoesNotPullIntoTheStall) {
   // Ramps that no aircraft follows: from 8 deg down to 12 deg up at once, in a turn.
-  AircraftLoopSetup setup;
+  AircraftSetup setup;
   setup.controller.type = "fixed_wing_pid";
   setup.reference = [](double time_s) {
     AirReference at = fly_circle(0.0, 100.0, 0.6)(time_s);
@@ -45,10 +43,10 @@ TEST(FixedWingPid, DoesNotPullIntoTheStall) {
   };
   AircraftLoop loop(setup);
   double incidence_rad = 0.0, height_m = 0.0;
-  loop.run_until(15.0, [&](const AircraftLoop& now) {
-    const Eigen::Vector3d air = now.sim().air_velocity();
+  loop.run_until(15.0, [&] {
+    const Eigen::Vector3d air = loop.sim().air_velocity();
     incidence_rad = std::max(incidence_rad, std::atan2(air.z(), air.x()));
-    height_m = std::max(height_m, std::abs(now.deviation("h_m")));
+    height_m = std::max(height_m, std::abs(loop.deviation("h_m")));
   });
   EXPECT_LT(deg_from_rad(incidence_rad), 20.6);  // where the lift falls off
   EXPECT_LT(height_m, 5.0);

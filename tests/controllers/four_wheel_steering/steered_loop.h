@@ -1,21 +1,10 @@
 #pragma once
-/// The registered controller on a steered vehicle with exact kinematics, without kernel.
-
-#include <memory>
-#include <string>
-#include <utility>
-#include <vector>
+/// Controller four_wheel_steering in a loop (loop.h) on a steered vehicle with exact kinematics.
 
 #include "controllers/parts/paths/path_curve.h"
-#include "engine/api/messages/commands.h"
-#include "engine/api/messages/event.h"
-#include "engine/api/parameters.h"
-#include "engine/api/stepped_parts.h"
-#include "tests/controllers/support/plant.h"
+#include "tests/controllers/support/loop.h"
 
 namespace vinerow::test {
-
-using Values = std::vector<std::pair<std::string, ParameterSet::Value>>;
 
 /// Two straights of `length_m` side by side and the omega turn between them, to the left from the
 /// origin, eastwards; headed by `heading_rad`.
@@ -41,42 +30,18 @@ struct LoopOptions {
   double longest_s = 200.0;
 };
 
-/// Controller, plant and signals; step() is one cycle of both.
-class SteeredLoop {
+class SteeredLoop : public Loop {
  public:
   explicit SteeredLoop(const LoopOptions& options, const controllers::Pose2& start = {});
-  void set_plan(const PlannedPath& plan) { plan_.write(now_, plan); }
-  void set_local(const LocalCommand& command) { local_.write(now_, command); }
-  void step();
+  void give_local(const LocalCommand& command) { write("local_command", command); }
 
-  Time now() const { return now_; }
-  Controller& controller() { return *controller_; }
   const SteeredPlant& plant() const { return plant_; }
-  const std::vector<double>& actuators() const { return actuators_.value().values; }
-  const FollowerState& follower() const { return follower_.value(); }
-  const SignalReader<Event>& event() const { return event_; }
-  const VelocityCommand& command() const { return command_.value(); }
-  double steering(const std::string& name) const;
+  const VelocityCommand& command() const { return read<VelocityCommand>("command"); }
+  double steering(const std::string& name) const { return value("steering", name); }
 
  private:
-  VehicleDescription description_;
-  SignalBus bus_;
   SteeredPlant plant_;
-  bool has_encoders_;
-  Time now_;
-  SignalWriter<Odometry> estimate_;
-  SignalWriter<PlannedPath> plan_;
-  SignalWriter<LocalCommand> local_;
-  SignalWriter<NamedValues> encoders_;
-  std::unique_ptr<Controller> controller_;
-  SignalReader<NamedValues> actuators_, steering_;
-  SignalReader<FollowerState> follower_;
-  SignalReader<VelocityCommand> command_;
-  SignalReader<Event> event_;
 };
-
-std::unique_ptr<Controller> make_steered_controller(const Values& values,
-                                                    const VehicleDescription& description);
 
 Tracking track(const PlannedPath& plan, const LoopOptions& options = {});
 

@@ -132,11 +132,11 @@ double turn_slip_mps(const std::string& speeds) {
   options.parameters = {{"speeds", speeds}};
   const PlannedPath omega = make_omega(kTight_m);
   SteeredLoop loop(options);
-  loop.set_plan(omega);
+  loop.give_plan(omega);
   double sum = 0.0;
   int count = 0;
-  while (!loop.controller().finished() && loop.now().s() < 100.0) {
-    loop.step();
+  while (!loop.finished() && loop.time_s() < 100.0) {
+    loop.tick();
     if (omega.points[loop.follower().waypoint].kind != PathKind::kTurn) continue;
     const Odometry truth = loop.plant().truth();
     const double w = truth.w_WB_B.z(), front = std::tan(loop.plant().front_rad()),
@@ -165,10 +165,10 @@ TEST(Tracking, SlipsThreeTimesLessWithTheQp) {
 TEST(Tracking, KeepsSpeedsAndStopsAtTheEnd) {
   const PlannedPath omega = make_omega(kTight_m);
   SteeredLoop loop({});
-  loop.set_plan(omega);
+  loop.give_plan(omega);
   double fastest = 0.0, fastest_in_turn = 0.0, last = 0.0;
-  while (!loop.controller().finished() && loop.now().s() < 100.0) {
-    loop.step();
+  while (!loop.finished() && loop.time_s() < 100.0) {
+    loop.tick();
     const double v = loop.steering("v_des_mps");
     EXPECT_LE(v - last, 0.5 * 0.02 + 1e-12);
     last = v;
@@ -176,12 +176,12 @@ TEST(Tracking, KeepsSpeedsAndStopsAtTheEnd) {
     const PathPoint& at = omega.points[loop.follower().waypoint];
     if (at.kind == PathKind::kTurn) fastest_in_turn = std::max(fastest_in_turn, v);
   }
-  EXPECT_TRUE(loop.controller().finished());
+  EXPECT_TRUE(loop.finished());
   EXPECT_NEAR(fastest, 1.0, 1e-9);
   EXPECT_LE(fastest_in_turn, 0.8 + 1e-9);
   EXPECT_GT(fastest_in_turn, 0.78);
   EXPECT_NEAR((loop.plant().pose().p - Eigen::Vector2d(0.0, 2.5)).norm(), 0.05, 0.005);
-  for (int i = 0; i < 3; ++i) loop.step();
+  for (int i = 0; i < 3; ++i) loop.tick();
   for (int i = 2; i < 6; ++i) EXPECT_EQ(loop.actuators()[i], 0.0);
 }
 

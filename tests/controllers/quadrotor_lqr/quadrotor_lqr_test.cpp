@@ -9,7 +9,7 @@
 #include "controllers/quadrotor_lqr/quadrotor_lqr_law.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
-#include "tests/controllers/support/flight_loop.h"
+#include "tests/controllers/support/quadrotor_loop.h"
 
 namespace vinerow::test::quadrotor_lqr_test {
 namespace {
@@ -135,18 +135,18 @@ TEST(QuadrotorLqr, StepsAsItsLinearModelDoes) {
   const controllers::HoverModel model = controllers::make_hover_model(law.craft, true);
   const controllers::SampledModel m =
       controllers::discretise(model.A, model.B, law.params.period_s);
-  FlightSetup setup;
+  QuadrotorSetup setup;
   setup.controller = {"quadrotor_lqr", {{"disturbance_s", 0.0}}};
   setup.guidance_rate_Hz = 50.0;
   setup.start.p = {0, 0, 2};
   const double step_m = 0.01;
   setup.path = hover_at({step_m, 0.5 * step_m, 2 + step_m});
-  FlightLoop loop(setup);
+  QuadrotorLoop loop(setup);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(16);
   x.head<3>() << -step_m, -0.5 * step_m, -step_m;
   double worst_m = 0.0;
   for (int i = 0; i < 150; ++i) {
-    worst_m = std::max(worst_m, (loop.error_in_yaw_frame() - x.head<3>()).norm());
+    worst_m = std::max(worst_m, (loop.path_error() - x.head<3>()).norm());
     loop.run_until(0.02 * (i + 1));
     x = (m.A - m.B * law.law.gain()) * x;
   }
@@ -155,24 +155,24 @@ TEST(QuadrotorLqr, StepsAsItsLinearModelDoes) {
 }
 
 TEST(QuadrotorLqr, ObserverTakesAwayWhatAWindLeaves) {
-  FlightSetup setup;
+  QuadrotorSetup setup;
   setup.start.p = {0, 0, 2};
   setup.path = hover_at(setup.start.p);
   setup.wind = [](double, const Eigen::Vector3d&) { return Eigen::Vector3d(0, 3, 0); };
   // Drag of 3 m/s against the stiffness of the loop, K_position / K_tilt rad per metre.
   setup.controller = {"quadrotor_lqr", {{"disturbance_s", 0.0}}};
-  FlightLoop without(setup);
+  QuadrotorLoop without(setup);
   without.run_until(15.0);
   const Law law(setup.numbers);
   const Eigen::MatrixXd& K = law.law.gain();
   const double drag_N = 3.0 * (0.3 + 0.5 * 1.225 * 0.04 * 3.0);
   const double stiffness = K(1, 1) / -K(1, 6);  // the wind's tilt, pushed back by y
   const double expected_m = std::atan(drag_N / (2.0 * 9.80665)) / std::abs(stiffness);
-  EXPECT_NEAR(without.error_in_yaw_frame().y(), expected_m, 0.03 * expected_m);
+  EXPECT_NEAR(without.path_error().y(), expected_m, 0.03 * expected_m);
   setup.controller.values.clear();
-  FlightLoop with(setup);
+  QuadrotorLoop with(setup);
   with.run_until(15.0);
-  EXPECT_LT(with.error_in_yaw_frame().norm(), 1e-6);
+  EXPECT_LT(with.path_error().norm(), 1e-6);
 }
 
 TEST(QuadrotorLqr, CutsTheWantedTilt) {

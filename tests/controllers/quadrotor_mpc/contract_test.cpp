@@ -6,7 +6,7 @@
 
 #include "controllers/quadrotor_mpc/quadrotor_mpc.h"
 #include "engine/core/error.h"
-#include "tests/controllers/quadrotor_mpc/mpc_loop.h"
+#include "tests/controllers/quadrotor_mpc/mpc_flight.h"
 #include "tests/support/no_alloc.h"
 
 namespace vinerow::test::contract_test {
@@ -15,7 +15,10 @@ namespace {
 std::string refusal(const Values& values, const VehicleDescription& description,
                     double rate_Hz = 20.0) {
   try {
-    make_mpc(values, description, rate_Hz);
+    Loop loop({.vehicle = "drone",
+               .description = description,
+               .tick = rate_Hz > 0.0 ? period_of_rate(rate_Hz) : Duration{}});
+    loop.add_controller({"quadrotor_mpc", values});
   } catch (const ConfigError& error) {
     return error.what();
   }
@@ -27,9 +30,10 @@ TEST(QuadrotorMpc, RefusesVehiclesWithoutRotors) {
   rover.type = "diff_rover";
   rover.mass_kg = 20.0;
   const std::string text = refusal({}, rover);
-  EXPECT_EQ(text,
-            "drone.controller (quadrotor_mpc) needs a vehicle with rotors; vehicle type 'diff_rover' "
-            "has neither wheels nor rotors nor wings");
+  EXPECT_EQ(
+      text,
+      "drone.controller (quadrotor_mpc) needs a vehicle with rotors; vehicle type 'diff_rover' "
+      "has neither wheels nor rotors nor wings");
 }
 
 TEST(QuadrotorMpc, RefusesRotorsThatCannotHoverOrDoNotLag) {
@@ -63,20 +67,20 @@ TEST(QuadrotorMpc, DocumentsItsParameters) {
 
 TEST(QuadrotorMpc, KeepsTheRotorsOffOutsideFlight) {
   MpcSetup setup;
-  setup.path = stand_at({0, 0, 0});
-  setup.phase = Phase::kWait;
-  MpcLoop loop(setup);
+  setup.path = hover_at({0, 0, 0});
+  setup.phase = [](double) { return Phase::kWait; };
+  QuadrotorLoop loop(setup);
   loop.sim().set_floor(0.0);
   loop.tick();
-  for (const double speed : loop.rotors()) EXPECT_EQ(speed, 0.0);
-  EXPECT_FALSE(loop.controller().finished());
+  for (const double speed : loop.actuators()) EXPECT_EQ(speed, 0.0);
+  EXPECT_FALSE(loop.finished());
   loop.set_phase(Phase::kHover);
   loop.tick();
-  for (const double speed : loop.rotors()) EXPECT_GT(speed, 100.0);
+  for (const double speed : loop.actuators()) EXPECT_GT(speed, 100.0);
   // Landed: what lifts fades within three seconds of 20 ticks, and never grows above what it was.
   const auto lift = [&] {
     double sum = 0.0;
-    for (const double speed : loop.rotors()) sum += speed * speed;
+    for (const double speed : loop.actuators()) sum += speed * speed;
     return sum;
   };
   const double landed = lift();
@@ -84,28 +88,30 @@ TEST(QuadrotorMpc, KeepsTheRotorsOffOutsideFlight) {
   for (int tick = 0; tick < 60; ++tick) {
     loop.tick();
     EXPECT_LE(lift(), (1.0 - tick / 60.0) * landed * (1.0 + 1e-9)) << tick;
-    EXPECT_FALSE(loop.controller().finished()) << tick;
+    EXPECT_FALSE(loop.finished()) << tick;
   }
   loop.tick();
-  for (const double speed : loop.rotors()) EXPECT_EQ(speed, 0.0);
-  EXPECT_TRUE(loop.controller().finished());
+  for (const double speed : loop.actuators()) EXPECT_EQ(speed, 0.0);
+  EXPECT_TRUE(loop.finished());
 }
 
 TEST(QuadrotorMpc, AllocatesNothingInFlight) {
   const RowsAndTurn rows = make_rows_and_turn();
   MpcSetup setup;
   setup.path = rows.path;
-  setup.physics_s = 0.005;
-  MpcLoop loop(setup);
-  loop.sim().set_wind(gusty_side_wind(3.0, 1.0, 4.0, rows.end_s, 1));
+  setup.physics = Duration{5'000'000};
+  QuadrotorLoop loop(setup);
+  loop.sim().set_wind(gusty_wind({0, 3, 0}, 1.0, 4.0, rows.end_s, 1, 3));
   loop.tick();  // signals take their size
   std::size_t allocations = 0;
   while (loop.time_s() < 40.0) {
-    loop.tick([&](const std::function<void()>& decide) {
+    loop.sense();
+    {
       const AllocationCounter counter;
-      decide();
+      loop.decide();
       allocations += counter.count();
-    });
+    }
+    loop.move();
   }
   EXPECT_EQ(allocations, 0u);
 }
@@ -114,9 +120,9 @@ TEST(QuadrotorMpc, FliesTheSameBitsTwice) {
   const auto end = [] {
     MpcSetup setup;
     setup.path = straight({0, 0, 2}, 0.4, 3.0);
-    MpcLoop loop(setup);
+    QuadrotorLoop loop(setup);
     loop.sim().state().p_W.y() += 1.0;
-    loop.sim().set_wind(gusty_side_wind(3.0, 1.0, 4.0, 10.0, 1));
+    loop.sim().set_wind(gusty_wind({0, 3, 0}, 1.0, 4.0, 10.0, 1, 3));
     loop.run_until(5.0);
     return loop.sim().state();
   };
@@ -129,27 +135,27 @@ TEST(QuadrotorMpc, FliesTheSameBitsTwice) {
 // A flight after another starts as the first did: nothing learnt is left.
 TEST(QuadrotorMpc, ForgetsBetweenFlights) {
   MpcSetup setup;
-  setup.path = stand_at({0, 0, 2});
-  MpcLoop loop(setup);
+  setup.path = hover_at({0, 0, 2});
+  QuadrotorLoop loop(setup);
   loop.sim().set_wind([](double, const Eigen::Vector3d&) { return Eigen::Vector3d(0, 3, 0); });
   loop.run_until(4.0);
-  EXPECT_GT(loop.mpc("disturbance_y_N"), 0.5);
+  EXPECT_GT(loop.value("mpc", "disturbance_y_N"), 0.5);
   loop.set_phase(Phase::kWait);
   loop.tick();
   loop.set_phase(Phase::kHover);
   loop.tick();
-  EXPECT_EQ(loop.mpc("disturbance_y_N"), 0.0);
+  EXPECT_EQ(loop.value("mpc", "disturbance_y_N"), 0.0);
 }
 
 TEST(QuadrotorMpc, DoesNotCareForThePlaceOrTheHeadingOfTheWorld) {
   const auto flown = [](double heading, const Eigen::Vector3d& place) {
     MpcSetup setup;
     setup.path = straight(place, heading, 3.0);
-    MpcLoop loop(setup);
+    QuadrotorLoop loop(setup);
     const Eigen::AngleAxisd turn(heading, Eigen::Vector3d::UnitZ());
     loop.sim().state().p_W += turn * Eigen::Vector3d(0.2, -0.4, 0.1);
     loop.run_until(3.0);
-    return Eigen::Vector3d(loop.error());
+    return Eigen::Vector3d(loop.path_error());
   };
   const Eigen::Vector3d here = flown(0.0, {0, 0, 0});
   EXPECT_GT(here.norm(), 1e-6);

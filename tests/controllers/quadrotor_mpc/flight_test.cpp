@@ -6,7 +6,7 @@
 
 #include "engine/core/random.h"
 #include "engine/math/angles.h"
-#include "tests/controllers/quadrotor_mpc/mpc_loop.h"
+#include "tests/controllers/quadrotor_mpc/mpc_flight.h"
 
 namespace vinerow::test::flight_test {
 namespace {
@@ -16,17 +16,17 @@ constexpr double kSettled_s = 3.0;
 
 struct Flight {
   FlightErrors errors;
-  std::vector<std::string> events;
+  std::vector<LoopEvent> events;
 };
 
 Flight fly_rows(double mean_mps, double gust_mps, MpcSetup setup = {},
                 const RowsAndTurnNumbers& numbers = {}, std::uint64_t seed = 1) {
   const RowsAndTurn rows = make_rows_and_turn(numbers);
   setup.path = rows.path;
-  setup.physics_s = 0.0025;
-  MpcLoop loop(setup);
+  setup.physics = Duration{2'500'000};
+  QuadrotorLoop loop(setup);
   if (mean_mps + gust_mps > 0.0) {
-    loop.sim().set_wind(gusty_side_wind(mean_mps, gust_mps, 4.0, rows.end_s, seed));
+    loop.sim().set_wind(gusty_wind({0, mean_mps, 0}, gust_mps, 4.0, rows.end_s, seed, 3));
   }
   const FlightErrors errors = fly(loop, rows, kSettled_s);
   EXPECT_TRUE(errors.finite);
@@ -36,16 +36,16 @@ Flight fly_rows(double mean_mps, double gust_mps, MpcSetup setup = {},
 TEST(QuadrotorMpcFlight, KeepsARowAt3MetresPerSecondInCalmAir) {
   MpcSetup setup;
   setup.path = straight({0, 0, 1.5}, 0.7, 3.0);
-  MpcLoop loop(setup);
+  QuadrotorLoop loop(setup);
   double lateral = 0.0, altitude = 0.0;
   while (loop.time_s() < 10.0) {
     loop.tick();
-    lateral = std::max(lateral, std::abs(loop.error().y()));
-    if (loop.time_s() > 3.0) altitude = std::max(altitude, std::abs(loop.error().z()));
+    lateral = std::max(lateral, std::abs(loop.path_error().y()));
+    if (loop.time_s() > 3.0) altitude = std::max(altitude, std::abs(loop.path_error().z()));
   }
   EXPECT_LT(lateral, 1e-6);
   EXPECT_LT(altitude, 1e-6);
-  EXPECT_LT(std::abs(loop.error().x()), 1e-4);  // body drag was learnt
+  EXPECT_LT(std::abs(loop.path_error().x()), 1e-4);  // body drag was learnt
   EXPECT_TRUE(loop.events().empty());
 }
 
@@ -85,7 +85,7 @@ TEST(QuadrotorMpcFlight, LearnsTheWindAndLeavesNoOffset) {
     EXPECT_TRUE(flight.events.empty());
   }
   MpcSetup blind;
-  blind.parameters = {{"disturbance_s", 0.0}};
+  blind.controller.values = {{"disturbance_s", 0.0}};
   const Flight without = fly_rows(3.0, 1.0, blind);
   EXPECT_NEAR(without.errors.lateral_rms_m, 0.099, 0.02);
   EXPECT_NEAR(without.errors.lateral_max_m, 0.137, 0.03);
@@ -106,16 +106,17 @@ TEST(QuadrotorMpcFlight, GainsLittleFromAFasterTick) {
 
 TEST(QuadrotorMpcFlight, FliesThePlusLayoutAndAnotherVehicle) {
   MpcSetup plus;
-  plus.numbers = plus.told = with_plus_layout(make_q4t());
+  plus.numbers = with_plus_layout(make_q4t());
   EXPECT_LT(fly_rows(3.0, 1.0, plus).errors.lateral_max_m, 0.023);
   MpcSetup m100;
-  m100.numbers = m100.told = make_m100();
+  m100.numbers = make_m100();
   EXPECT_LT(fly_rows(3.0, 1.0, m100).errors.lateral_max_m, 0.023);
 }
 
 // A vehicle that is not what the controller was told: mass + 15 %, inertia + 20 %, lag + 40 %.
 TEST(QuadrotorMpcFlight, BearsAWrongModel) {
   MpcSetup wrong;
+  wrong.told = wrong.numbers;
   wrong.numbers.mass_kg = 2.3;
   wrong.numbers.inertia_kgm2 *= 1.2;
   wrong.numbers.lag_s = 0.07;
@@ -129,12 +130,12 @@ TEST(QuadrotorMpcFlight, BearsAWrongModel) {
 TEST(QuadrotorMpcFlight, LearnsTorquesOfALoadBesideTheCentre) {
   const auto offset = [](bool learns) {
     MpcSetup setup;
-    setup.path = stand_at({0, 0, 2});
-    setup.parameters = {{"learn_torque", learns}};
-    MpcLoop loop(setup);
-    loop.set_torque_bias({0.1, -0.1, 0.02});
+    setup.path = hover_at({0, 0, 2});
+    setup.controller.values = {{"learn_torque", learns}};
+    QuadrotorLoop loop(setup);
+    loop.sim().set_torque_bias({0.1, -0.1, 0.02});
     loop.run_until(8.0);
-    return loop.error().norm();
+    return loop.path_error().norm();
   };
   EXPECT_LT(offset(true), 1e-6);
   EXPECT_GT(offset(false), 0.02);
@@ -146,7 +147,7 @@ TEST(QuadrotorMpcFlight, GoesOnWhereTheReferenceEnds) {
   setup.guidance_rate_Hz = 5.0;
   EXPECT_LT(fly_rows(3.0, 1.0, setup).errors.lateral_max_m, 0.03);
   MpcSetup far;
-  far.parameters = {{"horizon", std::int64_t{40}}};
+  far.controller.values = {{"horizon", std::int64_t{40}}};
   EXPECT_LT(fly_rows(3.0, 1.0, far).errors.lateral_max_m, 0.03);
 }
 
@@ -155,15 +156,15 @@ TEST(QuadrotorMpcFlight, BearsANoisyEstimate) {
   const RowsAndTurn rows = make_rows_and_turn();
   MpcSetup setup;
   setup.path = rows.path;
-  setup.physics_s = 0.0025;
-  MpcLoop loop(setup);
-  loop.sim().set_wind(gusty_side_wind(3.0, 1.0, 4.0, rows.end_s, 1));
+  setup.physics = Duration{2'500'000};
+  QuadrotorLoop loop(setup);
+  loop.sim().set_wind(gusty_wind({0, 3, 0}, 1.0, 4.0, rows.end_s, 1, 3));
   RandomStream random(1, "test", "estimate");
   const auto draw = [&random](double sigma) {
     return Eigen::Vector3d(sigma * random.normal(), sigma * random.normal(),
                            sigma * random.normal());
   };
-  loop.set_estimate_noise([draw](Odometry& estimate) {
+  loop.set_estimate([draw](Odometry& estimate) {
     estimate.X_WB.p += draw(0.02);
     estimate.v_WB_B += draw(0.05);
     estimate.w_WB_B += draw(0.01);

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "controllers/quadrotor_mpc/quadrotor_mpc_law.h"
-#include "tests/controllers/quadrotor_mpc/mpc_loop.h"
+#include "tests/controllers/quadrotor_mpc/mpc_flight.h"
 
 namespace vinerow::test::linear_response_test {
 namespace {
@@ -99,9 +99,9 @@ TEST(QuadrotorMpcLinear, IsTheInfiniteHorizonLqrWhileNoLimitIsActive) {
 void expect_linear(const Eigen::Vector3d& off_m, double yaw_rad, double heading_rad,
                    double tolerance) {
   MpcSetup setup;
-  setup.path = stand_at({3, -2, 5}, heading_rad);
-  setup.parameters = {{"disturbance_s", 0.0}};
-  MpcLoop flight(setup);
+  setup.path = hover_at({3, -2, 5}, heading_rad);
+  setup.controller.values = {{"disturbance_s", 0.0}};
+  QuadrotorLoop flight(setup);
   const Eigen::AngleAxisd heading(heading_rad, Eigen::Vector3d::UnitZ());
   flight.sim().state().p_W += heading * off_m;
   flight.sim().state().q_WB = Eigen::AngleAxisd(heading_rad + yaw_rad, Eigen::Vector3d::UnitZ());
@@ -113,19 +113,19 @@ void expect_linear(const Eigen::Vector3d& off_m, double yaw_rad, double heading_
   for (int k = 0; k < 60; ++k) {
     flight.tick();
     x = ((loop.A - loop.B * loop.K) * x).eval();
-    largest = std::max(largest, (flight.error() - x.head<3>()).norm());
+    largest = std::max(largest, (flight.path_error() - x.head<3>()).norm());
   }
   EXPECT_LT(largest, tolerance * off_m.norm() + 1e-4 * (yaw_rad != 0.0));
-  EXPECT_LT(flight.error().norm(), 0.02 * off_m.norm() + 1e-6);
+  EXPECT_LT(flight.path_error().norm(), 0.02 * off_m.norm() + 1e-6);
   EXPECT_TRUE(flight.events().empty());
 }
 
 TEST(QuadrotorMpcLinear, HoversWhereItIsLeft) {
   MpcSetup setup;
-  setup.path = stand_at({1, 2, 3}, 0.8);
-  MpcLoop loop(setup);
+  setup.path = hover_at({1, 2, 3}, 0.8);
+  QuadrotorLoop loop(setup);
   loop.run_until(5.0);
-  EXPECT_LT(loop.error().norm(), 1e-9);
+  EXPECT_LT(loop.path_error().norm(), 1e-9);
   EXPECT_LT(loop.sim().tilt_rad(), 1e-9);
 }
 

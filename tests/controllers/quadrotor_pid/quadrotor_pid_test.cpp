@@ -7,7 +7,7 @@
 #include "controllers/quadrotor_pid/rate_law.h"
 #include "engine/math/angles.h"
 #include "engine/math/pose.h"
-#include "tests/controllers/support/flight_loop.h"
+#include "tests/controllers/support/quadrotor_loop.h"
 
 namespace vinerow::test::quadrotor_pid_test {
 namespace {
@@ -165,7 +165,7 @@ TEST(RateLaw, DoesNotWindUpWhereTorqueIsLost) {
 
 // A tilted flight with a half turn of the nose: the vehicle must not wander.
 TEST(QuadrotorPid, TurnsItsNoseInFullFlight) {
-  FlightSetup setup;
+  QuadrotorSetup setup;
   setup.start.p = {0, 0, 2};
   const FlightPath straight = row_and_turn({0, 0, 2}, 0.0, 3.0, 1e9);
   setup.path = [straight](double time_s) {
@@ -173,11 +173,11 @@ TEST(QuadrotorPid, TurnsItsNoseInFullFlight) {
     at.yaw_rad = time_s > 4.0 ? kPi - 0.01 : 0.0;  // at once
     return at;
   };
-  FlightLoop loop(setup);
+  QuadrotorLoop loop(setup);
   double off_m = 0.0;
-  loop.run_until(12.0, [&](const FlightLoop& now) {
-    const Eigen::Vector3d e = now.sim().state().p_W - straight(now.time_s()).p_W;
-    if (now.time_s() > 3.5) off_m = std::max(off_m, e.norm());
+  loop.run_until(12.0, [&] {
+    const Eigen::Vector3d e = loop.sim().state().p_W - straight(loop.time_s()).p_W;
+    if (loop.time_s() > 3.5) off_m = std::max(off_m, e.norm());
   });
   EXPECT_LT(off_m, 0.05);
   EXPECT_NEAR(loop.follower().heading_error_rad, 0.0, 0.01);

@@ -12,7 +12,6 @@
 namespace vinerow::test {
 namespace {
 
-constexpr Duration kStep{5'000'000};
 constexpr double kSpeed_mps = 12.0, kGravity_mps2 = 9.80665;
 
 AirReference make_reference(AirPhase phase) {
@@ -85,30 +84,26 @@ AirCourse fly_lanes(int lanes, double bank_rad) {
   };
 }
 
-AircraftLoop::AircraftLoop(const AircraftLoopSetup& setup)
-    : setup_(setup),
-      description_(describe(setup.told.value_or(setup.numbers))),
-      sim_(setup.numbers) {
+namespace {
+
+LoopSetup make_loop_setup(const AircraftSetup& setup) {
+  LoopSetup loop;
+  loop.vehicle = "plane";
+  loop.description = describe(setup.told.value_or(setup.numbers));
   const PartSpec& spec = parts().spec(PartKind::kController, setup.controller.type);
-  ControllerContext context;
-  context.vehicle = "plane";
-  context.part = "plane.controller";
-  context.vehicle_description = &description_;
-  context.gravity_mps2 = setup.numbers.gravity_mps2;
-  context.physics_step = kStep;
-  context.period = period_of_rate(setup.rate_Hz > 0.0 ? setup.rate_Hz : spec.default_rate_Hz);
-  control_period_ = context.period;
-  controller_ = parts().make_controller(setup.controller.type,
-                                        make_parameters(spec, setup.controller.values), context);
-  Ports world(bus_, "plane", "test");
-  estimate_ = world.write<Odometry>("estimate");
-  reference_out_ = world.write<AirReference>("reference");
-  reference_in_ = world.read<AirReference>("reference");
-  Ports ports(bus_, "plane", "plane.controller");
-  controller_->connect(ports);
-  actuators_ = world.read<NamedValues>("actuators");
-  deviation_ = world.read<NamedValues>("deviation");
-  follower_ = world.read<FollowerState>("follower");
+  loop.tick = period_of_rate(setup.rate_Hz > 0.0 ? setup.rate_Hz : spec.default_rate_Hz);
+  loop.physics = setup.physics;
+  loop.gravity_mps2 = setup.numbers.gravity_mps2;
+  return loop;
+}
+
+}  // namespace
+
+AircraftLoop::AircraftLoop(const AircraftSetup& setup)
+    : Loop(make_loop_setup(setup)), sim_(setup.numbers) {
+  add_controller(setup.controller);
+  set_plant(sim_);
+  set_inputs([this, reference = setup.reference] { write("reference", reference(time_s())); });
 
   const AirReference first = setup.reference(0.0);
   const controllers::Aircraft aircraft =
@@ -126,28 +121,6 @@ AircraftLoop::AircraftLoop(const AircraftLoopSetup& setup)
              {trim->controls.throttle, trim->controls.elevator_rad, trim->controls.aileron_rad});
   // The velocity of the trim is through the air.
   sim_.state().velocity += sim_.state().velocity - sim_.air_velocity();
-}
-
-double AircraftLoop::deviation(const std::string& name) const {
-  const NamedValues& values = deviation_.value();
-  const auto found = std::find(values.names.begin(), values.names.end(), name);
-  VINEROW_DEMAND(found != values.names.end());
-  return values.values[static_cast<std::size_t>(found - values.names.begin())];
-}
-
-void AircraftLoop::run_until(double time_s,
-                             const std::function<void(const AircraftLoop&)>& each_tick) {
-  const Time end{duration_from_s(time_s).ns};
-  while (now_ < end) {
-    if (now_.ns % control_period_.ns == 0) {
-      estimate_.write(now_, estimate_instead_.value_or(sim_.truth()));
-      reference_out_.write(now_, setup_.reference(this->time_s()));
-      controller_->step(now_);
-      if (each_tick) each_tick(*this);
-    }
-    sim_.step(actuators_.value().values, kStep.s());
-    now_ = now_ + kStep;
-  }
 }
 
 WindField markov_wind(const Eigen::Vector3d& mean_W, double bound_mps, double along_rad,
@@ -168,6 +141,19 @@ WindField markov_wind(const Eigen::Vector3d& mean_W, double bound_mps, double al
     const double s = place - static_cast<double>(index);
     return mean_W + ((1.0 - s) * (*table)[index] + s * (*table)[index + 1]) * along;
   };
+}
+
+GaussMarkovGust::GaussMarkovGust(std::uint64_t seed, double strength)
+    : random_(seed, "test", "gust"), strength_(strength) {
+  for (double& along : direction_) along = random_.normal();
+  direction_ /= direction_.cwiseAbs().maxCoeff();  // up to 1 m/s along each axis
+  value_ = 0.5 * random_.normal();
+}
+
+Eigen::Vector3d GaussMarkovGust::next() {
+  const double keep = std::exp(-0.05 * 12.0 / 60.0);
+  value_ = keep * value_ + 0.5 * std::sqrt(1.0 - keep * keep) * random_.normal();
+  return strength_ * std::clamp(value_, -1.0, 1.0) * direction_;
 }
 
 }  // namespace vinerow::test

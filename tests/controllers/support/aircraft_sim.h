@@ -62,7 +62,7 @@ std::pair<Eigen::Vector3d, Eigen::Vector3d> calc_aero(const AircraftNumbers& num
 /// What a vehicle on wings of these numbers tells, with a FlightModel.
 VehicleDescription describe(const AircraftNumbers& numbers);
 
-class AircraftSim {
+class AircraftSim final : public Plant {
  public:
   explicit AircraftSim(AircraftNumbers numbers) : numbers_(numbers) {}
 
@@ -79,11 +79,11 @@ class AircraftSim {
              const Eigen::Vector3d& velocity, const Eigen::Vector3d& rates,
              const Eigen::Vector3d& controls);
   /// One step. @param actuators  throttle, left elevon, right elevon; cut to their ranges
-  void step(const std::vector<double>& actuators, double dt_s);
+  void step(const std::vector<double>& actuators, double dt_s) override;
   double time_s() const { return time_s_; }
   /// (u, v, w) through the air.
   Eigen::Vector3d air_velocity() const;
-  Odometry truth() const;
+  Odometry truth() const override;
   /// phi, theta, psi, rad; psi clockwise from north.
   Eigen::Vector3d angles() const;
   /// Accelerations (u, v, w, p, q, r) with the controls where they are.

@@ -4,9 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "controllers/register_controllers.h"
 #include "engine/api/map.h"
-#include "engine/api/messages/commands.h"
 #include "engine/api/messages/sensors.h"
 #include "engine/api/world_model.h"
 #include "engine/core/check.h"
@@ -37,40 +35,6 @@ MissionSetup make_paper_mission(double pitch_m) {
   setup.start = {{5.0, 10.0}, 0.5 * kPi};
   setup.planner.values = {{"waypoint_pitch_m", pitch_m}};
   return setup;
-}
-
-const Registry& parts() {
-  static const Registry registry = [] {
-    Registry r;
-    controllers::register_controllers(r);
-    return r;
-  }();
-  return registry;
-}
-
-std::vector<std::string> controllers_that_read(const std::string& signal) {
-  std::vector<std::string> names;
-  for (const std::string& name : parts().names(PartKind::kController)) {
-    const std::vector<std::string>& reads = parts().spec(PartKind::kController, name).reads;
-    if (std::find(reads.begin(), reads.end(), signal) != reads.end()) names.push_back(name);
-  }
-  return names;
-}
-
-std::vector<std::string> controllers_that_write(const std::string& signal) {
-  std::vector<std::string> names;
-  for (const std::string& name : parts().names(PartKind::kController)) {
-    const std::vector<std::string>& writes = parts().spec(PartKind::kController, name).writes;
-    if (std::find(writes.begin(), writes.end(), signal) != writes.end()) names.push_back(name);
-  }
-  return names;
-}
-
-ParameterSet make_parameters(const PartSpec& spec, const Values& values) {
-  ParameterSet parameters(spec.parameters, spec.name);
-  for (const auto& [name, value] : values) parameters.set(name, value);
-  parameters.require_complete();
-  return parameters;
 }
 
 const VehicleDescription& vehicle_for(const std::string& controller) {
@@ -111,64 +75,35 @@ PlannedPath plan_mission(const MissionSetup& setup) {
   return std::move(plan).value();
 }
 
-namespace {
-
-std::unique_ptr<Controller> make_controller(const MissionSetup& setup,
-                                            const VehicleDescription& description) {
-  ControllerContext context;
-  context.vehicle = "rover";
-  context.part = "rover.controller";
-  context.period = duration_from_s(setup.cycle_s);
-  context.vehicle_description = &description;
-  context.map = &*setup.map;
-  const PartSpec& spec = parts().spec(PartKind::kController, setup.controller.type);
-  return parts().make_controller(setup.controller.type,
-                                 make_parameters(spec, setup.controller.values), context);
-}
-
-std::unique_ptr<Estimator> make_estimator(const MissionSetup& setup,
-                                          const VehicleDescription& description) {
-  if (setup.estimator.type.empty()) return nullptr;
-  EstimatorContext context;
-  context.vehicle = "rover";
-  context.part = "rover.estimator";
-  context.period = duration_from_s(setup.cycle_s);
-  context.vehicle_description = &description;
-  context.map = &*setup.map;
-  const PartSpec& spec = parts().spec(PartKind::kEstimator, setup.estimator.type);
-  return parts().make_estimator(setup.estimator.type, make_parameters(spec, setup.estimator.values),
-                                context);
-}
-
-}  // namespace
-
 MissionResult run_mission(const MissionSetup& setup) {
   const VehicleDescription& description = vehicle_for(setup.controller.type);
-  std::unique_ptr<Plant> plant = description.type == "test_rover"
-                                     ? make_rover_plant(setup.start)
-                                     : std::make_unique<SteeredPlant>(setup.start);
+  std::unique_ptr<GroundPlant> plant = description.type == "test_rover"
+                                           ? make_rover_plant(setup.start)
+                                           : std::make_unique<SteeredPlant>(setup.start);
   MissionResult result;
   result.plan = plan_mission(setup);
 
-  SignalBus bus;
-  Ports world(bus, "rover", "test");
-  auto truth_out = world.write<Odometry>("truth");
-  auto plan_out = world.write<PlannedPath>("plan");
-  auto gps_out = world.write<GnssFix>("gps");
-  auto authority_out = world.write<MovementAuthority>("authority");
-  const auto estimator = make_estimator(setup, description);
-  SignalWriter<Odometry> estimate_out;
-  if (estimator) {
-    Ports ports(bus, "rover", "rover.estimator");
-    estimator->connect(ports);
-  } else {
-    estimate_out = world.write<Odometry>("estimate");
+  Loop loop(
+      {.description = description, .tick = duration_from_s(setup.cycle_s), .map = &*setup.map});
+  loop.set_plant(*plant);
+  loop.set_stop_at(setup.stop_at_m);
+  RandomStream random(setup.seed, "rover", "rover.gps");
+  if (!setup.estimator.type.empty()) {
+    loop.add_estimator(setup.estimator);
+    loop.set_inputs([&] {
+      const Odometry truth = plant->truth();
+      GnssFix fix;
+      fix.valid = true;
+      fix.p_W = truth.X_WB.p;
+      fix.v_W = truth.X_WB.q * truth.v_WB_B;
+      fix.p_W.x() += random.uniform(-setup.accuracy_m, setup.accuracy_m);
+      fix.p_W.y() += random.uniform(-setup.accuracy_m, setup.accuracy_m);
+      fix.std_m.setConstant(setup.accuracy_m / std::sqrt(3.0));
+      loop.write("gps", fix);
+    });
   }
-  const auto controller = make_controller(setup, description);
-  Ports ports(bus, "rover", "rover.controller");
-  controller->connect(ports);
-  const auto actuators = world.read<NamedValues>("actuators");
-  bus.check_connected();
+  loop.add_controller(setup.controller);
+  loop.give_plan(result.plan);
 
   std::vector<Eigen::Vector2d> line;
   for (const PathPoint& point : result.plan.points) line.push_back(point.p_W.head<2>());
@@ -184,31 +119,13 @@ MissionResult run_mission(const MissionSetup& setup) {
     result.poses.push_back(pose);
   };
 
-  RandomStream random(setup.seed, "rover", "rover.gps");
-  plan_out.write(Time{}, result.plan);
   measure(setup.start);
-  const Duration period = duration_from_s(setup.cycle_s);
-  for (Time now{}; now.s() < setup.longest_s; now = now + period) {
-    const Odometry truth = plant->truth();
-    truth_out.write(now, truth);
-    GnssFix fix;
-    fix.valid = true;
-    fix.p_W = truth.X_WB.p;
-    fix.v_W = truth.X_WB.q * truth.v_WB_B;
-    fix.p_W.x() += random.uniform(-setup.accuracy_m, setup.accuracy_m);
-    fix.p_W.y() += random.uniform(-setup.accuracy_m, setup.accuracy_m);
-    fix.std_m.setConstant(setup.accuracy_m / std::sqrt(3.0));
-    gps_out.write(now, fix);
-    if (estimator) {
-      estimator->step(now);
-    } else {
-      estimate_out.write(now, truth);
-    }
-    if (setup.stop_at_m) authority_out.write(now, {setup.stop_at_m(now.s()), -1, ""});
-    controller->step(now);
-    result.finished = controller->finished();
+  while (loop.time_s() < setup.longest_s) {
+    loop.sense();
+    loop.decide();
+    result.finished = loop.finished();
     if (result.finished) break;
-    plant->drive(actuators.value().values, setup.cycle_s);
+    loop.move();
     result.max_yaw_rate_radps =
         std::max(result.max_yaw_rate_radps, std::abs(plant->truth().w_WB_B.z()));
     result.time_s += setup.cycle_s;

@@ -1,6 +1,7 @@
 #pragma once
-/// Drives a planner, an estimator and a controller with exact kinematics and no kernel: one pose
-/// per cycle. The plant is paper B's, or a steered one for controllers that want that (plant.h).
+/// Missions of rovers with exact kinematics: a planner, then an estimator and a controller in a
+/// loop (loop.h), one pose per cycle. The plant is paper B's, or a steered one for controllers that
+/// want that (plant.h).
 
 #include <functional>
 #include <memory>
@@ -10,21 +11,12 @@
 
 #include "controllers/parts/paths/pose2.h"
 #include "engine/api/forward.h"
-#include "engine/api/registry.h"
 #include "engine/api/vehicle.h"
 #include "engine/core/indirect.h"
 #include "engine/math/deviation.h"
-#include "tests/controllers/support/plant.h"
+#include "tests/controllers/support/loop.h"
 
 namespace vinerow::test {
-
-using Values = std::vector<std::pair<std::string, ParameterSet::Value>>;
-
-/// A part by name with some of its parameters.
-struct PartChoice {
-  std::string type;
-  Values values;
-};
 
 struct MissionSetup {
   Indirect<RowMap> map;
@@ -63,16 +55,6 @@ RowMap make_paper_map();
 /// truth.
 MissionSetup make_paper_mission(double pitch_m = 0.33);
 
-/// All registered controllers, planners and estimators.
-const Registry& parts();
-/// Names of the registered controllers that say that they read this signal: those of ground
-/// vehicles follow a "plan", those of flying ones a "reference".
-std::vector<std::string> controllers_that_read(const std::string& signal);
-/// The same of a signal that they write: those of rotorcraft a "wrench", those of vehicles on wings
-/// their "deviation" from steady flight.
-std::vector<std::string> controllers_that_write(const std::string& signal);
-
-ParameterSet make_parameters(const PartSpec& spec, const Values& values);
 /// @param vehicle  that is planned for; null: paper B's rover
 std::unique_ptr<Planner> make_planner(const PartChoice& choice, const RowMap& map,
                                       const VehicleDescription* vehicle = nullptr);

@@ -21,10 +21,10 @@ VelocityCommand unmix(const std::vector<double>& wheels_radps) {
   return {0.5 * (left_mps + right_mps), (right_mps - left_mps) / kRoverTrack_m};
 }
 
-class RoverPlant final : public Plant {
+class RoverPlant final : public GroundPlant {
  public:
   explicit RoverPlant(const controllers::Pose2& start) : pose_(start) {}
-  void drive(const std::vector<double>& actuators, double dt_s) override {
+  void step(const std::vector<double>& actuators, double dt_s) override {
     driven_ = unmix(actuators);
     pose_ = controllers::advance(pose_, driven_.v_mps * dt_s, driven_.yaw_rate_radps * dt_s);
   }
@@ -67,7 +67,7 @@ VehicleDescription make_rover_description() {
   return description;
 }
 
-std::unique_ptr<Plant> make_rover_plant(const controllers::Pose2& start) {
+std::unique_ptr<GroundPlant> make_rover_plant(const controllers::Pose2& start) {
   return std::make_unique<RoverPlant>(start);
 }
 
@@ -128,7 +128,7 @@ void SteeredPlant::move(const std::vector<double>& actuators, double dt_s) {
   in_plane_ = {moved.p, moved.yaw_rad - side};
 }
 
-void SteeredPlant::drive(const std::vector<double>& actuators, double dt_s) {
+void SteeredPlant::step(const std::vector<double>& actuators, double dt_s) {
   constexpr int kParts = 10;
   for (int i = 0; i < kParts; ++i) move(actuators, dt_s / kParts);
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// Vehicles that move exactly as their actuators say, without physics.
+/// Plants of the loop (loop.h), and rovers that move exactly as their actuators say.
 
 #include <limits>
 #include <memory>
@@ -10,20 +10,25 @@
 
 namespace vinerow::test {
 
+/// A vehicle that moves by its actuators.
 class Plant {
  public:
   virtual ~Plant() = default;
   /// Moves on with these actuator values, in the order of its description.
-  virtual void drive(const std::vector<double>& actuators, double dt_s) = 0;
+  virtual void step(const std::vector<double>& actuators, double dt_s) = 0;
+  virtual Odometry truth() const = 0;
+};
+
+class GroundPlant : public Plant {
+ public:
   /// Pose in plan.
   virtual controllers::Pose2 pose() const = 0;
-  virtual Odometry truth() const = 0;
 };
 
 /// Paper B's rover: 1 m track, 0.2 m wheels, four wheel speeds without limit.
 VehicleDescription make_rover_description();
 /// Moves by the mean speeds of its sides.
-std::unique_ptr<Plant> make_rover_plant(const controllers::Pose2& start);
+std::unique_ptr<GroundPlant> make_rover_plant(const controllers::Pose2& start);
 
 /// Paper A's rover: two steered axles 1.5 m apart, 23 deg at most, four wheel speeds of 8 rad/s.
 VehicleDescription make_steered_description();
@@ -41,10 +46,10 @@ struct SteeredPlantOptions {
 
 /// Rolls about the ICR of its axles: both axle midpoints move where their wheels point; forward
 /// speed is the mean of the wheels'. Written without the code under test.
-class SteeredPlant final : public Plant {
+class SteeredPlant final : public GroundPlant {
  public:
   explicit SteeredPlant(const controllers::Pose2& start, const SteeredPlantOptions& options = {});
-  void drive(const std::vector<double>& actuators, double dt_s) override;
+  void step(const std::vector<double>& actuators, double dt_s) override;
   controllers::Pose2 pose() const override;
   Odometry truth() const override;
 

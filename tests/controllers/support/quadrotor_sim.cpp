@@ -129,6 +129,9 @@ QuadrotorState QuadrotorSim::derivative(const QuadrotorState& x, const Eigen::Ve
 }
 
 void QuadrotorSim::step(const std::vector<double>& wanted_radps, double dt_s) {
+  // The bias as half a kick before and half a kick after the step.
+  const Eigen::Vector3d half_kick = 0.5 * dt_s * bias_B_.cwiseQuotient(numbers_.inertia_kgm2);
+  state_.w_B += half_kick;
   Eigen::VectorXd wanted(state_.rotors_radps.size());
   for (int i = 0; i < wanted.size(); ++i) {
     wanted(i) = std::clamp(wanted_radps[static_cast<std::size_t>(i)], numbers_.min_radps,
@@ -141,6 +144,7 @@ void QuadrotorSim::step(const std::vector<double>& wanted_radps, double dt_s) {
   state_ = moved(state_, dt_s / 6.0, moved(moved(moved(k1, 2.0, k2), 2.0, k3), 1.0, k4));
   state_.q_WB.normalize();
   time_s_ += dt_s;
+  state_.w_B += half_kick;
   if (state_.p_W.z() < floor_m_) {
     // It stands: level, with its heading.
     const Eigen::Vector3d nose = state_.q_WB * Eigen::Vector3d::UnitX();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/api/vehicle.h"
+#include "tests/controllers/support/plant.h"
 
 namespace vinerow::test {
 
@@ -54,7 +55,7 @@ struct QuadrotorState {
 /// Wind in W at a time and place, m/s.
 using WindField = std::function<Eigen::Vector3d(double time_s, const Eigen::Vector3d& p_W)>;
 
-class QuadrotorSim {
+class QuadrotorSim final : public Plant {
  public:
   /// Starts at rest with the rotors off.
   explicit QuadrotorSim(QuadrotorNumbers numbers);
@@ -67,12 +68,15 @@ class QuadrotorSim {
   /// A floor at this height: it carries the vehicle, which stands level on it. Default: none.
   void set_floor(double height_m);
 
+  /// A torque that the controller does not know of, N m in B.
+  void set_torque_bias(const Eigen::Vector3d& torque_B) { bias_B_ = torque_B; }
+
   /// One step. Wanted speeds are cut to the rotors' limits.
-  void step(const std::vector<double>& wanted_radps, double dt_s);
+  void step(const std::vector<double>& wanted_radps, double dt_s) override;
   double time_s() const { return time_s_; }
   /// Angle between B's z axis and the vertical.
   double tilt_rad() const;
-  Odometry truth() const;
+  Odometry truth() const override;
 
  private:
   QuadrotorState derivative(const QuadrotorState& x, const Eigen::VectorXd& wanted,
@@ -81,6 +85,7 @@ class QuadrotorSim {
   QuadrotorNumbers numbers_;
   QuadrotorState state_;
   WindField wind_;
+  Eigen::Vector3d bias_B_ = Eigen::Vector3d::Zero();
   double floor_m_;
   double time_s_ = 0.0;
 };

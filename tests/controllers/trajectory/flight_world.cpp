@@ -6,23 +6,18 @@
 #include "engine/math/angles.h"
 
 namespace vinerow::test {
-namespace {
 
-constexpr Duration kTick{50'000'000};
-
-}  // namespace
-
-Hill make_flat(double height_m) {
-  return Hill([height_m](double, double) { return height_m; });
+PlainScene make_flat(double height_m) {
+  return PlainScene([height_m](double, double) { return height_m; });
 }
 
-Hill make_bumpy_slope() {
-  return Hill([](double x, double y) {
+PlainScene make_bumpy_slope() {
+  return PlainScene([](double x, double y) {
     return 20.0 + 0.16 * y + 0.15 * std::sin(2.0 * kPi * (y + 0.5 * x) / 12.0);
   });
 }
 
-RowMap put_on(RowMap map, const Hill& hill) {
+RowMap put_on(RowMap map, const PlainScene& hill) {
   // Points of the centre lines a metre apart, so that they follow the ground.
   const auto follow = [&hill](const std::vector<Eigen::Vector3d>& line) {
     std::vector<Eigen::Vector3d> fine;
@@ -33,7 +28,7 @@ RowMap put_on(RowMap map, const Hill& hill) {
       }
     }
     fine.push_back(line.back());
-    for (Eigen::Vector3d& p : fine) p.z() = hill.at(p.head<2>());
+    for (Eigen::Vector3d& p : fine) p.z() = hill.ground_m(p.head<2>());
     return fine;
   };
   for (PlantRow& row : map.rows) row.line_W = follow(row.line_W);
@@ -58,8 +53,8 @@ VehicleDescription make_quadrotor_description() {
   for (int i = 0; i < 4; ++i) {
     description.actuators.push_back(
         {"rotor_" + std::to_string(i + 1) + "_speed_radps", "rad/s", 0.0, 640.0});
-    craft.rotors.push_back({{i == 0 || i == 3 ? arm_m : -arm_m, i < 2 ? arm_m : -arm_m},
-                            i % 2 == 0 ? 1.0 : -1.0});
+    craft.rotors.push_back(
+        {{i == 0 || i == 3 ? arm_m : -arm_m, i < 2 ? arm_m : -arm_m}, i % 2 == 0 ? 1.0 : -1.0});
   }
   craft.inertia_kgm2 = {0.050, 0.050, 0.0977};
   craft.thrust_coefficient_Ns2 = 5.98e-5;
@@ -73,7 +68,7 @@ VehicleDescription make_quadrotor_description() {
   return description;
 }
 
-FlightBench::FlightBench(BlockSetup block, Hill ground)
+FlightBench::FlightBench(BlockSetup block, PlainScene ground)
     : setup(block), hill(std::move(ground)), map(put_on(make_block(block), hill)) {}
 
 std::unique_ptr<Planner> FlightBench::make() const {
@@ -92,7 +87,7 @@ Result<PlannedPath> FlightBench::plan(double x, double y, double yaw_rad) {
   planner = make();
   const Eigen::Vector2d p = block_point(setup, x, y);
   return planner->plan({quaternion_from_rpy({0.0, 0.0, yaw_rad}),
-                        {p.x(), p.y(), hill.at(p) + vehicle.height_above_ground_m}});
+                        {p.x(), p.y(), hill.ground_m(p) + vehicle.height_above_ground_m}});
 }
 
 std::vector<PlanSample> sample_plan(const PlannedPath& plan, double step_m) {
@@ -122,42 +117,8 @@ std::vector<PlanSample> sample_plan(const PlannedPath& plan, double step_m) {
 }
 
 GuideBench::GuideBench(const Values& values, const std::string& type, VehicleDescription vehicle)
-    : vehicle_(std::move(vehicle)) {
-  ControllerContext context;
-  context.vehicle = "drone";
-  context.part = "drone.guidance";
-  context.period = kTick;
-  context.vehicle_description = &vehicle_;
-  const PartSpec& spec = parts().spec(PartKind::kGuidance, type);
-  guidance_ = parts().make_guidance(type, make_parameters(spec, values), context);
-  Ports world(bus_, "drone", "test");
-  estimate_ = world.write<Odometry>("estimate");
-  plan_ = world.write<PlannedPath>("plan");
-  authority_ = world.write<MovementAuthority>("authority");
-  Ports ports(bus_, "drone", "drone.guidance");
-  guidance_->connect(ports);
-  reference_ = world.read<ReferenceTrajectory>("reference");
-  news_ = world.read<Event>("guidance_event");
-}
-
-void GuideBench::give_plan(const PlannedPath& plan) {
-  plan_.write(now_, plan);
-}
-
-void GuideBench::take_event() {
-  if (news_.is_newer_than(news_seen_)) events_.push_back(news_.value());
-}
-
-const ReferenceTrajectory& GuideBench::step(const Odometry& estimate) {
-  estimate_.write(now_, estimate);
-  return step_blind();
-}
-
-const ReferenceTrajectory& GuideBench::step_blind() {
-  guidance_->step(now_);
-  now_ = now_ + kTick;
-  take_event();
-  return reference_.value();
+    : Loop({.vehicle = "drone", .description = std::move(vehicle), .tick = Duration{50'000'000}}) {
+  add_guidance({type, values});
 }
 
 void GuideBench::fly(const Eigen::Vector3d& start, double longest_s, double floor_m,

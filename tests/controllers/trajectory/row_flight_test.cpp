@@ -96,7 +96,7 @@ TEST(RowFlight, KeepsItsHeightAboveASlopeWithBumps) {
   double worst_m = 0.0;
   for (const PlanSample& sample : sample_plan(*plan, 0.1)) {
     if (sample.kind != PathKind::kLeg && sample.kind != PathKind::kTurn) continue;
-    const double above_m = sample.p_W.z() - bench.hill.at(sample.p_W.head<2>());
+    const double above_m = sample.p_W.z() - bench.hill.ground_m(sample.p_W.head<2>());
     worst_m = std::max(worst_m, std::abs(above_m - 1.5));
   }
   RecordProperty("worst_mm", static_cast<int>(1e3 * worst_m));
@@ -107,7 +107,7 @@ TEST(RowFlight, KeepsItsHeightAboveASlopeWithBumps) {
 
 TEST(RowFlight, SmoothsRoughGround) {
   // Steps of 0.2 m every 2 m: at 3 m/s the raw heights would jump.
-  FlightBench bench({.alleys = 1}, Hill([](double, double y) {
+  FlightBench bench({.alleys = 1}, PlainScene([](double, double y) {
                       return 0.2 *
                              (static_cast<int>(std::floor((y - 1.0) / 2.0)) % 2 == 0 ? 1.0 : 0.0);
                     }));
@@ -141,8 +141,8 @@ TEST(RowFlight, GoesHomeAboveGroundAndCanopies) {
       const double row_x = 2.5 * std::round(p.x() / 2.5);
       const bool over = p.y() >= 0.0 && p.y() <= 118.0 && std::abs(p.x() - row_x) <= 0.3;
       over_rows = over_rows || over;
-      double below_m = bench.hill.at(p);
-      if (over) below_m = std::max(below_m, bench.hill.at({row_x, p.y()})) + 2.0;
+      double below_m = bench.hill.ground_m(p);
+      if (over) below_m = std::max(below_m, bench.hill.ground_m({row_x, p.y()})) + 2.0;
       min_m = std::min(min_m, sample.p_W.z() - below_m);
       if (!over) highest_m = std::max(highest_m, sample.p_W.z() - below_m);
     }
@@ -161,7 +161,7 @@ TEST(RowFlight, ComesDownToThreeMetresWhereThereIsNoCanopy) {
   ASSERT_TRUE(plan.ok()) << plan.reason();
   for (const PlanSample& sample : sample_plan(*plan, 0.1)) {
     if (sample.kind != PathKind::kReturn || sample.p_W.y() > -7.5) continue;
-    const double above_m = sample.p_W.z() - bench.hill.at(sample.p_W.head<2>());
+    const double above_m = sample.p_W.z() - bench.hill.ground_m(sample.p_W.head<2>());
     ASSERT_GE(above_m, 2.99);
     ASSERT_LE(above_m, 3.4);
   }
@@ -286,7 +286,7 @@ TEST(RowFlight, TellsWhyThereIsNoPlan) {
               HasSubstr("turn from alley 0 to alley 1: the three-point arc between alleys 2.5 m "
                         "apart has a radius of 1.25 m"));
   FlightBench high({.alleys = 1, .row_length_m = 20.0});
-  high.hill = Hill([](double, double y) { return y > -3.0 ? 0.0 : 4.0; });
+  high.hill = PlainScene([](double, double y) { return y > -3.0 ? 0.0 : 4.0; });
   high.vehicle.height_above_ground_m = -3.0;  // stands in a hollow that the map does not have
   high.values = {{"smooth_m", 0.0}, {"turns", std::string("dubins")}};
   Pose start;

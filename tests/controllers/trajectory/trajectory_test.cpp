@@ -357,7 +357,7 @@ TEST(Trajectory, AllocatesOnlyToTakeThePlanAndToTell) {
 
 TEST(Trajectory, StandsAtItsPlaceUntilThereIsAPlan) {
   GuideBench bench;
-  EXPECT_EQ(bench.step_blind().phase, Phase::kWait);
+  EXPECT_EQ(bench.step().phase, Phase::kWait);
   Odometry estimate;
   estimate.X_WB = {quaternion_from_rpy({0, 0, 1.0}), {3, 4, 5}};
   for (const int points : {0, 1}) {

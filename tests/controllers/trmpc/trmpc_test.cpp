@@ -9,7 +9,7 @@
 
 #include "controllers/mpc_nominal/mpc_nominal.h"
 #include "tests/controllers/parts/solvers/random_sets.h"
-#include "tests/controllers/trmpc/wing_loop.h"
+#include "tests/controllers/trmpc/wing_setup.h"
 #include "tests/support/no_alloc.h"
 
 namespace vinerow::test::trmpc_test {
@@ -22,26 +22,34 @@ struct Flown {
   double elevator_rad = 0.0;
   double largest_violation = 0.0;  // of soft limits, by mpc
   double active_steps = 0;
-  std::vector<std::string> events;
+  std::vector<LoopEvent> events;
 
   int outside() const { return lon_states + lon_inputs + lat_states + lat_inputs; }
 };
 
+/// One period of the controller, with a gust along the body's axes.
+void tick(AircraftLoop& loop, const Eigen::Vector3d& gust) {
+  loop.sim().set_body_gust(gust);
+  loop.tick();
+}
+
 Flown fly(const WingSetup& setup, std::uint64_t seed, int steps) {
-  WingLoop loop(setup);
+  AircraftLoop loop(setup);
   GaussMarkovGust gust(seed);
   Flown flown;
   for (int k = 0; k < steps; ++k) {
-    loop.tick(gust.next());
+    tick(loop, gust.next());
     flown.lon_states += loop.deviation("outside_lon_states") > 0.0;
     flown.lon_inputs += loop.deviation("outside_lon_inputs") > 0.0;
     flown.lat_states += loop.deviation("outside_lat_states") > 0.0;
     flown.lat_inputs += loop.deviation("outside_lat_inputs") > 0.0;
     flown.elevator_rad = std::max(flown.elevator_rad, std::abs(loop.deviation("elevator_rad")));
-    if (setup.type == "fixed_wing_lqr") continue;
-    flown.largest_violation = std::max({flown.largest_violation, loop.tube("lon_soft_violation"),
-                                        loop.tube("lat_soft_violation")});
-    flown.active_steps += loop.tube("lon_active_rows") + loop.tube("lat_active_rows") > 0.0;
+    if (setup.controller.type == "fixed_wing_lqr") continue;
+    flown.largest_violation =
+        std::max({flown.largest_violation, loop.value("tube", "lon_soft_violation"),
+                  loop.value("tube", "lat_soft_violation")});
+    flown.active_steps +=
+        loop.value("tube", "lon_active_rows") + loop.value("tube", "lat_active_rows") > 0.0;
   }
   flown.events = loop.events();
   return flown;
@@ -49,10 +57,9 @@ Flown fly(const WingSetup& setup, std::uint64_t seed, int steps) {
 
 WingSetup stressed(const std::string& type, const Values& parameters = {}) {
   WingSetup setup;
-  setup.type = type;
-  setup.parameters = parameters;
-  setup.low_m = 14.0;
-  setup.off_rad = 24.0 * kDegree;
+  setup.controller = {type, parameters};
+  setup.higher_m = -14.0;
+  setup.turned_rad = 24.0 * kDegree;
   return setup;
 }
 
@@ -82,20 +89,20 @@ TEST(Trmpc, LawsWithoutTheTubeFailTheStress) {
   EXPECT_GT(nominal.lon_states, 0);
   // 24 deg is outside the set of z_0 = x (23.1), 20 deg is not.
   WingSetup fixed = stressed("trmpc", {{"law", std::string("fixed_start")}});
-  fixed.low_m = 0.0;
+  fixed.higher_m = 0.0;
   EXPECT_GT(fly(fixed, 0, 2).largest_violation, 0.03);
-  fixed.off_rad = 20.0 * kDegree;
+  fixed.turned_rad = 20.0 * kDegree;
   EXPECT_LT(fly(fixed, 0, 60).largest_violation, 1e-3);
   EXPECT_EQ(fly(fixed, 0, 60).outside(), 0);
 }
 
 TEST(Trmpc, TurbulenceOfOneMetrePerSecondViolatesNothing) {
-  WingLoop loop({});
+  AircraftLoop loop(WingSetup{});
   double most = 0.0;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     GaussMarkovGust gust(seed);
     for (int k = 0; k < 400; ++k) {
-      loop.tick(gust.next());
+      tick(loop, gust.next());
       most = std::max(most, loop.deviation("limit_share"));
     }
   }
@@ -105,14 +112,14 @@ TEST(Trmpc, TurbulenceOfOneMetrePerSecondViolatesNothing) {
 
 TEST(Trmpc, IsTheLqrToTheLastDigitsWhileNothingIsActive) {
   WingSetup lqr;
-  lqr.type = "fixed_wing_lqr";
-  WingLoop tube({}), plain(lqr);
+  lqr.controller.type = "fixed_wing_lqr";
+  AircraftLoop tube(WingSetup{}), plain(lqr);
   GaussMarkovGust gust(4);
   for (int k = 0; k < 400; ++k) {
     const Eigen::Vector3d blow = gust.next();
-    tube.tick(blow);
-    plain.tick(blow);
-    ASSERT_EQ(tube.tube("lon_active_rows") + tube.tube("lat_active_rows"), 0.0);
+    tick(tube, blow);
+    tick(plain, blow);
+    ASSERT_EQ(tube.value("tube", "lon_active_rows") + tube.value("tube", "lat_active_rows"), 0.0);
     for (std::size_t i = 0; i < 3; ++i) {
       ASSERT_NEAR(tube.actuators()[i], plain.actuators()[i], 1e-9);
     }
@@ -120,34 +127,39 @@ TEST(Trmpc, IsTheLqrToTheLastDigitsWhileNothingIsActive) {
 }
 
 TEST(Trmpc, TellsWhatItPromisesAndWhenSoftConstraintsTakeOver) {
-  const std::vector<std::string> events = fly(stressed("trmpc"), 0, 240).events;
+  const std::vector<LoopEvent> events = fly(stressed("trmpc"), 0, 240).events;
   ASSERT_EQ(events.size(), 3u);
-  EXPECT_EQ(events[0],
+  EXPECT_EQ(events[0].text,
             "recursively feasible for gusts up to 2.09 m/s (longitudinal), 1.79 m/s (lateral)");
-  EXPECT_EQ(events[1].rfind("longitudinal axis outside its tube by ", 0), 0u) << events[1];
-  EXPECT_NE(events[1].find(" % of its terminal set; soft constraints take over"),
+  EXPECT_EQ(events[1].text.rfind("longitudinal axis outside its tube by ", 0), 0u)
+      << events[1].text;
+  EXPECT_NE(events[1].text.find(" % of its terminal set; soft constraints take over"),
             std::string::npos);
-  EXPECT_EQ(events[2].rfind("longitudinal axis back inside its tube after ", 0), 0u) << events[2];
-  WingLoop loop({});
+  EXPECT_EQ(events[2].text.rfind("longitudinal axis back inside its tube after ", 0), 0u)
+      << events[2].text;
+  AircraftLoop loop(WingSetup{});
   loop.tick();
-  EXPECT_NEAR(loop.tube("lon_gust_mps"), 2.09, 0.01);
-  EXPECT_NEAR(loop.tube("lat_gust_mps"), 1.79, 0.01);
+  EXPECT_NEAR(loop.value("tube", "lon_gust_mps"), 2.09, 0.01);
+  EXPECT_NEAR(loop.value("tube", "lat_gust_mps"), 1.79, 0.01);
 }
 
 TEST(Trmpc, NeitherTakesHeapNorDependsOnAnythingButItsCalls) {
   for (const char* type : {"trmpc", "mpc_nominal"}) {
-    WingLoop first(stressed(type)), second(stressed(type));
+    AircraftLoop first(stressed(type)), second(stressed(type));
     GaussMarkovGust gust(5);
     for (int k = 0; k < 120; ++k) {
       const Eigen::Vector3d blow = gust.next();
       std::size_t allocations = 0;
       const std::size_t told = first.events().size();
-      first.tick(blow, [&](const std::function<void()>& decide) {
+      first.sense();
+      {
         AllocationCounter counter;
-        decide();
+        first.decide();
         allocations = counter.count();
-      });
-      second.tick(blow);
+      }
+      first.sim().set_body_gust(blow);
+      first.move();
+      tick(second, blow);
       if (k > 0 && first.events().size() == told) {  // a text and a signal's first value take heap
         EXPECT_EQ(allocations, 0u) << "tick " << k;
       }
@@ -157,27 +169,33 @@ TEST(Trmpc, NeitherTakesHeapNorDependsOnAnythingButItsCalls) {
 }
 
 TEST(Trmpc, StandsAndEndsWithThePropellerOff) {
-  WingLoop loop({});
-  loop.reference().phase = AirReference::Phase::kWait;
+  WingSetup setup;
+  AirReference wanted = setup.reference(0.0);
+  AircraftLoop loop(setup);
+  loop.set_inputs([&] { loop.write("reference", wanted); });
+  wanted.phase = AirReference::Phase::kWait;
   loop.tick();
   EXPECT_EQ(loop.actuators()[0], 0.0);
-  loop.reference().phase = AirReference::Phase::kStraight;
+  wanted.phase = AirReference::Phase::kStraight;
   loop.tick();
   EXPECT_GT(loop.actuators()[0], 0.3);
   // Over, but in the air: it flies on.
-  loop.reference().phase = AirReference::Phase::kDone;
+  wanted.phase = AirReference::Phase::kDone;
   loop.tick();
   EXPECT_GT(loop.actuators()[0], 0.3);
-  loop.reference().power = false;
+  wanted.power = false;
   loop.tick();
   EXPECT_EQ(loop.actuators(), (std::vector<double>{0.0, 0.0, 0.0}));
 }
 
 TEST(Trmpc, LostEstimateLeavesTheTrim) {
-  WingLoop loop({});
+  WingSetup setup;
+  AirReference wanted = setup.reference(0.0);
+  AircraftLoop loop(setup);
+  loop.set_inputs([&] { loop.write("reference", wanted); });
   loop.tick();
   const std::vector<double> trimmed = loop.actuators();
-  loop.reference().height_m = std::nan("");
+  wanted.height_m = std::nan("");
   loop.tick();
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(loop.actuators()[i], trimmed[i], 1e-5);
 }
@@ -185,8 +203,8 @@ TEST(Trmpc, LostEstimateLeavesTheTrim) {
 TEST(Trmpc, RefusesWhatCannotBeKept) {
   const auto refused = [](const Values& values) {
     WingSetup setup;
-    setup.parameters = values;
-    return complaint([&] { WingLoop loop(setup); });
+    setup.controller.values = values;
+    return complaint([&] { AircraftLoop loop(setup); });
   };
   EXPECT_EQ(refused({{"gust_mps", 1.9}}),
             "plane.controller (trmpc): gusts of 1.9 m/s alone take 106 % of the limit of aileron; "

@@ -9,28 +9,6 @@
 
 namespace vinerow::test {
 
-namespace {
-
-/// Nothing but ground.
-struct Terrain final : SceneQuery {
-  explicit Terrain(std::function<double(const Eigen::Vector2d&)> the_heights)
-      : heights(std::move(the_heights)) {}
-  std::optional<RayHit> cast_ray(const Eigen::Vector3d&, const Eigen::Vector3d&, double,
-                                 SurfaceMask) const override {
-    return std::nullopt;
-  }
-  std::optional<double> ground_height_m(double x, double y, double) const override {
-    return heights({x, y});
-  }
-  double distance_to_box_m(const Pose&, const Eigen::Vector3d&, double max_distance_m,
-                           SurfaceMask) const override {
-    return max_distance_m;
-  }
-  std::function<double(const Eigen::Vector2d&)> heights;
-};
-
-}  // namespace
-
 VehicleDescription make_plane_description() {
   VehicleDescription description;
   description.type = "fixed_wing";
@@ -132,63 +110,28 @@ AirData Plane::air() const {
 
 AirBench::AirBench(const Values& values, const PlaneOptions& options, const std::string& type,
                    VehicleDescription vehicle)
-    : plane(options), vehicle_(std::move(vehicle)), has_air_data_(options.has_air_data) {
-  ControllerContext context;
-  context.vehicle = "plane";
-  context.part = "plane.guidance";
-  context.period = kTick;
-  context.vehicle_description = &vehicle_;
-  const PartSpec& spec = parts().spec(PartKind::kGuidance, type);
+    : Loop({.vehicle = "plane", .description = std::move(vehicle), .tick = Duration{50'000'000}}),
+      plane(options) {
   Values all = values;
-  if (has_air_data_ && type == "waypoint_guidance") all.emplace_back("air_data", "air");
-  guidance_ = parts().make_guidance(type, make_parameters(spec, all), context);
-  if (auto* looks = dynamic_cast<SeesGround*>(guidance_.get()); looks && options.terrain) {
-    ground_ = std::make_unique<Terrain>(options.terrain);
+  if (options.has_air_data && type == "waypoint_guidance") all.emplace_back("air_data", "air");
+  Guidance& guidance = add_guidance({type, all});
+  if (auto* looks = dynamic_cast<SeesGround*>(&guidance); looks && options.terrain) {
+    ground_.emplace([terrain = options.terrain](double x, double y) { return terrain({x, y}); });
     looks->see_ground(*ground_);
   }
-  Ports world(bus_, "plane", "test");
-  estimate_ = world.write<Odometry>("estimate");
-  plan_ = world.write<PlannedPath>("plan");
-  air_ = world.write<AirData>("air");
-  Ports ports(bus_, "plane", "plane.guidance");
-  guidance_->connect(ports);
-  reference_ = world.read<AirReference>("reference");
-  news_ = world.read<Event>("guidance_event");
-}
-
-const AirReference& AirBench::step(const Odometry& estimate) {
-  estimate_.write(now_, estimate);
-  return step_blind();
-}
-
-const AirReference& AirBench::step_blind() {
-  guidance_->step(now_);
-  now_ = now_ + kTick;
-  if (news_.is_newer_than(news_seen_)) events_.push_back(news_.value());
-  return reference_.value();
-}
-
-const AirReference& AirBench::tick() {
-  if (has_air_data_) air_.write(now_, plane.air());
-  const AirReference& reference = step(plane.odometry());
-  plane.advance(reference, kTick.s());
-  return reference;
+  set_plant([this] { return plane.odometry(); },
+            [this](double dt_s) { plane.advance(reference(), dt_s); });
+  if (options.has_air_data) set_inputs([this] { write("air", plane.air()); });
 }
 
 void AirBench::fly(double longest_s, const Each& each) {
   while (time_s() < longest_s) {
-    const double now_s = time_s();
-    const Odometry seen = plane.odometry();
-    const AirReference& reference = tick();
-    if (each) each(now_s, seen, reference);
-    if (reference.phase == AirPhase::kDone) return;
+    sense();
+    decide();
+    if (each) each(time_s(), read<Odometry>("estimate"), reference());
+    move();
+    if (reference().phase == AirPhase::kDone) return;
   }
-}
-
-bool AirBench::has_event(const std::string& words) const {
-  return std::any_of(events_.begin(), events_.end(), [&](const Event& event) {
-    return event.text.find(words) != std::string::npos;
-  });
 }
 
 PlannedPath make_waypoints(const std::vector<Eigen::Vector3d>& points) {

@@ -1,20 +1,18 @@
 #pragma once
-/// Guidances that write AirReference between their signals, and a point that flies turns in a
-/// uniform wind: bank and climb follow with lags, and the heading's rate is g tan(bank) / V, with
-/// another lag.
+/// Guidances that write AirReference in a loop (loop.h) with a point that flies turns in a uniform
+/// wind: bank and climb follow with lags, and the heading's rate is g tan(bank) / V, with another
+/// lag.
 
 #include <functional>
 #include <limits>
-#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "engine/api/messages/event.h"
 #include "engine/api/messages/flight.h"
 #include "engine/api/messages/sensors.h"
-#include "engine/api/registry.h"
-#include "engine/api/scene_query.h"
-#include "tests/controllers/support/mission.h"
+#include "tests/controllers/support/loop.h"
+#include "tests/support/plain_scene.h"
 
 namespace vinerow::test {
 
@@ -59,44 +57,26 @@ class Plane {
   double touch_mps_ = std::numeric_limits<double>::quiet_NaN(), touch_rise_ = 0.0;
 };
 
-class AirBench {
+/// The guidance and the plane in a loop of 50 ms. The plan is given by give_plan().
+class AirBench : public Loop {
  public:
-  static constexpr Duration kTick{50'000'000};
-
   explicit AirBench(const Values& values = {}, const PlaneOptions& plane = {},
                     const std::string& type = "waypoint_guidance",
                     VehicleDescription vehicle = make_plane_description());
 
-  void give_plan(const PlannedPath& plan) { plan_.write(now_, plan); }
-  /// A tick of the guidance with this estimate, or with the last one.
-  const AirReference& step(const Odometry& estimate);
-  const AirReference& step_blind();
-  /// One tick of guidance, then of the plane.
-  const AirReference& tick();
+  const AirReference& reference() const { return read<AirReference>("reference"); }
+  /// The loop's, with what the guidance wants then.
+  const AirReference& tick() { return Loop::tick(), reference(); }
+  const AirReference& step() { return Loop::step(), reference(); }
+  const AirReference& step(const Odometry& estimate) { return Loop::step(estimate), reference(); }
   /// Ticks until kDone or longest_s; `each` sees what the guidance saw and wanted.
   using Each = std::function<void(double time_s, const Odometry&, const AirReference&)>;
   void fly(double longest_s, const Each& each = {});
 
   Plane plane;
-  const std::vector<Event>& events() const { return events_; }
-  bool has_event(const std::string& words) const;
-  double time_s() const { return now_.s(); }
-  const Guidance& guidance() const { return *guidance_; }
 
  private:
-  VehicleDescription vehicle_;
-  std::unique_ptr<SceneQuery> ground_;
-  bool has_air_data_;
-  SignalBus bus_;
-  SignalWriter<Odometry> estimate_;
-  SignalWriter<PlannedPath> plan_;
-  SignalWriter<AirData> air_;
-  SignalReader<AirReference> reference_;
-  SignalReader<Event> news_;
-  std::uint64_t news_seen_ = 0;
-  std::unique_ptr<Guidance> guidance_;
-  std::vector<Event> events_;
-  Time now_;
+  std::optional<PlainScene> ground_;
 };
 
 /// A plan of waypoints with straight legs.

@@ -26,7 +26,7 @@ Event land(const Values& values) {
       std::find_if(bench.events().begin(), bench.events().end(),
                    [](const Event& event) { return event.text.find("lands at") == 0; });
   EXPECT_NE(found, bench.events().end());
-  return found == bench.events().end() ? Event{} : *found;
+  return found == bench.events().end() ? Event{} : Event(*found);
 }
 
 TEST(AirLanding, WarnsOfGroundThatNobodyTold) {

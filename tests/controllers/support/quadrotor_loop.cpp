@@ -1,4 +1,4 @@
-#include "tests/controllers/support/flight_loop.h"
+#include "tests/controllers/support/quadrotor_loop.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,11 +8,6 @@
 #include "engine/math/angles.h"
 
 namespace vinerow::test {
-namespace {
-
-constexpr Duration kLoopStep{1'000'000};
-
-}  // namespace
 
 FlightPath hover_at(const Eigen::Vector3d& p_W, double yaw_rad) {
   TrajectoryPoint point;
@@ -57,91 +52,81 @@ FlightPath row_and_turn(const Eigen::Vector3d& p_W, double yaw_rad, double speed
   };
 }
 
-FlightLoop::FlightLoop(const FlightSetup& setup)
-    : setup_(setup),
-      description_(describe(setup.told.value_or(setup.numbers))),
-      sim_(setup.numbers) {
+namespace {
+
+Duration control_period(const QuadrotorSetup& setup) {
   const PartSpec& spec = parts().spec(PartKind::kController, setup.controller.type);
-  ControllerContext context;
-  context.vehicle = "drone";
-  context.part = "drone.controller";
-  context.vehicle_description = &description_;
-  context.gravity_mps2 = setup.numbers.gravity_mps2;
-  context.physics_step = kLoopStep;
-  context.period = period_of_rate(setup.rate_Hz > 0.0 ? setup.rate_Hz : spec.default_rate_Hz);
-  control_period_ = context.period;
-  guidance_period_ = period_of_rate(setup.guidance_rate_Hz);
-  controller_ = parts().make_controller(setup.controller.type,
-                                        make_parameters(spec, setup.controller.values), context);
-  Ports world(bus_, "drone", "test");
-  estimate_ = world.write<Odometry>("estimate");
-  authority_ = world.write<MovementAuthority>("authority");
+  return period_of_rate(setup.rate_Hz > 0.0 ? setup.rate_Hz : spec.default_rate_Hz);
+}
+
+LoopSetup make_loop_setup(const QuadrotorSetup& setup) {
+  LoopSetup loop;
+  loop.vehicle = "drone";
+  loop.description = describe(setup.told.value_or(setup.numbers));
+  loop.tick = setup.tick.ns > 0 ? setup.tick : control_period(setup);
+  loop.physics = setup.physics;
+  loop.gravity_mps2 = setup.numbers.gravity_mps2;
+  return loop;
+}
+
+}  // namespace
+
+QuadrotorLoop::QuadrotorLoop(const QuadrotorSetup& setup)
+    : Loop(make_loop_setup(setup)), setup_(setup), sim_(setup.numbers) {
+  const Duration guidance_period = period_of_rate(setup.guidance_rate_Hz);
   if (!setup.guidance.type.empty()) {
-    context.part = "drone.guidance";
-    context.period = guidance_period_;
-    const PartSpec& guide = parts().spec(PartKind::kGuidance, setup.guidance.type);
-    guidance_ = parts().make_guidance(setup.guidance.type,
-                                      make_parameters(guide, setup.guidance.values), context);
-    Ports ports(bus_, "drone", "drone.guidance");
-    guidance_->connect(ports);
-    world.write<PlannedPath>("plan").write(Time{}, setup.plan);
+    add_guidance(setup.guidance, guidance_period);
+    give_plan(setup.plan);
   } else {
-    reference_out_ = world.write<ReferenceTrajectory>("reference");
     trajectory_.points.resize(static_cast<std::size_t>(setup.points));
     trajectory_.dt_s = setup.dt_s;
+    set_inputs([this, guidance_period] {
+      if (is_due(guidance_period)) write_reference();
+    });
   }
-  reference_in_ = world.read<ReferenceTrajectory>("reference");
-  Ports ports(bus_, "drone", "drone.controller");
-  controller_->connect(ports);
-  actuators_ = world.read<NamedValues>("actuators");
-  wrench_ = world.read<NamedValues>("wrench");
-  follower_ = world.read<FollowerState>("follower");
+  add_controller(setup.controller, control_period(setup));
+  set_plant(sim_);
+  set_stop_at(setup.stop_at_m);
 
   sim_.set_wind(setup.wind);
   sim_.set_floor(setup.floor_m);
   sim_.state().p_W = setup.start.p;
   sim_.state().q_WB = setup.start.q;
+  if (setup.starts_on_path) {
+    const TrajectoryPoint first = setup_.path(0.0);
+    sim_.state().p_W = first.p_W;
+    sim_.state().v_W = first.v_W;
+    sim_.state().q_WB = Eigen::AngleAxisd(first.yaw_rad, Eigen::Vector3d::UnitZ());
+  }
   if (setup.rotors_on) sim_.state().rotors_radps.setConstant(sim_.hover_radps());
 }
 
-void FlightLoop::write_reference() {
+void QuadrotorLoop::write_reference() {
   for (std::size_t i = 0; i < trajectory_.points.size(); ++i) {
     trajectory_.points[i] = setup_.path(time_s() + setup_.dt_s * static_cast<double>(i));
   }
   trajectory_.phase = setup_.phase ? setup_.phase(time_s()) : Phase::kHover;
-  reference_out_.write(now_, trajectory_);
+  write("reference", trajectory_);
 }
 
-void FlightLoop::run_until(double time_s, const std::function<void(const FlightLoop&)>& each_step) {
-  const Time end{duration_from_s(time_s).ns};
-  while (now_ < end) {
-    estimate_.write(now_, sim_.truth());
-    if (now_.ns % guidance_period_.ns == 0) {
-      if (setup_.stop_at_m) authority_.write(now_, {setup_.stop_at_m(this->time_s()), -1, ""});
-      guidance_ ? guidance_->step(now_) : write_reference();
-    }
-    if (now_.ns % control_period_.ns == 0) controller_->step(now_);
-    if (each_step) each_step(*this);
-    sim_.step(actuators_.value().values, kLoopStep.s());
-    now_ = now_ + kLoopStep;
-  }
-  estimate_.write(now_, sim_.truth());
+void QuadrotorLoop::set_phase(Phase phase) {
+  setup_.phase = [phase](double) { return phase; };
 }
 
-Eigen::Vector3d FlightLoop::error_in_yaw_frame() const {
+Eigen::Vector3d QuadrotorLoop::path_error() const {
   const TrajectoryPoint at = setup_.path(time_s());
   return Eigen::AngleAxisd(-at.yaw_rad, Eigen::Vector3d::UnitZ()) * (sim_.state().p_W - at.p_W);
 }
 
 WindField gusty_wind(const Eigen::Vector3d& mean_W, double gust_mps, double correlation_s,
-                     double longest_s, std::uint64_t seed) {
+                     double longest_s, std::uint64_t seed, int axes) {
   constexpr double kDt_s = 0.01;
   const double keep = std::exp(-kDt_s / correlation_s), sigma = 0.5 * gust_mps;
   RandomStream random(seed, "test", "gust");
   auto table = std::make_shared<std::vector<Eigen::Vector3d>>();
   Eigen::Vector3d noise = Eigen::Vector3d::Zero();
   for (int i = 0; i * kDt_s <= longest_s; ++i) {
-    for (int axis = 0; axis < 2; ++axis) {
+    for (int axis = 0; axis < axes; ++axis) {
       noise(axis) = keep * noise(axis) + sigma * std::sqrt(1.0 - keep * keep) * random.normal();
     }
     table->push_back(mean_W + noise.cwiseMax(-gust_mps).cwiseMin(gust_mps));

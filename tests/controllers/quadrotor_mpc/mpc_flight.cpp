@@ -1,4 +1,4 @@
-#include "tests/controllers/quadrotor_mpc/mpc_path.h"
+#include "tests/controllers/quadrotor_mpc/mpc_flight.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -6,18 +6,9 @@
 #include <memory>
 #include <vector>
 
-#include "engine/core/random.h"
-
 namespace vinerow::test {
 
-TimedPath stand_at(const Eigen::Vector3d& p_W, double yaw_rad) {
-  TrajectoryPoint point;
-  point.p_W = p_W;
-  point.yaw_rad = yaw_rad;
-  return [point](double) { return point; };
-}
-
-TimedPath straight(const Eigen::Vector3d& p_W, double yaw_rad, double speed_mps) {
+FlightPath straight(const Eigen::Vector3d& p_W, double yaw_rad, double speed_mps) {
   return [=](double time_s) {
     TrajectoryPoint point;
     point.v_W = speed_mps * Eigen::Vector3d(std::cos(yaw_rad), std::sin(yaw_rad), 0.0);
@@ -101,26 +92,33 @@ RowsAndTurn make_rows_and_turn(const RowsAndTurnNumbers& n) {
   return rows;
 }
 
-WindField gusty_side_wind(double mean_mps, double gust_mps, double correlation_s, double longest_s,
-                          std::uint64_t seed) {
-  constexpr double kDt_s = 0.01;
-  const double keep = std::exp(-kDt_s / correlation_s), sigma = 0.5 * gust_mps;
-  RandomStream random(seed, "test", "gust");
-  auto table = std::make_shared<std::vector<Eigen::Vector3d>>();
-  Eigen::Vector3d noise = Eigen::Vector3d::Zero();
-  for (int i = 0; i * kDt_s <= longest_s + kDt_s; ++i) {
-    for (int axis = 0; axis < 3; ++axis) {
-      noise(axis) = keep * noise(axis) + sigma * std::sqrt(1.0 - keep * keep) * random.normal();
+FlightErrors fly(QuadrotorLoop& loop, const RowsAndTurn& rows, double from_s) {
+  FlightErrors errors;
+  double square = 0.0;
+  int samples = 0;
+  while (loop.time_s() < rows.end_s - 1.0) {
+    loop.tick();
+    const double t = loop.time_s();
+    if (t < from_s) continue;
+    const Eigen::Vector3d e = loop.path_error();
+    errors.finite = errors.finite && e.allFinite() && loop.sim().state().w_B.allFinite();
+    if (rows.is_row(t)) {
+      square += e.y() * e.y();
+      ++samples;
+      errors.lateral_max_m = std::max(errors.lateral_max_m, std::abs(e.y()));
+      const TrajectoryPoint at = rows.path(t);
+      const Eigen::Vector3d along(std::cos(at.yaw_rad), std::sin(at.yaw_rad), 0.0);
+      errors.speed_max_mps =
+          std::max(errors.speed_max_mps, std::abs(along.dot(loop.sim().state().v_W - at.v_W)));
+    } else {
+      errors.turn_lateral_max_m = std::max(errors.turn_lateral_max_m, std::abs(e.y()));
     }
-    table->push_back(Eigen::Vector3d(0.0, mean_mps, 0.0) +
-                     noise.cwiseMax(-gust_mps).cwiseMin(gust_mps));
+    errors.altitude_max_m = std::max(errors.altitude_max_m, std::abs(e.z()));
+    errors.along_max_m = std::max(errors.along_max_m, std::abs(e.x()));
+    errors.tilt_max_rad = std::max(errors.tilt_max_rad, loop.sim().tilt_rad());
   }
-  return [table](double time_s, const Eigen::Vector3d&) -> Eigen::Vector3d {
-    const double place = std::clamp(time_s / kDt_s, 0.0, static_cast<double>(table->size() - 2));
-    const auto index = static_cast<std::size_t>(place);
-    const double s = place - static_cast<double>(index);
-    return (1.0 - s) * (*table)[index] + s * (*table)[index + 1];
-  };
+  errors.lateral_rms_m = std::sqrt(square / std::max(samples, 1));
+  return errors;
 }
 
 }  // namespace vinerow::test

@@ -13,7 +13,7 @@
 #include "engine/metrics/air_tracking.h"
 #include "engine/metrics/flight_metric.h"
 #include "engine/metrics/survey_coverage.h"
-#include "tests/engine/sensors/fixed_scene.h"
+#include "tests/engine/sensors/sensor_bench.h"
 #include "tests/support/no_alloc.h"
 
 namespace vinerow::metrics::air_metrics_test {
@@ -99,7 +99,7 @@ class WingBench : public ::testing::Test {
   double result(const std::string& name) const { return metric_->results().at(name); }
 
   VehicleDescription description_;
-  test::FixedScene scene_;
+  test::PlainScene scene_{test::GroundPlane{}};
   test::FixedVehicle vehicle_;
   WorldModel world_;
   SignalBus bus_;

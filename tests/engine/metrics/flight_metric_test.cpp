@@ -14,6 +14,7 @@
 #include "engine/metrics/travel.h"
 #include "engine/metrics/wheel_slip.h"
 #include "tests/support/no_alloc.h"
+#include "tests/support/plain_scene.h"
 
 namespace vinerow::metrics::flight_metrics_test {
 namespace {
@@ -21,27 +22,15 @@ namespace {
 using Eigen::Vector3d;
 using Results = std::map<std::string, double>;
 
-/// Ground that rises by 10 % to the east, and a canopy of 2 m on it where 4 < y < 5.
-class SlopeWithARow final : public SceneQuery {
- public:
-  static double ground_m(double x) { return 0.1 * x; }
+constexpr double kRise = 0.1;
 
-  std::optional<RayHit> cast_ray(const Vector3d& p_W, const Vector3d& dir_W, double max_distance_m,
-                                 SurfaceMask) const override {
-    EXPECT_EQ(dir_W, -Vector3d::UnitZ()) << "only asked downwards";
-    const double top_m = p_W.y() > 4 && p_W.y() < 5 ? 2.0 : 0.0;
-    const double distance_m = p_W.z() - ground_m(p_W.x()) - top_m;
-    if (distance_m < 0.0 || distance_m > max_distance_m) return std::nullopt;
-    return RayHit{distance_m, Vector3d::UnitZ(), SurfaceClass::kTerrain, -1};
-  }
-  std::optional<double> ground_height_m(double x, double, double z_from) const override {
-    return z_from >= ground_m(x) ? std::optional(ground_m(x)) : std::nullopt;
-  }
-  double distance_to_box_m(const Pose&, const Vector3d&, double max_distance_m,
-                           SurfaceMask) const override {
-    return max_distance_m;
-  }
-};
+/// Ground that rises by 10 % to the east, and a canopy of 2 m on it where 4 < y < 5.
+test::PlainScene slope_with_a_row() {
+  test::PlainScene scene(test::GroundPlane{.rise_x = kRise});
+  scene.panels.push_back(
+      {{0.0, 4.5, 2.0}, Vector3d(-kRise, 0.0, 1.0).normalized(), SurfaceClass::kCanopy, 0.5});
+  return scene;
+}
 
 /// Is wrecked when told so.
 class Craft final : public Vehicle {
@@ -79,7 +68,7 @@ PathPoint point(const Vector3d& p_W, PathKind kind, int alley = -1) {
 /// diagonally across both legs back to home, and down. The climb is part of the way home.
 PlannedPath two_rows_and_home() {
   const auto above = [](double x, double y, double height_m) {
-    return Vector3d(x, y, SlopeWithARow::ground_m(x) + height_m);
+    return Vector3d(x, y, kRise * x + height_m);
   };
   PlannedPath path;
   path.points = {point(above(0, 0, 0), PathKind::kVertical),
@@ -131,7 +120,7 @@ class FlightBench : public ::testing::Test {
   void fly(double x, double y, double height_m, double speed_mps = 3.0, double tilt_rad = 0.0) {
     now_ = now_ + Duration{50'000'000};
     Odometry truth;
-    truth.X_WB.p = {x, y, SlopeWithARow::ground_m(x) + height_m};
+    truth.X_WB.p = {x, y, kRise * x + height_m};
     truth.X_WB.q = Eigen::Quaterniond(Eigen::AngleAxisd(tilt_rad, Vector3d::UnitY()));
     truth.v_WB_B = {speed_mps, 0, 0};
     truth_out_.write(now_, truth);
@@ -152,7 +141,7 @@ class FlightBench : public ::testing::Test {
   double result(const std::string& name) const { return metric_->results().at(name); }
 
   VehicleDescription description_;
-  SlopeWithARow scene_;
+  test::PlainScene scene_ = slope_with_a_row();
   Craft craft_;
   SignalBus bus_;
   Time now_;

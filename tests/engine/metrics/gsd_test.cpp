@@ -9,7 +9,7 @@
 #include "engine/math/angles.h"
 #include "engine/metrics/survey_coverage.h"
 #include "engine/sensors/camera_trigger.h"
-#include "tests/engine/sensors/fixed_scene.h"
+#include "tests/engine/sensors/sensor_bench.h"
 
 namespace vinerow::metrics::gsd_test {
 namespace {
@@ -58,7 +58,7 @@ class GsdBench : public ::testing::Test {
     const Vector3d p_S = shot_.value().X_WS.inverse() * p_W;
     return kHalfColumns - kFocal_m / kPitch_m * p_S.y() / p_S.x();
   }
-  Vector3d on_ground(double x, double y) const { return {x, y, bench_.scene.ground_slope * x}; }
+  Vector3d on_ground(double x, double y) const { return {x, y, bench_.scene.plane->rise_x * x}; }
 
   test::SensorBench bench_;
   VehicleDescription plane_;
@@ -70,7 +70,7 @@ class GsdBench : public ::testing::Test {
 };
 
 TEST_F(GsdBench, TheMeanIsTheFormulasAtTheHeightFlown) {
-  bench_.scene.ground_slope = 0.08;
+  bench_.scene.plane->rise_x = 0.08;
   double height_sum_m = 0.0;
   int shots = 0;
   for (int i = 0; i < 1200; ++i) {  // 60 s uphill, ramps 2 m high and low, gusts roll and pitch it
@@ -91,7 +91,7 @@ TEST_F(GsdBench, TheMeanIsTheFormulasAtTheHeightFlown) {
 }
 
 TEST_F(GsdBench, PlacesOneGsdApartAreOnePixelApart) {
-  bench_.scene.ground_slope = 0.08;
+  bench_.scene.plane->rise_x = 0.08;
   const RollPitchYaw attitude{0.0, rad_from_deg(4.0), 0.0};
   ASSERT_TRUE(fly({100, 20, 140}, attitude));
   const double gsd_m = shot_.value().gsd_m;

@@ -12,7 +12,7 @@
 #include "engine/sensors/register_sensors.h"
 #include "engine/sim/scheduler.h"
 #include "tests/engine/record/raw_messages.h"
-#include "tests/engine/sensors/fixed_scene.h"
+#include "tests/engine/sensors/sensor_bench.h"
 #include "tests/engine/sim/small_parts.h"
 
 namespace vinerow::run::sensor_run_test {

@@ -4,7 +4,7 @@
 
 #include "engine/api/messages/sensors.h"
 #include "engine/sensors/air_data.h"
-#include "tests/engine/sensors/fixed_scene.h"
+#include "tests/engine/sensors/sensor_bench.h"
 #include "tests/engine/sensors/sensor_parts.h"
 
 namespace vinerow::sensors::air_data_test {

@@ -7,7 +7,7 @@
 
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
-#include "tests/engine/sensors/fixed_scene.h"
+#include "tests/engine/sensors/sensor_bench.h"
 #include "tests/engine/sensors/sensor_parts.h"
 
 namespace vinerow::sensors::camera_trigger_test {
@@ -126,7 +126,7 @@ TEST_F(CameraBench, ACameraPitchedUpLooksAhead) {
 }
 
 TEST_F(CameraBench, ASlopeIsSeenWhereItIs) {
-  bench_.scene.ground_slope = 0.25;
+  bench_.scene.plane->rise_x = 0.25;
   start({{"on", std::string("always")}});
   ASSERT_TRUE(tick({40, 0, 110}));  // 100 m above the ground, heading uphill
   const double ahead_m = 100.0 / (1.0 + 0.25 * kAlong), behind_m = 100.0 / (1.0 - 0.25 * kAlong);
@@ -137,7 +137,7 @@ TEST_F(CameraBench, ASlopeIsSeenWhereItIs) {
 }
 
 TEST_F(CameraBench, PlantsAndWallsAreNotTheGround) {
-  bench_.scene.wall_x_m = 5.0;
+  bench_.scene.add_wall(5.0);
   start({{"on", std::string("always")}});
   ASSERT_TRUE(tick({0, 0, 150}));
   expect_corner(0, 50, 200.0 / 3);

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "tests/engine/sensors/fixed_scene.h"
+#include "tests/engine/sensors/sensor_bench.h"
 #include "tests/engine/sensors/sensor_parts.h"
 
 namespace vinerow::test {
@@ -14,7 +14,7 @@ struct ConformanceBench : SensorBench {
   /// @param type  of a registered sensor; it ticks at its default rate
   explicit ConformanceBench(const std::string& type, const SensorValues& values = {},
                             std::uint64_t seed = 1) {
-    scene.wall_x_m = 40.0;
+    scene.add_wall(40.0);
     PlannedPath lane;
     lane.points.resize(2);
     lane.points[0].p_W = {-100, 0, 1};

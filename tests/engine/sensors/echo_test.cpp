@@ -1,7 +1,7 @@
 /// Which echoes the HC-SR04 of assets/sensors hears, against measurements of a real one.
 
-#include "engine/api/messages/sensors.h"
 #include "engine/sensors/echo.h"
+#include "engine/api/messages/sensors.h"
 
 #include <gtest/gtest.h>
 
@@ -9,13 +9,13 @@
 
 #include "engine/math/angles.h"
 #include "tests/engine/sensors/ranging_bench.h"
-#include "tests/engine/sensors/shape_scene.h"
+#include "tests/support/plain_scene.h"
 
 namespace vinerow::sensors::echo_test {
 namespace {
 
 using test::Panel;
-using test::ShapeScene;
+using test::PlainScene;
 using Bench = test::RangingBench<RangeSample>;
 
 constexpr auto kSmooth = SurfaceClass::kObstacle;
@@ -26,23 +26,23 @@ scenario::PartConfig hc_sr04() {
       "hc_sr04", {{"missed_share", 0.0}, {"false_share", 0.0}, {"rings", std::int64_t{40}}});
 }
 
-bool hears(const ShapeScene& scene) {
+bool hears(const PlainScene& scene) {
   Bench bench(hc_sr04(), scene);
   return std::isfinite(bench.step().range_m);
 }
 
 /// A smooth wall whose nearest point is `distance_m` away, `aslant_deg` left of x.
-ShapeScene wall(double distance_m, double aslant_deg, SurfaceClass surface) {
+PlainScene wall(double distance_m, double aslant_deg, SurfaceClass surface) {
   const double a = rad_from_deg(aslant_deg);
   const Eigen::Vector3d way(std::cos(a), std::sin(a), 0.0);
-  ShapeScene scene;
+  PlainScene scene;
   scene.panels.push_back({distance_m * way, -way, surface});
   return scene;
 }
 
 /// A smooth panel that faces the sensor.
-ShapeScene panel(double distance_m, double width_m, double height_m, double aside_m = 0.0) {
-  ShapeScene scene;
+PlainScene panel(double distance_m, double width_m, double height_m, double aside_m = 0.0) {
+  PlainScene scene;
   scene.panels.push_back(
       {{distance_m, aside_m, 0.0}, {-1.0, 0.0, 0.0}, kSmooth, 0.5 * width_m, 0.5 * height_m});
   return scene;
@@ -80,7 +80,7 @@ TEST(HcSr04, LosesSmallPlatesWhereTheRealOneDid) {
 
 // Parallax PING))) guide: a cylinder of 3.5 inches is heard at 1.66 m and not at 2.29 m.
 TEST(HcSr04, LosesACylinderWhereItsTwinDid) {
-  ShapeScene scene;
+  PlainScene scene;
   scene.posts.push_back({{1.66 + 0.0445, 0.0}, 0.0445});
   EXPECT_TRUE(hears(scene));
   scene.posts[0].axis_W.x() = 2.29 + 0.0445;
@@ -111,7 +111,7 @@ TEST(HcSr04, ASmoothWallIsLostAslantAndLeavesAreNot) {
   EXPECT_TRUE(hears(wall(1.5, 40.0, SurfaceClass::kCanopy)));
   EXPECT_TRUE(hears(wall(0.7, 60.0, SurfaceClass::kCanopy)));
   // The truth sees it all the same.
-  const ShapeScene scene = wall(1.5, 40.0, kSmooth);
+  const PlainScene scene = wall(1.5, 40.0, kSmooth);
   Bench bench(hc_sr04(), scene);
   EXPECT_TRUE(std::isinf(bench.step().range_m));
   EXPECT_NEAR(bench.truth().value().range_m, 1.5 / std::cos(rad_from_deg(25.0)), 1e-9);
@@ -119,7 +119,7 @@ TEST(HcSr04, ASmoothWallIsLostAslantAndLeavesAreNot) {
 
 TEST(HcSr04, AWeakFirstReturnIsPassedOver) {
   // A wire before a hedge: too slim to be heard at 1.5 m; the hedge is.
-  ShapeScene scene = wall(2.0, 0.0, SurfaceClass::kCanopy);
+  PlainScene scene = wall(2.0, 0.0, SurfaceClass::kCanopy);
   scene.posts.push_back({{1.5, 0.0}, 0.002, SurfaceClass::kPost});
   Bench bench(hc_sr04(), scene);
   EXPECT_NEAR(bench.step().range_m, 2.0, 0.005);

@@ -1,12 +1,12 @@
-#include "engine/api/messages/commands.h"
 #include "engine/sensors/encoders.h"
+#include "engine/api/messages/commands.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "engine/core/error.h"
-#include "tests/engine/sensors/fixed_scene.h"
+#include "tests/engine/sensors/sensor_bench.h"
 #include "tests/engine/sensors/sensor_parts.h"
 #include "tests/support/no_alloc.h"
 

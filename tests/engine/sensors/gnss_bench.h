@@ -1,8 +1,6 @@
 #pragma once
 /// A satellite receiver before any scene: blocks of canopy and posts, or a world.
 
-#include <algorithm>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,52 +9,15 @@
 
 #include "engine/api/messages/sensors.h"
 #include "engine/math/angles.h"
-#include "tests/engine/sensors/fixed_scene.h"
+#include "tests/engine/sensors/sensor_bench.h"
 #include "tests/engine/sensors/sensor_parts.h"
 
 namespace vinerow::test {
 
-/// Closed boxes with their axes along W; a ray meets both faces.
-class BoxScene final : public SceneQuery {
- public:
-  struct Box {
-    Eigen::Vector3d low, high;
-    SurfaceClass surface = SurfaceClass::kCanopy;
-  };
-  std::vector<Box> boxes;
-
-  std::optional<RayHit> cast_ray(const Eigen::Vector3d& p, const Eigen::Vector3d& dir,
-                                 double max_distance_m, SurfaceMask mask) const override {
-    std::optional<RayHit> nearest;
-    for (const Box& box : boxes) {
-      if (!(mask & mask_of(box.surface))) continue;
-      double in = -std::numeric_limits<double>::infinity(), out = -in;
-      for (int axis = 0; axis < 3; ++axis) {
-        const double a = (box.low[axis] - p[axis]) / dir[axis];
-        const double b = (box.high[axis] - p[axis]) / dir[axis];
-        in = std::max(in, std::min(a, b));
-        out = std::min(out, std::max(a, b));
-      }
-      if (in > out) continue;
-      for (const double distance : {in, out}) {
-        if (distance < 0.0 || distance > max_distance_m) continue;
-        if (nearest && distance >= nearest->distance_m) continue;
-        nearest = RayHit{distance, -dir, box.surface, -1};
-      }
-    }
-    return nearest;
-  }
-  std::optional<double> ground_height_m(double, double, double) const override { return 0.0; }
-  double distance_to_box_m(const Pose&, const Eigen::Vector3d&, double max_distance_m,
-                           SurfaceMask) const override {
-    return max_distance_m;
-  }
-};
-
 /// Rows along y, 2.5 m apart, 0.6 m wide and 0.5 m to 2 m high, with x = 0 in the middle of an
 /// alley.
-inline BoxScene vine_rows() {
-  BoxScene scene;
+inline PlainScene vine_rows() {
+  PlainScene scene;
   for (int row = -4; row <= 3; ++row) {
     const double x = 1.25 + 2.5 * row;
     scene.boxes.push_back({{x - 0.3, -200.0, 0.5}, {x + 0.3, 200.0, 2.0}});

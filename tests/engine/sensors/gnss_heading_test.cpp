@@ -42,7 +42,7 @@ struct Bench {
 };
 
 TEST(GnssHeading, TruthIsTheWayFromOneAntennaToTheOther) {
-  const BoxScene open;
+  const PlainScene open;
   Bench bench(open, {{"baseline_m", 1.5},
                      {"position_m", std::vector<double>{0.3, 0.2, 1.0}},
                      {"rotation_deg", std::vector<double>{0.0, 0.0, 90.0}}});
@@ -61,7 +61,7 @@ struct Moments {
   double heading_deg = 0.0, slope_deg = 0.0, normalised = 0.0;
 };
 Moments moments_of(double baseline_m) {
-  const BoxScene open;
+  const PlainScene open;
   Moments sum;
   constexpr int kRuns = 100, kSteps = 40;
   for (int seed = 1; seed <= kRuns; ++seed) {
@@ -94,7 +94,7 @@ TEST(GnssHeading, ErrsByTheDataSheetsAngleOverAMetreAndByHalfOverTwo) {
 }
 
 TEST(GnssHeading, IsSilentUnderARoofAndNeedsTimeToSpeakAgain) {
-  BoxScene scene;
+  PlainScene scene;
   Bench bench(scene, {{"time_to_refix_s", 4.0}, {"time_to_fix_s", 10.0}});
   for (int i = 0; i < 10; ++i) EXPECT_TRUE(bench.step().valid);
   scene.boxes.push_back({{-50, -50, 3}, {50, 50, 4}, SurfaceClass::kPost});
@@ -113,10 +113,10 @@ TEST(GnssHeading, IsSilentUnderARoofAndNeedsTimeToSpeakAgain) {
 
 TEST(GnssHeading, TheWorseAntennaCounts) {
   // A wall right beside the second antenna alone takes half of its sky.
-  BoxScene scene;
+  PlainScene scene;
   scene.boxes.push_back({{1.9, -50, 0}, {2.5, 50, 30}, SurfaceClass::kPost});
   Bench with(scene, {{"baseline_m", 1.8}});
-  const BoxScene open;
+  const PlainScene open;
   Bench without(open, {{"baseline_m", 1.8}});
   EXPECT_LT(with.step().satellites, without.step().satellites);
 }

@@ -14,8 +14,8 @@ namespace vinerow::sensors::gnss_test {
 namespace {
 
 using Eigen::Vector3d;
-using test::BoxScene;
 using test::GnssBench;
+using test::PlainScene;
 using Mode = GnssFix::Mode;
 
 struct Quality {
@@ -43,7 +43,7 @@ Quality drive(const SceneQuery& scene, double x_m, double height_m,
 }
 
 TEST(Gnss, BetweenTwoRowsItIsWorseThanAboveThem) {
-  const BoxScene rows = test::vine_rows();
+  const PlainScene rows = test::vine_rows();
   const Quality above = drive(rows, 0.0, 3.0), between = drive(rows, 0.0, 0.6);
   EXPECT_EQ(above.fixed, above.ticks);
   EXPECT_LT(above.std_m, 0.03);
@@ -61,7 +61,7 @@ TEST(Gnss, BetweenTwoRowsItIsWorseThanAboveThem) {
 }
 
 TEST(Gnss, AFixIsTheAntennasPlaceAndVelocityWithinWhatItStates) {
-  const BoxScene open;
+  const PlainScene open;
   GnssBench bench(open, GnssBench::parameters({{"position_m", std::vector<double>{0.3, 0, 0.5}}}));
   bench.place({1, 2, 3}, {0, 1.5, 0});
   constexpr int kCount = 4'000;
@@ -87,7 +87,7 @@ ParameterSet with_window(ParameterSet parameters, const char* list,
 }
 
 TEST(Gnss, AnOutageTakesTheFixAndItComesBackStepByStep) {
-  const BoxScene open;
+  const PlainScene open;
   const ParameterSet plain = GnssBench::parameters({});
   GnssBench whole(open, plain), holed(open, test::with_outage(plain, 10.0, 20.0));
   for (int i = 0; i < 250; ++i) {
@@ -114,7 +114,7 @@ TEST(Gnss, AnOutageTakesTheFixAndItComesBackStepByStep) {
 }
 
 TEST(Gnss, JammingRisesDegradesAndFalls) {
-  const BoxScene open;
+  const PlainScene open;
   GnssBench bench(
       open, with_window(GnssBench::parameters({}), "jamming",
                         {{"begin_s", 10.0}, {"end_s", 70.0}, {"drop_dB", 24.0}, {"ramp_s", 20.0}}));
@@ -142,14 +142,14 @@ TEST(Gnss, JammingRisesDegradesAndFalls) {
 }
 
 TEST(Gnss, StrongJammingLeavesNoFix) {
-  const BoxScene open;
+  const PlainScene open;
   GnssBench bench(open, with_window(GnssBench::parameters({}), "jamming",
                                     {{"begin_s", 0.0}, {"end_s", 5.0}, {"drop_dB", 40.0}}));
   for (int i = 0; i < 25; ++i) EXPECT_FALSE(bench.step().valid) << i;
 }
 
 TEST(Gnss, AStepAllocatesNothingWhateverItSees) {
-  const BoxScene rows = test::vine_rows();
+  const PlainScene rows = test::vine_rows();
   GnssBench bench(rows, with_window(GnssBench::parameters({{"leaves_dB_per_m", 15.0}}), "jamming",
                                     {{"begin_s", 5.0}, {"end_s", 10.0}, {"drop_dB", 30.0}}));
   bench.place({0, 0, 0.6});
@@ -160,7 +160,7 @@ TEST(Gnss, AStepAllocatesNothingWhateverItSees) {
 }
 
 TEST(Gnss, ContradictionsAreRefusedInOneSentence) {
-  const BoxScene open;
+  const PlainScene open;
   const auto refusal_of = [&](const ParameterSet& parameters) {
     return test::refusal_of([&] { GnssBench bench(open, parameters); });
   };
@@ -196,7 +196,7 @@ TEST(Gnss, ContradictionsAreRefusedInOneSentence) {
 }
 
 TEST(Gnss, TheDataSheetsAreReadAndDiffer) {
-  const BoxScene open;
+  const PlainScene open;
   const scenario::PartConfig rtk = test::data_sheet("zed_f9p_rtk");
   const scenario::PartConfig plain = test::data_sheet("neo_m8n");
   EXPECT_EQ(rtk.type, "gnss");

@@ -13,7 +13,7 @@ namespace vinerow::sensors::gnss_tracking_test {
 namespace {
 
 using Eigen::Vector3d;
-using test::BoxScene;
+using test::PlainScene;
 
 constexpr double kStart_s = 771'717'600.0;  // 2024-06-15 10:00
 constexpr double kMask_deg = 10.0;
@@ -51,14 +51,14 @@ void for_each_hour(Use&& use) {
 
 TEST(GnssTracking, UnderAnOpenSkyItHearsAllAboveTheMask) {
   for_each_hour([](double time_s, const std::vector<Vector3d>& seen) {
-    const GnssView view = look(BoxScene(), {0, 0, 1}, time_s);
+    const GnssView view = look(PlainScene(), {0, 0, 1}, time_s);
     EXPECT_EQ(view.code.count(), static_cast<int>(seen.size())) << time_s;
     EXPECT_EQ(view.carrier.count(), static_cast<int>(seen.size())) << time_s;
   });
 }
 
 TEST(GnssTracking, AWallHidesWhatIsBehindIt) {
-  BoxScene scene;
+  PlainScene scene;
   scene.boxes.push_back({{2, -1e4, -1}, {3, 1e4, 5}, SurfaceClass::kPost});
   for_each_hour([&](double time_s, const std::vector<Vector3d>& seen) {
     // The upper edge of its front is 4 m higher than the antenna and 2 m away to the east.
@@ -70,7 +70,7 @@ TEST(GnssTracking, AWallHidesWhatIsBehindIt) {
 
 TEST(GnssTracking, LeavesTakeSoMuchPerMetreOfThem) {
   // An endless hedge of 2 m: 2 m / |d_x| of leaves for whatever is on its side.
-  BoxScene scene;
+  PlainScene scene;
   scene.boxes.push_back({{1, -1e5, -1}, {3, 1e5, 1e5}});
   int hidden_from_phase = 0, hidden_from_code = 0;
   for_each_hour([&](double time_s, const std::vector<Vector3d>& seen) {
@@ -98,7 +98,7 @@ TEST(GnssTracking, WeakSatellitesCountLessInTheGeometry) {
   // variance and a tenth of a code's: 10 and 0.9 + 0.1 * 10 times the variance.
   ParameterSet parameters(gnss_signal_table().specs(), "gnss");
   parameters.set("zenith_cn0_dBHz", 45.0).set("horizon_cn0_dBHz", 45.0);
-  const BoxScene open;
+  const PlainScene open;
   GnssTracking tracking(gnss_signal_table().read(parameters, "s"), sky_of_barolo(), open, 0.2, true,
                         RandomStream(1, "rover", "s"));
   const GnssView clear = tracking.look(0.0, {0, 0, 1}, false, 0.0);
@@ -113,7 +113,7 @@ TEST(GnssTracking, WeakSatellitesCountLessInTheGeometry) {
 TEST(GnssTracking, AfterABlockageCodeComesBackBeforePhase) {
   ParameterSet parameters(gnss_signal_table().specs(), "gnss");
   parameters.set("reacquisition_s", 1.0).set("carrier_lock_s", 3.0);
-  const BoxScene open;
+  const PlainScene open;
   GnssTracking tracking(gnss_signal_table().read(parameters, "s"), sky_of_barolo(), open, 0.2, true,
                         RandomStream(1, "rover", "s"));
   const auto counts = [&](bool deaf) {

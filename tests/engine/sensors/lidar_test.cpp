@@ -1,5 +1,5 @@
-#include "engine/api/messages/sensors.h"
 #include "engine/sensors/lidar.h"
+#include "engine/api/messages/sensors.h"
 
 #include <gtest/gtest.h>
 
@@ -7,28 +7,28 @@
 
 #include "engine/math/angles.h"
 #include "tests/engine/sensors/ranging_bench.h"
-#include "tests/engine/sensors/shape_scene.h"
 #include "tests/support/no_alloc.h"
+#include "tests/support/plain_scene.h"
 
 namespace vinerow::sensors::lidar_test {
 namespace {
 
+using test::PlainScene;
 using test::SensorValues;
-using test::ShapeScene;
 using Bench = test::RangingBench<LaserScan>;
 
 double angle_of(const LaserScan& scan, std::size_t beam) {
   return scan.first_angle_rad + static_cast<double>(beam) * scan.angle_step_rad;
 }
 
-ShapeScene wall_ahead(double distance_m, SurfaceClass surface = SurfaceClass::kObstacle) {
-  ShapeScene scene;
+PlainScene wall_ahead(double distance_m, SurfaceClass surface = SurfaceClass::kObstacle) {
+  PlainScene scene;
   scene.panels.push_back({{distance_m, 0, 0}, {-1, 0, 0}, surface});
   return scene;
 }
 
 TEST(Lidar, BeamsRunFromRightToLeftOverTheFieldOfView) {
-  const ShapeScene scene;
+  const PlainScene scene;
   Bench bench("lidar", {}, scene, 40.0);
   const LaserScan& scan = bench.step();
   ASSERT_EQ(scan.ranges_m.size(), 1081u);  // as the data sheet of the UST-10LX has it
@@ -41,7 +41,7 @@ TEST(Lidar, BeamsRunFromRightToLeftOverTheFieldOfView) {
 
 TEST(Lidar, ACornerIsReadExactly) {
   // Walls x = 3 and y = 2 (left): closed form min(3 / cos a, 2 / sin a).
-  ShapeScene scene = wall_ahead(3.0);
+  PlainScene scene = wall_ahead(3.0);
   scene.panels.push_back({{0, 2, 0}, {0, -1, 0}, SurfaceClass::kObstacle});
   Bench bench("lidar", {{"noise_std_m", 0.0}, {"max_range_m", 8.0}}, scene, 40.0);
   const LaserScan& scan = bench.step();
@@ -60,7 +60,7 @@ TEST(Lidar, ACornerIsReadExactly) {
 }
 
 TEST(Lidar, PitchedDownItSeesTheGroundInAStraightLine) {
-  test::FixedScene ground;
+  const PlainScene ground{test::GroundPlane{}};
   Bench bench("lidar", {{"noise_std_m", 0.0}, {"rotation_deg", std::vector<double>{0, 20, 0}}},
               ground, 40.0);
   Pose high;
@@ -83,7 +83,7 @@ TEST(Lidar, PitchedDownItSeesTheGroundInAStraightLine) {
 
 TEST(Lidar, NoiseGrowsWithDistance) {
   for (const double distance_m : {1.0, 9.0}) {
-    const ShapeScene scene = wall_ahead(distance_m);
+    const PlainScene scene = wall_ahead(distance_m);
     Bench bench("lidar",
                 {{"field_of_view_deg", 0.0}, {"noise_std_m", 0.01}, {"noise_growth", 0.002}}, scene,
                 40.0);
@@ -101,7 +101,7 @@ TEST(Lidar, NoiseGrowsWithDistance) {
 }
 
 TEST(Lidar, TheConstantErrorIsTheDevicesOwn) {
-  const ShapeScene scene = wall_ahead(5.0);
+  const PlainScene scene = wall_ahead(5.0);
   const SensorValues values = {
       {"field_of_view_deg", 0.0}, {"noise_std_m", 0.0}, {"accuracy_m", 0.04}};
   double smallest = 1.0, largest = -1.0;
@@ -120,7 +120,7 @@ TEST(Lidar, TheConstantErrorIsTheDevicesOwn) {
 /// Share of beams that are detected on a wall, 20,000 of them.
 double detected(double distance_m, double reflectance, double aslant_deg = 0.0) {
   const double a = rad_from_deg(aslant_deg);
-  ShapeScene scene;
+  PlainScene scene;
   scene.panels.push_back({{distance_m, 0, 0}, {-std::cos(a), std::sin(a), 0}, SurfaceClass::kPost});
   Bench bench("lidar",
               {{"field_of_view_deg", 0.0},
@@ -147,7 +147,7 @@ TEST(Lidar, BeamsAreLostByDistanceReflectanceAndIncidence) {
 
 TEST(Lidar, AWideBeamAtAnEdgeReadsTheNearerOrAMixture) {
   // A post's edge covers the left of three sub-rays at 2 m, a wall 0.4 m behind it the others.
-  ShapeScene scene = wall_ahead(2.4, SurfaceClass::kPost);
+  PlainScene scene = wall_ahead(2.4, SurfaceClass::kPost);
   scene.panels.push_back({{2.0, 0.51, 0}, {-1, 0, 0}, SurfaceClass::kPost, 0.5, 1.0});
   const double width_deg = 2.0 * deg_from_rad(std::atan(0.02 / 2.0));
   SensorValues values = {{"field_of_view_deg", 0.0},
@@ -175,7 +175,7 @@ TEST(Lidar, AWideBeamAtAnEdgeReadsTheNearerOrAMixture) {
 }
 
 TEST(Lidar, WhatIsSeenShiftsNoRandomNumber) {
-  ShapeScene first = wall_ahead(2.0), second;
+  PlainScene first = wall_ahead(2.0), second;
   const SensorValues values = {{"field_of_view_deg", 10.0}, {"beam_dropout_share", 0.1}};
   Bench a("lidar", values, first, 40.0), b("lidar", values, second, 40.0);
   for (int i = 0; i < 51; ++i) a.step_only(), b.step_only();
@@ -186,7 +186,7 @@ TEST(Lidar, WhatIsSeenShiftsNoRandomNumber) {
 }
 
 TEST(Lidar, AStepAllocatesNothingWithADelayToo) {
-  const ShapeScene scene = wall_ahead(2.0);
+  const PlainScene scene = wall_ahead(2.0);
   Bench bench(test::data_sheet("hokuyo_ust10lx", {{"delay_s", 0.05}}), scene);
   bench.step_only();
   bench.step_only();
@@ -202,7 +202,7 @@ TEST(Lidar, AStepAllocatesNothingWithADelayToo) {
 }
 
 TEST(Lidar, AnOutageIsAScanWithoutAnEcho) {
-  const ShapeScene scene = wall_ahead(2.0);
+  const PlainScene scene = wall_ahead(2.0);
   const ParameterSet parameters =
       test::with_outage(test::sensor_parameters("lidar", {{"field_of_view_deg", 2.0}}), 0.0, 0.025);
   Bench bench("lidar", parameters, scene, 40.0, 1);
@@ -212,7 +212,7 @@ TEST(Lidar, AnOutageIsAScanWithoutAnEcho) {
 }
 
 TEST(Lidar, RefusesBadInputInOneSentence) {
-  const ShapeScene scene;
+  const PlainScene scene;
   const auto error_of = [&](const SensorValues& values) {
     return test::refusal_of([&] { Bench bench("lidar", values, scene, 40.0); });
   };

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "tests/engine/sensors/data_sheet.h"
-#include "tests/engine/sensors/fixed_scene.h"
+#include "tests/engine/sensors/sensor_bench.h"
 
 namespace vinerow::test {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/engine/sensors/fixed_scene.h"
+#include "tests/engine/sensors/sensor_bench.h"
 #include "tests/engine/sensors/sensor_parts.h"
 
 namespace vinerow::test {

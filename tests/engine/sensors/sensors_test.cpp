@@ -5,7 +5,7 @@
 #include "engine/api/messages/sensors.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
-#include "tests/engine/sensors/fixed_scene.h"
+#include "tests/engine/sensors/sensor_bench.h"
 #include "tests/engine/sensors/sensor_parts.h"
 
 namespace vinerow::sensors::sensors_test {
@@ -180,7 +180,7 @@ TEST(Imu, ReadingsSaturate) {
 
 TEST(Ultrasound, ReadsTheFirstReturnInItsCone) {
   SensorBench bench;
-  bench.scene.wall_x_m = 2.0;
+  bench.scene.add_wall(2.0);
   auto single = make(bench, "ultrasound", 20.0, {{"half_angle_deg", 0.0}, {"noise_std_m", 0.0}});
   Odometry truth;
   truth.X_WB.p = {0, 0, 1.0};

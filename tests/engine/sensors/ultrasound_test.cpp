@@ -1,5 +1,5 @@
-#include "engine/api/messages/sensors.h"
 #include "engine/sensors/ultrasound.h"
+#include "engine/api/messages/sensors.h"
 
 #include <gtest/gtest.h>
 
@@ -8,24 +8,24 @@
 #include "engine/math/angles.h"
 #include "engine/sensors/sound_cone.h"
 #include "tests/engine/sensors/ranging_bench.h"
-#include "tests/engine/sensors/shape_scene.h"
 #include "tests/support/no_alloc.h"
+#include "tests/support/plain_scene.h"
 
 namespace vinerow::sensors::ultrasound_test {
 namespace {
 
 using test::Panel;
-using test::ShapeScene;
+using test::PlainScene;
 using Bench = test::RangingBench<RangeSample>;
 
 constexpr double kNothing_m = std::numeric_limits<double>::infinity();
 
 /// A wall whose nearest point is `distance_m` away, `aslant_deg` left of x.
-ShapeScene wall(double distance_m, double aslant_deg = 0.0,
+PlainScene wall(double distance_m, double aslant_deg = 0.0,
                 SurfaceClass surface = SurfaceClass::kCanopy) {
   const double a = rad_from_deg(aslant_deg);
   const Eigen::Vector3d way(std::cos(a), std::sin(a), 0.0);
-  ShapeScene scene;
+  PlainScene scene;
   scene.panels.push_back({distance_m * way, -way, surface});
   return scene;
 }
@@ -50,7 +50,7 @@ TEST(SoundCone, SharesOfTheRaysAreTheirSolidAngles) {
 TEST(Ultrasound, TheFirstReturnOfAWallAslantIsAtTheConesRim) {
   // Closed form: the rim's ray meets a wall at distance d, aslant by a, after d / cos(a - 15 deg).
   for (const double aslant_deg : {20.0, 35.0, 50.0, 65.0}) {
-    const ShapeScene scene = wall(1.2, aslant_deg);
+    const PlainScene scene = wall(1.2, aslant_deg);
     Bench bench("ultrasound", {{"noise_std_m", 0.0}}, scene);
     EXPECT_NEAR(bench.step().range_m, 1.2 / std::cos(rad_from_deg(aslant_deg - 15.0)), 1e-9);
     EXPECT_EQ(bench.truth().value().range_m, bench.reading().value().range_m);
@@ -58,7 +58,7 @@ TEST(Ultrasound, TheFirstReturnOfAWallAslantIsAtTheConesRim) {
   // Inside the cone the foot of the perpendicular is the first return; rings of rays 7.5 deg apart
   // miss it by half of that at most, along the ring and across.
   for (const double aslant_deg : {0.0, 4.0, 8.0, 12.0}) {
-    const ShapeScene scene = wall(1.2, aslant_deg);
+    const PlainScene scene = wall(1.2, aslant_deg);
     Bench bench("ultrasound", {{"noise_std_m", 0.0}}, scene);
     EXPECT_GE(bench.step().range_m, 1.2 - 1e-12);
     EXPECT_LE(bench.step().range_m, 1.2 / std::cos(rad_from_deg(5.4)));
@@ -66,7 +66,7 @@ TEST(Ultrasound, TheFirstReturnOfAWallAslantIsAtTheConesRim) {
 }
 
 TEST(Ultrasound, ARoundPostReturnsFromItsFront) {
-  ShapeScene scene;
+  PlainScene scene;
   scene.posts.push_back({{1.0, 0.0}, 0.03});
   Bench ahead("ultrasound", {{"noise_std_m", 0.0}}, scene);
   EXPECT_NEAR(ahead.step().range_m, 0.97, 1e-12);
@@ -82,7 +82,7 @@ TEST(Ultrasound, ARoundPostReturnsFromItsFront) {
 }
 
 TEST(Ultrasound, UniformNoiseFillsItsAccuracyAndNoMore) {
-  const ShapeScene scene = wall(1.2);
+  const PlainScene scene = wall(1.2);
   Bench bench("ultrasound", {{"error", std::string("uniform")}, {"accuracy_m", 0.003}}, scene);
   constexpr int kCount = 20'000;
   double sum = 0.0, squares = 0.0, largest = 0.0;
@@ -101,7 +101,7 @@ TEST(Ultrasound, UniformNoiseFillsItsAccuracyAndNoMore) {
 }
 
 TEST(Ultrasound, GaussianNoiseHasItsStandardDeviation) {
-  const ShapeScene scene = wall(1.2);
+  const PlainScene scene = wall(1.2);
   Bench bench("ultrasound", {{"noise_std_m", 0.01}}, scene);
   constexpr int kCount = 20'000;
   double squares = 0.0;
@@ -110,7 +110,7 @@ TEST(Ultrasound, GaussianNoiseHasItsStandardDeviation) {
 }
 
 TEST(Ultrasound, ReadingsAreMultiplesOfTheResolution) {
-  const ShapeScene scene = wall(1.2345);
+  const PlainScene scene = wall(1.2345);
   Bench bench("ultrasound", {{"noise_std_m", 0.0}, {"resolution_m", 0.01}}, scene);
   EXPECT_DOUBLE_EQ(bench.step().range_m, 1.23);
   EXPECT_DOUBLE_EQ(bench.truth().value().range_m, 1.2345);
@@ -119,7 +119,7 @@ TEST(Ultrasound, ReadingsAreMultiplesOfTheResolution) {
 TEST(Ultrasound, AColdSensorsSpeedOfSoundScalesTheRange) {
   // Speed of sound 331.3 m/s at 0 degC and 349.0 m/s at 30 degC (tables): in warm air the echo
   // comes early.
-  const ShapeScene scene = wall(3.0);
+  const PlainScene scene = wall(3.0);
   Bench bench(
       "ultrasound",
       {{"noise_std_m", 0.0}, {"air_temperature_degC", 30.0}, {"assumed_temperature_degC", 0.0}},
@@ -128,16 +128,16 @@ TEST(Ultrasound, AColdSensorsSpeedOfSoundScalesTheRange) {
 }
 
 TEST(Ultrasound, NearAndFarAreCutOff) {
-  const SceneQuery& nobody = ShapeScene{};
+  const SceneQuery& nobody = PlainScene{};
   Bench far("ultrasound", {{"noise_std_m", 0.0}}, nobody);
   EXPECT_EQ(far.step().range_m, kNothing_m);
   EXPECT_EQ(far.truth().value().range_m, kNothing_m);
-  const ShapeScene touching = wall(0.005);
+  const PlainScene touching = wall(0.005);
   Bench near("ultrasound", {{"noise_std_m", 0.0}}, touching);
   EXPECT_EQ(near.step().range_m, 0.02);
   EXPECT_NEAR(near.truth().value().range_m, 0.005, 1e-12);
   // In range, but in cold air the echo comes late, as from 3.9 m x 349.0 / 331.3 = 4.1 m.
-  const ShapeScene in_range = wall(3.9);
+  const PlainScene in_range = wall(3.9);
   Bench cold(
       "ultrasound",
       {{"noise_std_m", 0.0}, {"air_temperature_degC", 0.0}, {"assumed_temperature_degC", 30.0}},
@@ -147,7 +147,7 @@ TEST(Ultrasound, NearAndFarAreCutOff) {
 }
 
 TEST(Ultrasound, MissedAndFalseEchoesHaveTheirShares) {
-  const ShapeScene scene = wall(2.0);
+  const PlainScene scene = wall(2.0);
   Bench bench("ultrasound", {{"noise_std_m", 0.0}, {"missed_share", 0.3}, {"false_share", 0.2}},
               scene);
   constexpr int kCount = 20'000;
@@ -171,7 +171,7 @@ TEST(Ultrasound, MissedAndFalseEchoesHaveTheirShares) {
 }
 
 TEST(Ultrasound, FalseEchoesComeWithNothingThereToo) {
-  const ShapeScene nobody;
+  const PlainScene nobody;
   Bench bench("ultrasound", {{"false_share", 1.0}}, nobody);
   double sum = 0.0;
   for (int i = 0; i < 10'000; ++i) sum += bench.step().range_m;
@@ -179,7 +179,7 @@ TEST(Ultrasound, FalseEchoesComeWithNothingThereToo) {
 }
 
 TEST(Ultrasound, WhatIsSeenShiftsNoRandomNumber) {
-  ShapeScene first = wall(1.0), second;  // the second's wall comes later
+  PlainScene first = wall(1.0), second;  // the second's wall comes later
   const test::SensorValues values = {
       {"missed_share", 0.2}, {"false_share", 0.1}, {"echo_threshold", 0.001}};
   Bench a("ultrasound", values, first), b("ultrasound", values, second);
@@ -189,7 +189,7 @@ TEST(Ultrasound, WhatIsSeenShiftsNoRandomNumber) {
 }
 
 TEST(Ultrasound, FourRangersFireInTurn) {
-  const ShapeScene scene = wall(1.0);
+  const PlainScene scene = wall(1.0);
   for (int k = 0; k < 4; ++k) {
     Bench bench("ultrasound", {{"cycle_s", 0.2}, {"phase_s", 0.05 * k}, {"delay_s", 0.05}}, scene);
     int heard = 0;
@@ -211,7 +211,7 @@ TEST(Ultrasound, FourRangersFireInTurn) {
 
 TEST(Ultrasound, TurnsCountFromTheFirstTick) {
   // A vehicle whose phase of a mission begins 2.5 ms beside the multiples of the sensor's period.
-  const ShapeScene scene = wall(1.0);
+  const PlainScene scene = wall(1.0);
   for (int k = 0; k < 4; ++k) {
     Bench bench("ultrasound", {{"cycle_s", 0.2}, {"phase_s", 0.05 * k}}, scene);
     bench.start_at(Time{296'452'500'000});
@@ -224,7 +224,7 @@ TEST(Ultrasound, TurnsCountFromTheFirstTick) {
 }
 
 TEST(Ultrasound, OutagesAndDropoutsLeaveTheTruth) {
-  const ShapeScene scene = wall(1.0);
+  const PlainScene scene = wall(1.0);
   const ParameterSet parameters = test::with_outage(
       test::sensor_parameters("ultrasound", {{"dropout_share", 0.25}, {"noise_std_m", 0.0}}), 1.0,
       2.0);
@@ -244,7 +244,7 @@ TEST(Ultrasound, OutagesAndDropoutsLeaveTheTruth) {
 }
 
 TEST(Ultrasound, ListeningAllocatesNothing) {
-  const ShapeScene scene = wall(1.0, 10.0);
+  const PlainScene scene = wall(1.0, 10.0);
   Bench bench(test::data_sheet("hc_sr04"), scene);
   bench.step();
   const test::AllocationCounter counter;
@@ -253,7 +253,7 @@ TEST(Ultrasound, ListeningAllocatesNothing) {
 }
 
 TEST(Ultrasound, RefusesBadInputInOneSentence) {
-  const ShapeScene scene;
+  const PlainScene scene;
   const auto error_of = [&](const test::SensorValues& values) {
     return test::refusal_of([&] { Bench bench("ultrasound", values, scene); });
   };

@@ -14,7 +14,7 @@
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 #include "engine/physics/world_scene.h"
-#include "tests/engine/sensors/fixed_scene.h"
+#include "tests/engine/sensors/sensor_bench.h"
 #include "tests/vehicles/small_worlds.h"
 #include "vehicles/register_vehicles.h"
 

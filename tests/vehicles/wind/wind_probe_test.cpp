@@ -157,16 +157,16 @@ TEST(WindProbe, MeasuresHeightAboveTheGroundBelow) {
                               .cell_m = 100.0,
                               .corner_W = {0, 0},
                               .heights_m = {0.0f, 50.0f, 0.0f, 50.0f}};
-  EmptyScene scene;
+  vinerow::test::PlainScene scene;
   WindProbe probe(world, scene, RandomStream(1, "drone", "wind"));
   // At x = 40 m the ground is at 20 m; outside its edge continues.
   EXPECT_NEAR(probe.sample({}, {40, 30, 21}, Vector3d::Zero(), kStep).x(), 3.0, 1e-6);
   EXPECT_NEAR(probe.sample({}, {-40, 30, 10}, Vector3d::Zero(), kStep).x(), 6.0, 1e-6);
   // Without terrain the scene tells; where it tells nothing, the last height counts.
   WindRig rig(wind);
-  rig.scene.ground_m = -9.0;
+  rig.scene.height = [](double, double) { return -9.0; };
   EXPECT_NEAR(rig.sample(kStep, {0, 0, 1}).x(), 6.0, 1e-12);
-  rig.scene.ground_m = std::nullopt;
+  rig.scene.height = [](double, double) { return std::nullopt; };
   for (int i = 0; i < 20; ++i) EXPECT_NEAR(rig.sample(kStep, {0, 0, 1}).x(), 6.0, 1e-12);
 }
 

@@ -5,24 +5,10 @@
 
 #include "engine/api/map.h"
 #include "engine/api/world_model.h"
+#include "tests/support/plain_scene.h"
 #include "vehicles/parts/wind_probe.h"
 
 namespace vinerow::vehicles::test {
-
-/// Flat ground at z = 0 and nothing else.
-class EmptyScene : public SceneQuery {
- public:
-  std::optional<RayHit> cast_ray(const Eigen::Vector3d&, const Eigen::Vector3d&, double,
-                                 SurfaceMask) const override {
-    return std::nullopt;
-  }
-  std::optional<double> ground_height_m(double, double, double) const override { return ground_m; }
-  double distance_to_box_m(const Pose&, const Eigen::Vector3d&, double max_m,
-                           SurfaceMask) const override {
-    return max_m;
-  }
-  std::optional<double> ground_m = 0.0;
-};
 
 struct WindRig {
   explicit WindRig(const Wind& wind, std::uint64_t seed = 1, const RowMap& rows = {},
@@ -39,7 +25,7 @@ struct WindRig {
   }
 
   WorldModel world;
-  EmptyScene scene;
+  vinerow::test::PlainScene scene;
   std::optional<WindProbe> probe;
   Time now;
 };

@@ -10,6 +10,7 @@
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 #include "tests/controllers/support/mission.h"
+#include "tests/support/plain_scene.h"
 
 namespace vinerow::test::coverage_test {
 namespace {
@@ -173,27 +174,13 @@ TEST(Coverage, StraightensSurveyedLines) {
 }
 
 /// A slope that ends at some y.
-class Slope final : public SceneQuery {
- public:
-  explicit Slope(double end_y) : end_y_(end_y) {}
-  std::optional<RayHit> cast_ray(const Eigen::Vector3d&, const Eigen::Vector3d&, double,
-                                 SurfaceMask) const override {
-    return std::nullopt;
-  }
-  std::optional<double> ground_height_m(double x, double y, double) const override {
-    if (y > end_y_) return std::nullopt;
-    return 0.1 * x + 0.2 * y;
-  }
-  double distance_to_box_m(const Pose&, const Eigen::Vector3d&, double max_distance_m,
-                           SurfaceMask) const override {
-    return max_distance_m;
-  }
+PlainScene make_slope(double end_y) {
+  return PlainScene([end_y](double x, double y) {
+    return y > end_y ? std::nullopt : std::optional(0.1 * x + 0.2 * y);
+  });
+}
 
- private:
-  double end_y_;
-};
-
-Result<PlannedPath> plan_on(const Slope& slope) {
+Result<PlannedPath> plan_on(const PlainScene& slope) {
   const RowMap map = make_narrow_map(2);
   PlannerContext context;
   context.map = &map;
@@ -206,7 +193,7 @@ Result<PlannedPath> plan_on(const Slope& slope) {
 }
 
 TEST(Coverage, LiftsPointsOntoTheGround) {
-  const auto path = plan_on(Slope(100.0));
+  const auto path = plan_on(make_slope(100.0));
   ASSERT_TRUE(path.ok());
   for (const PathPoint& point : path->points) {
     EXPECT_NEAR(point.p_W.z(), 0.1 * point.p_W.x() + 0.2 * point.p_W.y(), 1e-12);
@@ -214,7 +201,7 @@ TEST(Coverage, LiftsPointsOntoTheGround) {
 }
 
 TEST(Coverage, RefusesToLeaveTheGround) {
-  const auto path = plan_on(Slope(17.5));
+  const auto path = plan_on(make_slope(17.5));
   ASSERT_FALSE(path.ok());
   EXPECT_EQ(path.reason().find("path leaves the ground: no ground at ("), 0u) << path.reason();
 }

@@ -11,6 +11,7 @@
 #include "engine/math/angles.h"
 #include "tests/controllers/support/block_map.h"
 #include "tests/controllers/support/swept_check.h"
+#include "tests/support/plain_scene.h"
 
 namespace vinerow::test::route_planner_test {
 namespace {
@@ -49,23 +50,6 @@ class DubinsSearch final : public controllers::PoseSearch {
  private:
   std::vector<Asked>* asked_;
   bool fails_;
-};
-
-/// Ground that rises to the east and a little to the north.
-class Hillside final : public SceneQuery {
- public:
-  static double height_m(double x, double y) { return 5.0 + 0.15 * x + 0.02 * y; }
-  std::optional<RayHit> cast_ray(const Eigen::Vector3d&, const Eigen::Vector3d&, double,
-                                 SurfaceMask) const override {
-    return std::nullopt;
-  }
-  std::optional<double> ground_height_m(double x, double y, double) const override {
-    return height_m(x, y);
-  }
-  double distance_to_box_m(const vinerow::Pose&, const Eigen::Vector3d&, double max_distance_m,
-                           SurfaceMask) const override {
-    return max_distance_m;
-  }
 };
 
 /// A block of 20 m rows and a planner on it.
@@ -200,18 +184,18 @@ TEST(RoutePlanner, SearchesTheWayFromElsewhere) {
 }
 
 TEST(RoutePlanner, LiftsPathAndTreeOntoTheGround) {
-  const Hillside hill;
+  const PlainScene hill(GroundPlane{.rise_x = 0.15, .rise_y = 0.02, .z_m = 5.0});
   Bench bench;
   bench.scene = &hill;
   const auto path = bench.plan(1.25, -1.0, 0.5 * kPi);
   ASSERT_TRUE(path.ok()) << path.reason();
   for (const PathPoint& point : path->points) {
-    EXPECT_NEAR(point.p_W.z(), Hillside::height_m(point.p_W.x(), point.p_W.y()), 1e-12);
+    EXPECT_NEAR(point.p_W.z(), hill.ground_m(point.p_W.head<2>()), 1e-12);
   }
   const auto& tree = bench.planner->report()->tree.points_W;
   ASSERT_EQ(tree.size(), 2u);
   for (const Eigen::Vector3d& p : tree) {
-    EXPECT_NEAR(p.z(), Hillside::height_m(p.x(), p.y()), 1e-12);
+    EXPECT_NEAR(p.z(), hill.ground_m(p.head<2>()), 1e-12);
   }
 }
 

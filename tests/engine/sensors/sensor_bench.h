@@ -1,44 +1,12 @@
 #pragma once
-/// A scene and a vehicle for sensor tests: ground z = 0 and one wall, and a body that moves as the
-/// test says.
+/// What a sensor needs in a test: a scene, level ground at first, and a vehicle whose readings the
+/// test sets.
 
 #include "engine/api/stepped_parts.h"
 #include "engine/api/world_model.h"
+#include "tests/support/plain_scene.h"
 
 namespace vinerow::test {
-
-/// Rays see the ground z = ground_slope x and the wall x = wall_x_m, which is canopy.
-class FixedScene final : public SceneQuery {
- public:
-  double wall_x_m = 1e9;
-  double ground_slope = 0.0;
-
-  std::optional<RayHit> cast_ray(const Eigen::Vector3d& p, const Eigen::Vector3d& dir,
-                                 double max_distance_m, SurfaceMask mask) const override {
-    std::optional<RayHit> nearest;
-    const auto consider = [&](double distance, SurfaceClass surface,
-                              const Eigen::Vector3d& normal) {
-      if (distance < 0.0 || distance > max_distance_m || !(mask & mask_of(surface))) return;
-      if (!nearest || distance < nearest->distance_m)
-        nearest = RayHit{distance, normal, surface, -1};
-    };
-    const double sinking = ground_slope * dir.x() - dir.z();
-    if (sinking > 0.0) {
-      consider((p.z() - ground_slope * p.x()) / sinking, SurfaceClass::kTerrain,
-               Eigen::Vector3d(-ground_slope, 0.0, 1.0).normalized());
-    }
-    if (dir.x() > 0.0)
-      consider((wall_x_m - p.x()) / dir.x(), SurfaceClass::kCanopy, -Eigen::Vector3d::UnitX());
-    return nearest;
-  }
-  std::optional<double> ground_height_m(double x, double, double) const override {
-    return ground_slope * x;
-  }
-  double distance_to_box_m(const Pose&, const Eigen::Vector3d&, double max_distance_m,
-                           SurfaceMask) const override {
-    return max_distance_m;
-  }
-};
 
 /// Only tells the specific force, the velocity through the air, and the states of one steered axle
 /// and one wheel.
@@ -76,7 +44,7 @@ class FixedVehicle final : public Vehicle {
 
 /// Everything a sensor needs, and its signals.
 struct SensorBench {
-  FixedScene scene;
+  PlainScene scene{GroundPlane{}};
   FixedVehicle vehicle;
   WorldModel world;
   SignalBus bus;

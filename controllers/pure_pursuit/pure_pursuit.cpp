@@ -111,7 +111,7 @@ class PurePursuit final : public Controller, public MayFail {
     stop_.reset();
     watch_.reset();
     fault_ = ports_.find_fault_in_plan();
-    if (law_.has_path()) polyline_ = PolylineDistance(law_.points());
+    if (law_.has_path()) polyline_ = Polyline(law_.points());
   }
 
   /// Limits the command to the movement authority.
@@ -122,14 +122,14 @@ class PurePursuit final : public Controller, public MayFail {
     return command;
   }
 
-  PolylineDistance::Nearest nearest_to(const Pose2& pose) const {
+  Polyline::Nearest nearest_to(const Pose2& pose) const {
     constexpr int kBehind = 8, kAhead = 2;
     return polyline_.nearest_within(
         pose.p, std::max(law_.index() - kBehind, law_.stretch_first()),
         std::min(law_.index() + kAhead, std::max(law_.stretch_last() - 1, 0)));
   }
 
-  double distance_of(const PolylineDistance::Nearest& nearest) const {
+  double distance_of(const Polyline::Nearest& nearest) const {
     if (law_.points().size() < 2) return 0.0;
     const double length_m =
         (polyline_.points()[nearest.segment + 1] - polyline_.points()[nearest.segment]).norm();
@@ -164,7 +164,7 @@ class PurePursuit final : public Controller, public MayFail {
   std::string fault_;  ///< of the plan
   double speed_mps_;   ///< on straights
   double period_s_;
-  PolylineDistance polyline_;
+  Polyline polyline_;
 };
 
 }  // namespace

@@ -21,7 +21,7 @@ bool PlanStretch::take_over(const PlannedPath& plan) {
   std::vector<Eigen::Vector2d> line;
   line.reserve(points_.size());
   for (const PathPoint& point : points_) line.push_back(point.p_W.head<2>());
-  line_ = PolylineDistance(std::move(line));
+  line_ = Polyline(std::move(line));
   flight_.reset();
   const bool flies = std::any_of(points_.begin(), points_.end(), [](const PathPoint& point) {
     return point.kind == PathKind::kVertical || point.kind == PathKind::kReturn;
@@ -39,9 +39,9 @@ bool PlanStretch::take_over(const PlannedPath& plan) {
 PlanStretch::Place PlanStretch::find(const Eigen::Vector3d& p_W) {
   const Eigen::Vector2d p = p_W.head<2>();
   Place place;
-  PolylineDistance::Nearest in_plane;
+  Polyline::Nearest in_plane;
   if (flight_) {
-    const SpacePolylineDistance::Nearest in_space = flight_->nearest(p_W, segment_);
+    const SpacePolyline::Nearest in_space = flight_->nearest(p_W, segment_);
     in_plane = line_.nearest_within(p, in_space.segment, in_space.segment);
     place.distance_m = in_space.distance_m;
   } else {

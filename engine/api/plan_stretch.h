@@ -47,7 +47,7 @@ class PlanStretch {
   const std::vector<PathPoint>& points() const { return points_; }
   double length_m() const { return length_m_; }
   /// The points in the plane. @pre has_plan()
-  const PolylineDistance& line() const { return line_; }
+  const Polyline& line() const { return line_; }
   /// Nearest place; the search starts at the last result. No heap. @pre has_plan()
   Place find(const Eigen::Vector3d& p_W);
   bool is(PathKind kind, int segment) const { return points_[segment].kind == kind; }
@@ -72,8 +72,8 @@ class PlanStretch {
   std::uint64_t plan_seen_ = 0;
   std::vector<PathPoint> points_;
   double length_m_ = 0.0;
-  PolylineDistance line_;
-  std::optional<SpacePolylineDistance> flight_;
+  Polyline line_;
+  std::optional<SpacePolyline> flight_;
   int segment_ = 0;  ///< last result
 };
 

@@ -10,56 +10,13 @@
 /// prominence of 1e-6 m so that rounding on straight rows is not counted.
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
+#include "engine/math/polyline.h"
+
 namespace vinerow {
-
-/// Fixed polyline in the plane (kDimension 2) or in space (3) with exact distance queries.
-template <int kDimension>
-class PolylineDistanceIn {
- public:
-  using Point = Eigen::Matrix<double, kDimension, 1>;
-
-  struct Nearest {
-    double distance_m = std::numeric_limits<double>::infinity();
-    double signed_distance_m = 0.0;  ///< positive: left of the nearest segment, seen from above
-    int segment = 0;                 ///< index of its first point
-    double fraction = 0.0;           ///< 0..1 along the segment
-    Point point = Point::Zero();
-  };
-
-  PolylineDistanceIn() = default;
-  /// @param points  at least one, m; a single point is a polyline of length zero
-  explicit PolylineDistanceIn(std::vector<Point> points);
-
-  /// Nearest point of the whole polyline. Among equals, the one on the lowest segment that was
-  /// tried first from the hint. Cost: a few segments and one box per 32 segments; no heap.
-  /// @param hint_segment  start of the search; affects the cost, never the distance
-  Nearest nearest(const Point& p, int hint_segment = 0) const;
-
-  /// Nearest point among segments [first, last] only, clamped to the polyline.
-  Nearest nearest_within(const Point& p, int first, int last) const;
-
-  const std::vector<Point>& points() const { return points_; }
-  int segments() const { return static_cast<int>(points_.size()) - 1; }
-  double length_m() const { return length_m_; }
-
- private:
-  void try_segment(int segment, const Point& p, Nearest& best) const;
-
-  std::vector<Point> points_;
-  std::vector<Eigen::AlignedBox<double, kDimension>> blocks_;  ///< of 32 segments each
-  double length_m_ = 0.0;
-};
-
-extern template class PolylineDistanceIn<2>;
-extern template class PolylineDistanceIn<3>;
-
-using PolylineDistance = PolylineDistanceIn<2>;
-using SpacePolylineDistance = PolylineDistanceIn<3>;
 
 /// Online counter of the local maxima of a curve; it does not store the curve.
 ///
@@ -115,12 +72,12 @@ class DeviationMeter : public DeviationStatistics {
 
   /// @param p  true position in the plane, m
   /// @returns nearest place on the path
-  PolylineDistance::Nearest add(const Eigen::Vector2d& p);
+  Polyline::Nearest add(const Eigen::Vector2d& p);
 
-  const PolylineDistance& path() const { return path_; }
+  const Polyline& path() const { return path_; }
 
  private:
-  PolylineDistance path_;
+  Polyline path_;
   int segment_ = 0;
 };
 

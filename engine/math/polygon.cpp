@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "engine/math/planar.h"
+#include "engine/math/polyline.h"
 
 namespace vinerow {
 namespace {
@@ -75,10 +76,8 @@ double distance_m(const Polygon& polygon, const Vector2d& p) {
   if (contains(polygon, p)) return 0.0;
   double away_m = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vector2d& a = polygon[i];
-    const Vector2d edge = polygon[(i + 1) % polygon.size()] - a;
-    const double t = std::clamp((p - a).dot(edge) / edge.squaredNorm(), 0.0, 1.0);
-    away_m = std::min(away_m, (p - a - t * edge).norm());
+    away_m = std::min(away_m,
+                      distance_to_segment_m<2>(p, polygon[i], polygon[(i + 1) % polygon.size()]));
   }
   return away_m;
 }

@@ -8,7 +8,8 @@
 #include "engine/api/map.h"
 #include "engine/api/plan_stretch.h"
 #include "engine/api/world_model.h"
-#include "engine/math/deviation.h"
+#include "engine/math/planar.h"
+#include "engine/math/polyline.h"
 #include "engine/metrics/extremes.h"
 #include "engine/metrics/spread.h"
 #include "engine/metrics/tenths.h"
@@ -25,37 +26,24 @@ constexpr double kGroundFrom_m = 0.5;
 /// rows at half a width and the next ones at one and a half.
 constexpr double kRowReach_widths = 0.75;
 
-PolylineDistance line_of(const std::vector<Eigen::Vector3d>& line_W) {
-  std::vector<Vector2d> points;
-  for (const Eigen::Vector3d& p : line_W) points.push_back(p.head<2>());
-  return PolylineDistance(std::move(points));
-}
-
-double cross(const Vector2d& a, const Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 /// One side of an alley.
 struct Wall {
-  PolylineDistance row;
+  Polyline row;
   double half_canopy_m = 0.0;
   double top_m = 0.0;
   int hint = 0;
 
   /// Vector from p to the row's centre line; absent beyond its ends.
   std::optional<Vector2d> look(const Vector2d& p) {
-    const PolylineDistance::Nearest at = row.nearest(p, hint);
+    const Polyline::Nearest at = row.nearest(p, hint);
     hint = at.segment;
-    const bool before = at.segment == 0 && at.fraction <= 0.0;
-    const bool beyond = at.segment == row.segments() - 1 && at.fraction >= 1.0;
-    if (before || beyond) return std::nullopt;
+    if (row.is_end(at)) return std::nullopt;
     return Vector2d(at.point - p);
   }
 };
 
 struct Corridor {
-  PolylineDistance centre;
-  std::vector<double> s_m;  ///< of the centre line's points
+  Polyline centre;
   Wall left, right;
   Tenths passed;
   int hint = 0;
@@ -71,11 +59,9 @@ struct Corridor {
     return 0.5 * (clearance_right_m - clearance_left_m);
   }
   void pass(const Vector2d& p, double moved_m) {
-    const PolylineDistance::Nearest at = centre.nearest(p, hint);
+    const Polyline::Nearest at = centre.nearest(p, hint);
     hint = at.segment;
-    const auto i = static_cast<std::size_t>(at.segment);
-    const double s = s_m[i] + at.fraction * (s_m[i + 1] - s_m[i]);
-    passed.look(s / s_m.back(), moved_m / s_m.back());
+    passed.look(centre.s_m(at) / centre.length_m(), moved_m / centre.length_m());
   }
 };
 
@@ -83,24 +69,17 @@ struct Corridor {
 std::optional<Corridor> make_corridor(const Alley& alley, const std::vector<PlantRow>& rows) {
   if (alley.line_W.size() < 2) return std::nullopt;
   Corridor corridor;
-  corridor.centre = line_of(alley.line_W);
-  const std::vector<Vector2d>& points = corridor.centre.points();
-  corridor.s_m = {0.0};
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    corridor.s_m.push_back(corridor.s_m.back() + (points[i] - points[i - 1]).norm());
-  }
-  if (!(corridor.s_m.back() > 0.0)) return std::nullopt;
-  const auto half =
-      std::upper_bound(corridor.s_m.begin(), corridor.s_m.end(), 0.5 * corridor.s_m.back());
-  const auto i = static_cast<std::size_t>(half - corridor.s_m.begin());
-  const Vector2d along = (points[i] - points[i - 1]).normalized();
-  const Vector2d middle = points[i - 1] + (0.5 * corridor.s_m.back() - corridor.s_m[i - 1]) * along;
+  corridor.centre = Polyline(from_above(alley.line_W));
+  const double half_m = 0.5 * corridor.centre.length_m();
+  if (!(half_m > 0.0)) return std::nullopt;
+  const Vector2d along = corridor.centre.direction_at(half_m);
+  const Vector2d middle = corridor.centre.point_at(half_m);
   double left_m = kRowReach_widths * alley.width_m, right_m = left_m;
   bool has_left = false, has_right = false;
   for (const PlantRow& row : rows) {
     if (row.line_W.size() < 2) continue;
-    Wall wall{line_of(row.line_W), 0.5 * row.canopy_width_m, row.canopy_top_m};
-    const PolylineDistance::Nearest at = wall.row.nearest(middle);
+    Wall wall{Polyline(from_above(row.line_W)), 0.5 * row.canopy_width_m, row.canopy_top_m};
+    const Polyline::Nearest at = wall.row.nearest(middle);
     const bool is_left = cross(along, at.point - middle) > 0.0;
     double& nearest_m = is_left ? left_m : right_m;
     if (at.distance_m >= nearest_m) continue;

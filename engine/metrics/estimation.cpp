@@ -9,7 +9,7 @@
 #include "engine/api/parameter_table.h"
 #include "engine/api/world_model.h"
 #include "engine/math/angles.h"
-#include "engine/math/deviation.h"
+#include "engine/math/polyline.h"
 #include "engine/metrics/estimate_judge.h"
 
 namespace vinerow::metrics {
@@ -56,9 +56,7 @@ class Estimation final : public Metric {
     }
     if (context.world == nullptr) return;
     for (const PlantRow& row : context.world->rows->rows) {
-      std::vector<Eigen::Vector2d> line;
-      for (const Eigen::Vector3d& p : row.line_W) line.push_back(p.head<2>());
-      if (line.size() >= 2) rows_.emplace_back(std::move(line));
+      if (row.line_W.size() >= 2) rows_.emplace_back(from_above(row.line_W));
     }
   }
 
@@ -91,8 +89,8 @@ class Estimation final : public Metric {
   double direction_rad(const Odometry& truth) const {
     const double yaw_rad = yaw_from_quaternion(truth.X_WB.q);
     double nearest_m = row_reach_m_, direction_rad = yaw_rad;
-    for (const PolylineDistance& row : rows_) {
-      const PolylineDistance::Nearest at = row.nearest(truth.X_WB.p.head<2>());
+    for (const Polyline& row : rows_) {
+      const Polyline::Nearest at = row.nearest(truth.X_WB.p.head<2>());
       if (at.distance_m > nearest_m) continue;
       const Eigen::Vector2d along = row.points()[at.segment + 1] - row.points()[at.segment];
       if (along.isZero(0.0)) continue;
@@ -107,7 +105,7 @@ class Estimation final : public Metric {
   Duration from_;
   double row_reach_m_;
   bool is_rotorcraft_;
-  std::vector<PolylineDistance> rows_;
+  std::vector<Polyline> rows_;
   std::vector<EstimateJudge> judges_;  ///< of the estimate, then of the observers
   SignalReader<Odometry> truth_;
   SignalReader<ReferenceTrajectory> reference_;

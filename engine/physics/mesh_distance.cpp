@@ -14,6 +14,7 @@ namespace vinerow::physics {
 namespace {
 
 using Eigen::Vector3d;
+using Tree = MeshDistance::Tree;
 
 Eigen::AlignedBox3f calc_bounds_W(const MeshInstance& instance) {
   Eigen::AlignedBox3d bounds;
@@ -26,7 +27,7 @@ Eigen::AlignedBox3f calc_bounds_W(const MeshInstance& instance) {
   return {(bounds.min() - margin).cast<float>(), (bounds.max() + margin).cast<float>()};
 }
 
-std::unique_ptr<BoxTree> make_tree(const TriangleMesh& mesh) {
+std::unique_ptr<Tree> make_tree(const TriangleMesh& mesh) {
   std::vector<Eigen::AlignedBox3f> boxes;
   boxes.reserve(mesh.triangles.size());
   for (const auto& triangle : mesh.triangles) {
@@ -34,12 +35,34 @@ std::unique_ptr<BoxTree> make_tree(const TriangleMesh& mesh) {
     for (const std::uint32_t v : triangle) box.extend(mesh.vertices[v]);
     boxes.push_back(box);
   }
-  return std::make_unique<BoxTree>(boxes);
+  return std::make_unique<Tree>(boxes);
 }
 
-QueryBox look_from(const Pose& X_OT, const Vector3d& half_extents_m) {
-  return {X_OT.q.toRotationMatrix(), X_OT.p, half_extents_m};
-}
+/// Oriented box with its own frame O, where it is |x_i| <= half_extents_m_i, relative to a tree's
+/// frame T.
+class QueryBox {
+ public:
+  QueryBox(const Pose& X_OT, const Vector3d& half_extents_m)
+      : R_OT_(X_OT.q.toRotationMatrix()),
+        R_abs_(R_OT_.cwiseAbs()),
+        p_OT_(X_OT.p),
+        half_extents_m_(half_extents_m) {}
+
+  Vector3d to_O(const Vector3d& p_T) const { return R_OT_ * p_T + p_OT_; }
+
+  /// Lower bound of the squared distance between the box and one of the tree: their separation
+  /// along the axes of O.
+  double operator()(const Tree::Box& box_T) const {
+    const Vector3d centre = 0.5 * (box_T.min() + box_T.max()).cast<double>();
+    const Vector3d half = 0.5 * (box_T.max() - box_T.min()).cast<double>();
+    const Vector3d gap = to_O(centre).cwiseAbs() - half_extents_m_ - R_abs_ * half;
+    return gap.cwiseMax(0.0).squaredNorm();
+  }
+
+ private:
+  Eigen::Matrix3d R_OT_, R_abs_;
+  Vector3d p_OT_, half_extents_m_;
+};
 
 void lower_to(double candidate2, const Vector3d& a, const Vector3d& b, const Vector3d& c,
               const Vector3d& h, double& best2) {
@@ -83,11 +106,11 @@ void search_terrain(const HeightField& field, const Pose& X_WBox, const Vector3d
 }  // namespace
 
 MeshDistance::MeshDistance(const WorldModel& world) : world_(world) {
-  std::map<const TriangleMesh*, const BoxTree*> known;
+  std::map<const TriangleMesh*, const Tree*> known;
   std::vector<Eigen::AlignedBox3f> boxes;
   for (const MeshInstance& instance : world.meshes) {
     if (!instance.collides) continue;
-    const BoxTree*& tree = known[instance.mesh.get()];
+    const Tree*& tree = known[instance.mesh.get()];
     if (!tree) {
       trees_.push_back(make_tree(*instance.mesh));
       tree = trees_.back().get();
@@ -95,7 +118,7 @@ MeshDistance::MeshDistance(const WorldModel& world) : world_(world) {
     entries_.push_back({&instance, tree});
     boxes.push_back(calc_bounds_W(instance));
   }
-  instances_ = BoxTree(boxes);
+  instances_ = Tree(boxes);
 }
 
 MeshDistance::~MeshDistance() = default;
@@ -104,16 +127,16 @@ double MeshDistance::to_box_m(const Pose& X_WBox, const Vector3d& h, double max_
                               SurfaceMask mask) const {
   double best2 = max_distance_m * max_distance_m;
   const Pose X_OW = X_WBox.inverse();
-  instances_.search(look_from(X_OW, h), best2, [&](std::uint32_t item) {
+  instances_.search(QueryBox(X_OW, h), best2, [&](std::uint32_t item) {
     const Entry& entry = entries_[item];
     if ((mask & mask_of(entry.instance->surface)) == 0) return;
-    const QueryBox query = look_from(X_OW * entry.instance->X_WM, h);
+    const QueryBox query(X_OW * entry.instance->X_WM, h);
     const TriangleMesh& mesh = *entry.instance->mesh;
     entry.tree->search(query, best2, [&](std::uint32_t triangle) {
       const auto& [i, j, k] = mesh.triangles[triangle];
-      const Vector3d a = query.R_OT * mesh.vertices[i].cast<double>() + query.p_OT;
-      const Vector3d b = query.R_OT * mesh.vertices[j].cast<double>() + query.p_OT;
-      const Vector3d c = query.R_OT * mesh.vertices[k].cast<double>() + query.p_OT;
+      const Vector3d a = query.to_O(mesh.vertices[i].cast<double>());
+      const Vector3d b = query.to_O(mesh.vertices[j].cast<double>());
+      const Vector3d c = query.to_O(mesh.vertices[k].cast<double>());
       lower_to(triangle_box_bound2(a, b, c, h), a, b, c, h, best2);
     });
   });

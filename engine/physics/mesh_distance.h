@@ -7,7 +7,7 @@
 
 #include "engine/api/forward.h"
 #include "engine/api/scene_query.h"
-#include "engine/physics/box_tree.h"
+#include "engine/math/box_tree.h"
 
 namespace vinerow::physics {
 
@@ -15,6 +15,8 @@ namespace vinerow::physics {
 /// are read in place from the WorldModel; the search is exact, in double precision.
 class MeshDistance {
  public:
+  using Tree = BoxTree<float, 3>;
+
   /// @param world  checked; outlives this object
   explicit MeshDistance(const WorldModel& world);
   ~MeshDistance();
@@ -26,12 +28,12 @@ class MeshDistance {
  private:
   struct Entry {
     const MeshInstance* instance;
-    const BoxTree* tree;
+    const Tree* tree;
   };
   const WorldModel& world_;
-  std::vector<std::unique_ptr<BoxTree>> trees_;
+  std::vector<std::unique_ptr<Tree>> trees_;
   std::vector<Entry> entries_;
-  BoxTree instances_;
+  Tree instances_;
 };
 
 }  // namespace vinerow::physics

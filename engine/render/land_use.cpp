@@ -5,6 +5,7 @@
 
 #include "engine/api/height_field.h"
 #include "engine/math/polygon.h"
+#include "engine/math/polyline.h"
 #include "engine/render/scenery_meshes.h"
 
 namespace vinerow::render {
@@ -58,8 +59,7 @@ void stamp(LandUse& land, const SceneryTrack& track) {
     const double last = std::min(range[1] / cell.x(), land.pixels.width - 1.0);
     for (int x = x0; x <= last; ++x) {
       const Eigen::Vector2d p = from + Eigen::Vector2d(x * cell.x(), 0.0);
-      const double t = std::clamp((p - track.from_W).dot(along) / along.squaredNorm(), 0.0, 1.0);
-      const double away = (p - track.from_W - t * along).norm();
+      const double away = distance_to_segment_m<2>(p, track.from_W, track.to_W);
       const auto value =
           static_cast<std::uint8_t>(std::min(255L, std::lround(away * 255.0 / reach)));
       std::uint8_t& stored = land.pixels.at(x, y)[1];

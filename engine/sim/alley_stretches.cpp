@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "engine/api/messages/path.h"
-#include "engine/math/deviation.h"
+#include "engine/math/polyline.h"
 
 namespace vinerow {
 namespace {
@@ -34,8 +34,7 @@ class StretchFinder {
   StretchFinder(const PlannedPath& plan, const std::vector<Alley>& alleys, const AlleyUse& use)
       : points_(plan.points), alleys_(alleys), use_(use), at_m_(measure_plan(plan, use.flies)) {
     for (const Alley& alley : alleys) {
-      std::vector<Eigen::Vector2d> line;
-      for (const Eigen::Vector3d& p : alley.line_W) line.push_back(p.head<2>());
+      const std::vector<Eigen::Vector2d> line = from_above(alley.line_W);
       lines_.emplace_back(line);
       extended_.push_back(extend(line));
     }
@@ -196,7 +195,7 @@ class StretchFinder {
   const std::vector<Alley>& alleys_;
   const AlleyUse& use_;
   std::vector<double> at_m_;
-  std::vector<PolylineDistance> lines_;
+  std::vector<Polyline> lines_;
   std::vector<std::vector<Eigen::Vector2d>> extended_;
   int first_leg_ = std::numeric_limits<int>::max(), last_leg_ = -1;
   std::vector<Part> parts_;

@@ -67,7 +67,8 @@ TEST(PathFollowerOnThePhysicalRover, DrivesDubinsTurnsAndSkips) {
   expect_good({"rover.planner.order=skip"}, 0.03);
 }
 
-/// With the limit of paper B's table 1 it leaves the first of these hairpins: docs/papers/paper_b.md.
+/// With the limit of paper B's table 1 it leaves the first of these hairpins:
+/// docs/papers/paper_b.md.
 TEST(PurePursuitOnThePhysicalRover, DrivesTheHairpinsWithoutALimitOfItsYawRate) {
   expect_good({"rover.controller={type: pure_pursuit, speed_mps: 1.5, min_turning_radius_m: 0}"},
               0.004);
@@ -176,7 +177,7 @@ const std::vector<Eigen::Vector2d> kCorners = {{-20, -60}, {0, -60},  {0, -40}, 
                                                {0, -50},   {20, -50}, {5.86, -64.14}};
 
 double largest_deviation_m(vinerow::testing::TestRun& run) {
-  const PolylineDistance line(kCorners);
+  const Polyline line(kCorners);
   double largest_m = 0.0;
   while (!run.finished() && run.time_s() < 399.0) {
     run.run_for_s(0.1);

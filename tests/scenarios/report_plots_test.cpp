@@ -164,7 +164,7 @@ TEST(ReportMap, SimplifiesALineWithinItsTolerance) {
   EXPECT_LT(few.size(), 150u);
   EXPECT_EQ(few.front(), line.front());
   EXPECT_EQ(few.back(), line.back());
-  const PolylineDistance distance(few);
+  const Polyline distance(few);
   for (const Eigen::Vector2d& p : line) EXPECT_LE(distance.nearest(p).distance_m, 0.01 + 1e-12);
   EXPECT_EQ(simplified({{0, 0}, {1, 1}, {2, 2}, {5, 5}}, 1e-9).size(), 2u);
 }

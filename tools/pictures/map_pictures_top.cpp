@@ -135,8 +135,7 @@ void draw_rows(Canvas& canvas, const PlanView& view, const mapping::CloudMap& ma
   std::optional<Vector2d> drawn[2];   // for each end
   for (std::size_t k = 0; k < map.map.rows.size(); ++k) {
     const PlantRow& row = map.map.rows[k];
-    std::vector<Vector2d> line_W;
-    for (const Vector3d& p : row.line_W) line_W.push_back(p.head<2>());
+    const std::vector<Vector2d> line_W = from_above(row.line_W);
     for (std::size_t i = 0; i + 1 < line_W.size(); ++i) {
       canvas.line(view(line_W[i]), view(line_W[i + 1]), 1.2, kRowLine, 0.6);
     }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/api/world_model.h"
+#include "engine/math/polyline.h"
 
 namespace vinerow::tools {
 namespace {
@@ -14,14 +15,6 @@ namespace {
 using nlohmann::json;
 
 constexpr double kTolerance_m = 0.03;
-
-double from_stretch_m(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
-                      const Eigen::Vector3d& b) {
-  const Eigen::Vector3d along = b - a;
-  const double length2 = along.squaredNorm();
-  const double share = length2 > 0.0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0.0;
-  return (p - a - share * along).norm();
-}
 
 std::vector<Eigen::Vector3d> line_of(const PlannedPath& plan, const WorldModel& world) {
   std::vector<Eigen::Vector3d> line;
@@ -48,7 +41,7 @@ std::vector<Eigen::Vector3d> simplify_line(const std::vector<Eigen::Vector3d>& p
     double farthest_m = tolerance_m;
     std::size_t at = begin;
     for (std::size_t i = begin + 1; i < end; ++i) {
-      const double away_m = from_stretch_m(points[i], points[begin], points[end]);
+      const double away_m = distance_to_segment_m<3>(points[i], points[begin], points[end]);
       if (away_m > farthest_m) {
         farthest_m = away_m;
         at = i;

@@ -7,7 +7,7 @@
 
 #include "engine/api/map.h"
 #include "engine/api/world_model.h"
-#include "engine/math/deviation.h"
+#include "engine/math/polyline.h"
 #include "tools/report/html.h"
 
 namespace vinerow::tools::report {
@@ -20,25 +20,23 @@ constexpr std::size_t kMaxBands = 2;
 /// Chosen.
 constexpr double kWidestBand = 1.2;
 
-std::vector<PolylineDistance> rows_of(const WorldModel* world) {
-  std::vector<PolylineDistance> rows;
+std::vector<Polyline> rows_of(const WorldModel* world) {
+  std::vector<Polyline> rows;
   if (world == nullptr) return rows;
   for (const PlantRow& row : world->rows->rows) {
-    std::vector<Eigen::Vector2d> line;
-    for (const Eigen::Vector3d& p : row.line_W) line.push_back(p.head<2>());
-    if (line.size() >= 2) rows.emplace_back(std::move(line));
+    if (row.line_W.size() >= 2) rows.emplace_back(from_above(row.line_W));
   }
   return rows;
 }
 
 /// Unit vector along the nearest row, pointing in the vehicle's forward direction; the heading if
 /// no row is within kRowReach_m.
-Eigen::Vector2d along(const std::vector<PolylineDistance>& rows, const Pose& X_WB) {
+Eigen::Vector2d along(const std::vector<Polyline>& rows, const Pose& X_WB) {
   const double yaw_rad = yaw_from_quaternion(X_WB.q);
   const Eigen::Vector2d heading(std::cos(yaw_rad), std::sin(yaw_rad));
   Eigen::Vector2d direction = heading;
   double nearest_m = kRowReach_m;
-  for (const PolylineDistance& row : rows) {
+  for (const Polyline& row : rows) {
     const auto at = row.nearest(X_WB.p.head<2>());
     if (at.distance_m > nearest_m) continue;
     const Eigen::Vector2d d = row.points()[at.segment + 1] - row.points()[at.segment];
@@ -57,7 +55,7 @@ struct Errors {
 };
 
 Errors errors_of(const playback::Trace<Odometry>& estimate, const playback::Trace<Odometry>& truth,
-                 const std::vector<PolylineDistance>& rows) {
+                 const std::vector<Polyline>& rows) {
   Errors errors;
   for (std::size_t i = 0; i < estimate.values.size(); ++i) {
     const Time t = estimate.times[i];
@@ -111,7 +109,7 @@ void put_far_bands_in_words(LinePlot& plot) {
 
 std::vector<LinePlot> estimate_plots(const VehicleLog& vehicle, const WorldModel* world) {
   if (vehicle.truth.empty() || vehicle.estimates.empty()) return {};
-  const std::vector<PolylineDistance> rows = rows_of(world);
+  const std::vector<Polyline> rows = rows_of(world);
   LinePlot lateral, longitudinal;
   lateral.title = "Estimation error across the rows";
   longitudinal.title = "Estimation error along the rows";

@@ -7,6 +7,7 @@
 
 #include "engine/api/map.h"
 #include "engine/api/world_model.h"
+#include "engine/math/polyline.h"
 #include "tools/report/html.h"
 #include "tools/report/svg.h"
 
@@ -83,12 +84,6 @@ std::vector<Eigen::Vector2d> projected(const std::vector<Eigen::Vector2d>& line,
   return simplified(out, kTolerance_px);
 }
 
-std::vector<Eigen::Vector2d> plane_line(const std::vector<Eigen::Vector3d>& line) {
-  std::vector<Eigen::Vector2d> out;
-  for (const Eigen::Vector3d& p : line) out.push_back(p.head<2>());
-  return out;
-}
-
 std::vector<Eigen::Vector2d> track_line(const VehicleLog& vehicle) {
   std::vector<Eigen::Vector2d> out;
   for (const Odometry& truth : vehicle.truth.values) out.push_back(truth.X_WB.p.head<2>());
@@ -107,7 +102,7 @@ void draw_rows(const RunFolder& run, const Projection& at, const MapStyle& style
   for (const PlantRow& row : run.world->rows->rows) {
     const double width = style.with_canopy ? at.scale() * row.canopy_width_m : 0.0;
     svg.open_group(fmt::format("class=\"row\" stroke-width=\"{}\"", px(std::max(1.2, width))));
-    svg.polyline(projected(plane_line(row.line_W), at), "");
+    svg.polyline(projected(from_above(row.line_W), at), "");
     svg.close_group();
   }
 }
@@ -177,13 +172,9 @@ std::optional<MapView> with_margin(MapView view) {
 /// Point farthest from the straight line between two points: its index and distance.
 std::pair<std::size_t, double> farthest(const std::vector<Eigen::Vector2d>& line, std::size_t first,
                                         std::size_t last) {
-  const Eigen::Vector2d d = line[last] - line[first];
-  const double length_2 = d.squaredNorm();
   std::pair<std::size_t, double> best{first, 0.0};
   for (std::size_t i = first + 1; i < last; ++i) {
-    const Eigen::Vector2d off = line[i] - line[first];
-    const double s = length_2 > 0.0 ? std::clamp(off.dot(d) / length_2, 0.0, 1.0) : 0.0;
-    const double distance = (off - s * d).norm();
+    const double distance = distance_to_segment_m<2>(line[i], line[first], line[last]);
     if (distance > best.second) best = {i, distance};
   }
   return best;
@@ -217,7 +208,7 @@ std::optional<MapView> whole_view(const RunFolder& run, const std::vector<Vehicl
   MapView view;
   if (run.world) {
     include(run.world->rows->boundary_W, view);
-    for (const PlantRow& row : run.world->rows->rows) include(plane_line(row.line_W), view);
+    for (const PlantRow& row : run.world->rows->rows) include(from_above(row.line_W), view);
   }
   for (const VehicleLog& vehicle : vehicles) include(vehicle, view);
   return with_margin(view);
@@ -231,7 +222,7 @@ std::optional<MapView> parcel_view(const RunFolder& run, const std::vector<Vehic
   if (!run.world || !whole || !anybody) return std::nullopt;
   MapView view;
   include(run.world->rows->boundary_W, view);
-  for (const PlantRow& row : run.world->rows->rows) include(plane_line(row.line_W), view);
+  for (const PlantRow& row : run.world->rows->rows) include(from_above(row.line_W), view);
   for (const VehicleLog& vehicle : vehicles) {
     if (!vehicle.has_wings) include(vehicle, view);
   }

@@ -10,7 +10,7 @@
 #include "engine/api/map.h"
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
-#include "engine/math/deviation.h"
+#include "engine/math/polyline.h"
 #include "engine/playback/frame_words.h"
 #include "engine/render/png.h"
 #include "tools/replay/base64.h"
@@ -93,11 +93,9 @@ bool is_at_a_row(const RunFolder& run, const Eigen::Vector3d& p_W) {
   constexpr double kLateralOffset_m = 2.0;
   if (!run.world) return false;
   for (const PlantRow& row : run.world->rows->rows) {
-    std::vector<Eigen::Vector2d> line;
-    for (const Eigen::Vector3d& p : row.line_W) line.push_back(p.head<2>());
-    if (line.size() < 2) continue;
-    if (PolylineDistance(std::move(line)).nearest(p_W.head<2>()).distance_m < kLateralOffset_m)
-      return true;
+    if (row.line_W.size() < 2) continue;
+    const Polyline line(from_above(row.line_W));
+    if (line.nearest(p_W.head<2>()).distance_m < kLateralOffset_m) return true;
   }
   return false;
 }

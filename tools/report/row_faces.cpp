@@ -7,7 +7,7 @@
 
 #include "engine/api/map.h"
 #include "engine/api/world_model.h"
-#include "engine/math/deviation.h"
+#include "engine/math/polyline.h"
 
 namespace vinerow::tools::report {
 namespace {
@@ -19,24 +19,6 @@ constexpr double kReach_m = 4.0;
 constexpr double kLow_m = 6.0;
 constexpr double kPassed = 0.5;
 constexpr std::size_t kMaxNamed = 6;
-
-PolylineDistance row_line_of(const std::vector<Eigen::Vector3d>& points) {
-  std::vector<Eigen::Vector2d> line;
-  for (const Eigen::Vector3d& p : points) line.push_back(p.head<2>());
-  return PolylineDistance(std::move(line));
-}
-
-/// Distance along the line, m; negative if the nearest point is one of its ends.
-double along_m(const PolylineDistance& line, const PolylineDistance::Nearest& at) {
-  const auto& points = line.points();
-  const auto segment = static_cast<std::size_t>(at.segment);
-  const bool before = segment == 0 && at.fraction <= 0.0;
-  const bool beyond = at.segment + 1 == line.segments() && at.fraction >= 1.0;
-  if (before || beyond) return -1.0;
-  double sum_m = 0.0;
-  for (std::size_t i = 0; i < segment; ++i) sum_m += (points[i + 1] - points[i]).norm();
-  return sum_m + at.fraction * (points[segment + 1] - points[segment]).norm();
-}
 
 /// Bins along one row side, marked if passed.
 class Passed {
@@ -65,14 +47,14 @@ std::vector<RowFace> row_faces(const RunFolder& run, const VehicleLog& vehicle) 
   if (reach_m <= 0.0) reach_m = kReach_m;
   for (const PlantRow& row : run.world->rows->rows) {
     if (row.line_W.size() < 2) continue;
-    const PolylineDistance line = row_line_of(row.line_W);
+    const Polyline line(from_above(row.line_W));
     Passed left(line.length_m()), right(line.length_m());
     for (const Odometry& truth : vehicle.truth.values) {
       const auto at = line.nearest(truth.X_WB.p.head<2>());
       const double foot_m = row.line_W[static_cast<std::size_t>(at.segment)].z();
-      const double s_m = along_m(line, at);
-      if (at.distance_m > reach_m || s_m < 0.0 || truth.X_WB.p.z() - foot_m > kLow_m) continue;
-      (at.signed_distance_m > 0.0 ? left : right).add(s_m);
+      const bool is_near = at.distance_m <= reach_m && truth.X_WB.p.z() - foot_m <= kLow_m;
+      if (is_near && !line.is_end(at))
+        (at.signed_distance_m > 0.0 ? left : right).add(line.s_m(at));
     }
     for (const int side : {1, -1}) {
       RowFace face{row.id, side, (side > 0 ? left : right).share() >= kPassed, false};

@@ -1,19 +1,16 @@
 #pragma once
 /// Queries on the centre lines of rows: nearest row to a point, with distances along and across it.
 ///
-/// Cost: a query for the nearest row looks at the one or two rows listed for its cell of a 1 m
-/// grid; no heap after construction.
+/// No heap after construction.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <array>
-#include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "engine/api/forward.h"
 #include "engine/api/plant_row.h"
-#include "engine/math/deviation.h"
+#include "engine/math/polyline_index.h"
 
 namespace vinerow::vehicles {
 
@@ -39,11 +36,11 @@ class RowLines {
   ///   lines themselves, which miss hollows and humps between their points
   explicit RowLines(const std::vector<PlantRow>& rows, const HeightField* terrain = nullptr);
 
-  int count() const { return static_cast<int>(lines_.size()); }
-  double length_m(int row) const { return along_m_[static_cast<std::size_t>(row)].back(); }
+  int count() const { return static_cast<int>(boxes_.size()); }
+  double length_m(int row) const { return line(row).length_m(); }
   /// @pre count() > 0
   RowPlace nearest(const Eigen::Vector2d& p_W) const;
-  RowPlace place(int row, const Eigen::Vector2d& p_W, int hint_segment = 0) const;
+  RowPlace place(int row, const Eigen::Vector2d& p_W) const;
 
   /// Nearest row on each side that is within `reach_m`, at most `max_angle_rad` off the heading,
   /// and ends no more than `beyond_end_m` before the position (negative: extends that far beyond
@@ -52,30 +49,21 @@ class RowLines {
                       double max_angle_rad, double beyond_end_m) const;
 
  private:
-  struct Candidate {
-    std::int32_t row;
-    std::int32_t segment;  ///< segment of the row that is nearest to the cell's middle
-  };
   /// Heights of the ground along a row, at equal distances from its first point to its last.
   struct Profile {
     double apart_m = 1.0;
     std::vector<double> ground_m;
     double at(double along_m) const;
   };
-  Profile make_profile(const PlantRow& row, const HeightField& terrain) const;
-  void make_grid();
-  RowPlace nearest_of_all(const Eigen::Vector2d& p_W) const;
+  static Profile make_profile(const PlantRow& row, const Polyline& line,
+                              const HeightField& terrain);
+  const Polyline& line(int row) const { return index_.lines()[static_cast<std::size_t>(row)]; }
+  RowPlace place_at(int row, const Polyline::Nearest& found, const Eigen::Vector2d& p_W) const;
 
-  std::vector<PolylineDistance> lines_;
-  std::vector<std::vector<double>> along_m_;   // of each point
+  PolylineIndex index_;
   std::vector<std::vector<double>> ground_m_;  // of each point
   std::vector<Profile> profiles_;              // of each row, if a terrain is given
   std::vector<Eigen::AlignedBox2d> boxes_;
-  Eigen::Vector2d corner_W_ = {0, 0};
-  double cell_m_ = 1.0;
-  int columns_ = 0, rows_ = 0;
-  std::vector<std::int32_t> first_;  // of each cell's candidates, and one behind the last
-  std::vector<Candidate> candidates_;
 };
 
 }  // namespace vinerow::vehicles

@@ -46,11 +46,7 @@ Place place_of(const ObstacleParams& obstacle, const std::string& who, const Row
         fmt::format("{} is in alley {}, the world has {}", who, alley,
                     count == 0 ? "none" : fmt::format("{} alleys (0 to {})", count, count - 1)));
   }
-  std::vector<Vector2d> line;
-  for (const Vector3d& p : map.alleys[static_cast<std::size_t>(alley)].line_W) {
-    line.push_back(p.head<2>());
-  }
-  const mapping::RowCurve curve(std::move(line));
+  const mapping::RowCurve curve(from_above(map.alleys[static_cast<std::size_t>(alley)].line_W));
   const double s_m = obstacle.distance_m;
   const Vector2d along = curve.direction_W(s_m);
   return {curve.point_W(s_m) + obstacle.lateral_m * Vector2d(-along.y(), along.x()),

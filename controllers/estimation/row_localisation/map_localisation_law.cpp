@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "controllers/estimation/row_localisation/row_line.h"
 #include "engine/api/map.h"
 #include "engine/core/check.h"
 #include "engine/math/angles.h"
+#include "engine/math/polyline.h"
 
 namespace vinerow::controllers {
 namespace {
@@ -131,7 +131,7 @@ double MapLocalisationLaw::take_echo(Filter& filter, const Past& past,
   double expected_m = prediction->range_m;
   double rough_m2 = 0.0;  // roughness of the wall over the possible positions along the row
   if (const PlantRow* row = find_row(prediction->hit.row)) {
-    const Eigen::Vector3d edge_W = nearest_on(row->line_W, X_MB.p).edge_W;
+    const Eigen::Vector3d edge_W = nearest_from_above(row->line_W, X_MB.p.head<2>()).edge;
     // Map and truth differ most at the ends of a run of plants: such echoes are not used.
     if (std::abs(prediction->hit.normal_W.head<2>().dot(edge_W.head<2>().normalized())) >
         params_.max_along) {

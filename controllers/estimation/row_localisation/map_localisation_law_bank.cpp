@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "controllers/estimation/row_localisation/map_localisation_law.h"
-#include "controllers/estimation/row_localisation/row_line.h"
 #include "engine/api/map.h"
+#include "engine/math/polyline.h"
 
 namespace vinerow::controllers {
 namespace {
@@ -57,7 +57,7 @@ void MapLocalisationLaw::start_bank(const Eigen::Vector3d& p_W,
     std::array<Candidate, kMaxFilters> candidates;
     int found = 0;
     for (const Alley& alley : map_.alleys) {
-      const LinePoint at = nearest_on(alley.line_W, p_W);
+      const LinePoint at = nearest_from_above(alley.line_W, p_W.head<2>());
       if (!(at.distance_m < 3.0 * std_m + alley.width_m)) continue;
       const double spread_m = std::hypot(std_m, params_.start_lateral_std_m);
       const Candidate candidate{
@@ -71,13 +71,13 @@ void MapLocalisationLaw::start_bank(const Eigen::Vector3d& p_W,
       if (place < params_.bank) candidates[place] = candidate;
     }
     for (int i = 0; i < found; ++i) {
-      const Eigen::Vector2d along = candidates[i].at.edge_W.head<2>().normalized();
+      const Eigen::Vector2d along = candidates[i].at.edge.head<2>().normalized();
       const Eigen::Vector2d across(-along.y(), along.x());
       Eigen::Matrix3d covariance = covariance_m2;
       const double across_m2 = std::pow(params_.start_lateral_std_m, 2);
       covariance.topLeftCorner<2, 2>() =
           std_m * std_m * along * along.transpose() + across_m2 * across * across.transpose();
-      const Eigen::Vector3d middle_W(candidates[i].at.p_W.x(), candidates[i].at.p_W.y(), p_W.z());
+      const Eigen::Vector3d middle_W(candidates[i].at.p.x(), candidates[i].at.p.y(), p_W.z());
       add_filter(middle_W, covariance, candidates[i].weight);
     }
   }

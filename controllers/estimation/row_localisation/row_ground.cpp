@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 
-#include "controllers/estimation/row_localisation/row_line.h"
 #include "engine/math/angles.h"
 
 namespace vinerow::controllers {
@@ -14,6 +13,15 @@ namespace {
 constexpr double kReach_m = 1.0;  // reach of the differences for the terrain's slope, to each side
 
 }  // namespace
+
+RowGround::RowGround(const RowMap& map) : terrain_(map.terrain) {
+  std::vector<Polyline> lines;
+  for (const PlantRow& row : map.rows) {
+    lines_W_.push_back(row.line_W);
+    lines.emplace_back(from_above(row.line_W));
+  }
+  index_ = PolylineIndex(std::move(lines));
+}
 
 GroundPlane RowGround::on_terrain(const Eigen::Vector2d& p_W) const {
   const HeightField& terrain = *terrain_;
@@ -35,13 +43,18 @@ GroundPlane RowGround::on_terrain(const Eigen::Vector2d& p_W) const {
 
 std::optional<GroundPlane> RowGround::at(const Eigen::Vector3d& p_W) const {
   if (terrain_ && terrain_->contains(p_W.x(), p_W.y())) return on_terrain(p_W.head<2>());
-  const auto [first, second] = lines_.nearest_rows(p_W);
-  if (!std::isfinite(second.distance_m)) return std::nullopt;
-  Eigen::Vector3d normal_W = first.edge_W.cross(second.p_W - first.p_W);
+  const Eigen::Vector2d p = p_W.head<2>();
+  const auto [nearest, next] = index_.nearest_two(p);
+  if (next.line < 0) return std::nullopt;
+  const auto in_space = [&](const PolylineIndex::Nearest& at) {
+    return nearest_from_above(std::span(lines_W_[at.line]).subspan(at.segment, 2), p);
+  };
+  const LinePoint first = in_space(nearest), second = in_space(next);
+  Eigen::Vector3d normal_W = first.edge.cross(second.p - first.p);
   if (std::abs(normal_W.z()) < 1e-6) return std::nullopt;
   normal_W *= std::copysign(1.0, normal_W.z()) / normal_W.norm();
-  const std::array across = {first.p_W, second.p_W};
-  return GroundPlane{normal_W, normal_W.dot(first.p_W), nearest_on(across, p_W).distance_m};
+  const std::array across = {first.p, second.p};
+  return GroundPlane{normal_W, normal_W.dot(first.p), nearest_from_above(across, p).distance_m};
 }
 
 namespace {

@@ -4,9 +4,10 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
-#include "controllers/estimation/row_localisation/row_line_index.h"
 #include "engine/api/map.h"
+#include "engine/math/polyline_index.h"
 
 namespace vinerow::controllers {
 
@@ -21,7 +22,7 @@ struct GroundPlane {
 class RowGround {
  public:
   /// Copies the terrain and the rows' lines.
-  explicit RowGround(const RowMap& map) : terrain_(map.terrain), lines_(map) {}
+  explicit RowGround(const RowMap& map);
 
   /// On the terrain: the plane through the ground below, with the slope of the ground over the
   /// length of a vehicle. Elsewhere: the plane through the nearest segment of the nearest row's
@@ -33,7 +34,8 @@ class RowGround {
   GroundPlane on_terrain(const Eigen::Vector2d& p_W) const;
 
   std::optional<HeightField> terrain_;
-  RowLineIndex lines_;
+  std::vector<std::vector<Eigen::Vector3d>> lines_W_;
+  PolylineIndex index_;
 };
 
 /// Perpendicular distance from the sensor to the plane for an echo that is the first return in a

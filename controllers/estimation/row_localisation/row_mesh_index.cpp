@@ -11,6 +11,7 @@
 #include "engine/core/check.h"
 #include "engine/core/constants.h"
 #include "engine/core/error.h"
+#include "engine/math/polyline.h"
 
 namespace vinerow::controllers {
 namespace {
@@ -27,15 +28,8 @@ constexpr double kMinDoubleArea_m2 = 1e-12;
 // Marks a listed facet in the one square that contains its centre, its home.
 constexpr std::uint32_t kHome = 1u << 31;
 
-Eigen::Vector2d from_above(const Eigen::Vector3f& p) {
+Eigen::Vector2d horizontal(const Eigen::Vector3f& p) {
   return {p.x(), p.y()};
-}
-
-double distance_2d(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  const Eigen::Vector2d ab = b - a;
-  const double length2 = ab.squaredNorm();
-  const double share = length2 > 0.0 ? std::clamp((p - a).dot(ab) / length2, 0.0, 1.0) : 0.0;
-  return (a + share * ab - p).norm();
 }
 
 /// Part of a line between low and high on each axis (slab method).
@@ -115,7 +109,7 @@ void RowMeshIndex::lay_grid(double cell_m) {
   low_ = Eigen::Vector2d::Constant(kInfinity);
   high_ = -low_;
   for (const Facet& facet : facets_) {
-    const Eigen::Vector2d a = from_above(facet.a), b = from_above(facet.b), c = from_above(facet.c);
+    const Eigen::Vector2d a = horizontal(facet.a), b = horizontal(facet.b), c = horizontal(facet.c);
     low_ = low_.cwiseMin(a).cwiseMin(b).cwiseMin(c);
     high_ = high_.cwiseMax(a).cwiseMax(b).cwiseMax(c);
     const Eigen::Vector2d centre = (a + b + c) / 3.0;
@@ -142,7 +136,7 @@ RowMeshIndex::Square RowMeshIndex::square_at(double x, double y) const {
 template <class Visit>
 void RowMeshIndex::for_each_square_below(const Facet& facet, Visit&& visit) const {
   if (facet.normal.isZero()) return;
-  const Eigen::Vector2d corners[] = {from_above(facet.a), from_above(facet.b), from_above(facet.c)};
+  const Eigen::Vector2d corners[] = {horizontal(facet.a), horizontal(facet.b), horizontal(facet.c)};
   const Eigen::Vector2d low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
   const Eigen::Vector2d high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
   const Square first = square_at(low.x() - kMargin_m, low.y() - kMargin_m);
@@ -280,7 +274,9 @@ void RowMeshIndex::cut(const Eigen::Vector3d& p, const Eigen::Vector3d& n, doubl
       const bool peak = above[lone] >= 0.0;
       const Segment segment{crossing(peak ? next : before), crossing(peak ? before : next),
                             facet.normal, facet.row};
-      if (distance_2d(p_2d, segment.from_W.head<2>(), segment.to_W.head<2>()) > radius_m) continue;
+      const Eigen::Vector2d nearest_2d =
+          nearest_on_segment<2>(p_2d, segment.from_W.head<2>(), segment.to_W.head<2>());
+      if ((nearest_2d - p_2d).norm() > radius_m) continue;
       segments.push_back(segment);
     }
   }

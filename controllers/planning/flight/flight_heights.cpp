@@ -9,31 +9,12 @@
 #include "controllers/parts/paths/box_filter.h"
 #include "controllers/parts/paths/lift.h"
 #include "engine/api/map.h"
+#include "engine/math/polyline.h"
 
 namespace vinerow::controllers {
 namespace {
 
 constexpr double kFlightStep_m = 0.05;
-
-/// Nearest point of a row's centre line, with its distance in the plane.
-std::pair<Eigen::Vector3d, double> find_nearest(const PlantRow& row, const Eigen::Vector2d& p) {
-  Eigen::Vector3d best = row.line_W.front();
-  double min_m = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i + 1 < row.line_W.size(); ++i) {
-    const Eigen::Vector3d &a = row.line_W[i], &b = row.line_W[i + 1];
-    const Eigen::Vector2d ab = (b - a).head<2>();
-    const double length2 = ab.squaredNorm();
-    const double share =
-        length2 > 0.0 ? std::clamp((p - a.head<2>()).dot(ab) / length2, 0.0, 1.0) : 0.0;
-    const Eigen::Vector3d q = a + share * (b - a);
-    const double distance_m = (p - q.head<2>()).norm();
-    if (distance_m < min_m) {
-      min_m = distance_m;
-      best = q;
-    }
-  }
-  return {best, min_m};
-}
 
 int last_of(const HeightProfile& profile) {
   return static_cast<int>(profile.samples_m().size()) - 1;
@@ -52,7 +33,7 @@ std::optional<double> FlightGround::ground_m(const Eigen::Vector2d& p) const {
 std::optional<double> FlightGround::canopy_top_m(const Eigen::Vector2d& p, double reach_m) const {
   std::optional<double> top_m;
   for (const PlantRow& row : map_.rows) {
-    const auto [q, distance_m] = find_nearest(row, p);
+    const auto [q, edge, distance_m] = nearest_from_above(row.line_W, p);
     if (distance_m > 0.5 * row.canopy_width_m + reach_m) continue;
     // The row's line and the ground may differ in height: the higher one counts.
     const double foot_m =
@@ -66,7 +47,7 @@ FlightGround::Nearest FlightGround::find_nearest_row(const Eigen::Vector2d& p) c
   Nearest nearest;
   nearest.distance_m = nearest.centre_m = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < map_.rows.size(); ++i) {
-    const double centre_m = find_nearest(map_.rows[i], p).second;
+    const double centre_m = nearest_from_above(map_.rows[i].line_W, p).distance_m;
     const double distance_m = centre_m - 0.5 * map_.rows[i].canopy_width_m;
     if (distance_m < nearest.distance_m) nearest = {distance_m, centre_m, static_cast<int>(i)};
   }

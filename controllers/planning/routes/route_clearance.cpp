@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/api/map.h"
+#include "engine/math/polyline.h"
 
 namespace vinerow::controllers {
 namespace {
@@ -14,10 +15,8 @@ namespace {
 const PlantRow* find_row_at(const RowMap& map, const Eigen::Vector2d& p, double& distance_m) {
   for (const PlantRow& row : map.rows) {
     for (std::size_t i = 0; i + 1 < row.line_W.size(); ++i) {
-      const Eigen::Vector2d a = row.line_W[i].head<2>(), ab = row.line_W[i + 1].head<2>() - a;
-      const double square = ab.squaredNorm();
-      const double share = square > 0.0 ? std::clamp((p - a).dot(ab) / square, 0.0, 1.0) : 0.0;
-      distance_m = (p - a - share * ab).norm();
+      distance_m =
+          distance_to_segment_m<2>(p, row.line_W[i].head<2>(), row.line_W[i + 1].head<2>());
       if (distance_m < 0.5 * row.canopy_width_m) return &row;
     }
   }

@@ -8,26 +8,20 @@
 #include "controllers/parts/paths/pose2.h"
 #include "engine/api/map.h"
 #include "engine/api/messages/path.h"
+#include "engine/math/polyline.h"
 
 namespace vinerow::controllers {
 namespace {
 
 using Vec = Eigen::Vector2d;
 
-double distance_to_segment(const Vec& p, const Vec& a, const Vec& b) {
-  const Vec ab = b - a;
-  const double length2 = ab.squaredNorm();
-  const double share = length2 > 0.0 ? std::clamp((p - a).dot(ab) / length2, 0.0, 1.0) : 0.0;
-  return (p - a - share * ab).norm();
-}
-
 double distance_between_segments(const Vec& a, const Vec& b, const Vec& c, const Vec& d) {
   const Vec ab = b - a, cd = d - c;
   const bool crosses =
       cross(ab, c - a) * cross(ab, d - a) < 0.0 && cross(cd, a - c) * cross(cd, b - c) < 0.0;
   if (crosses) return 0.0;
-  return std::min({distance_to_segment(a, c, d), distance_to_segment(b, c, d),
-                   distance_to_segment(c, a, b), distance_to_segment(d, a, b)});
+  return std::min({distance_to_segment_m<2>(a, c, d), distance_to_segment_m<2>(b, c, d),
+                   distance_to_segment_m<2>(c, a, b), distance_to_segment_m<2>(d, a, b)});
 }
 
 std::string describe(const PathPoint& point) {

@@ -65,38 +65,6 @@ TEST(PeakCounter, EqualsTheDefinitionOnRandomCurves) {
   }
 }
 
-TEST(PolylineDistance, EqualsTheSearchOverAllSegmentsWhateverTheHint) {
-  RandomStream random(2, "test", "polyline");
-  Points points;
-  for (int i = 0; i < 300; ++i) {
-    points.emplace_back(random.uniform(0.0, 50.0), random.uniform(0.0, 50.0));
-  }
-  const PolylineDistance line(points);
-  for (int i = 0; i < 1000; ++i) {
-    const Eigen::Vector2d p(random.uniform(-10.0, 60.0), random.uniform(-10.0, 60.0));
-    double smallest = std::numeric_limits<double>::infinity();
-    for (std::size_t j = 0; j + 1 < points.size(); ++j) {
-      const Eigen::Vector2d d = points[j + 1] - points[j];
-      const double s = std::clamp(d.dot(p - points[j]) / d.squaredNorm(), 0.0, 1.0);
-      smallest = std::min(smallest, (points[j] + s * d - p).norm());
-    }
-    const int hint = static_cast<int>(random.uniform(-5.0, 310.0));
-    EXPECT_DOUBLE_EQ(line.nearest(p, hint).distance_m, smallest);
-  }
-}
-
-TEST(PolylineDistance, IsPositiveToTheLeft) {
-  const PolylineDistance line(Points{{0, 0}, {10, 0}});
-  EXPECT_DOUBLE_EQ(line.nearest({5, 2}).signed_distance_m, 2.0);
-  EXPECT_DOUBLE_EQ(line.nearest({5, -2}).signed_distance_m, -2.0);
-  EXPECT_DOUBLE_EQ(line.length_m(), 10.0);
-}
-
-TEST(PolylineDistance, TakesASinglePoint) {
-  const PolylineDistance line(Points{{1, 1}});
-  EXPECT_DOUBLE_EQ(line.nearest({4, 5}).distance_m, 5.0);
-}
-
 TEST(DeviationMeter, MeasuresASineAboutAStraight) {
   DeviationMeter meter({{0, 0}, {100, 0}});
   const int samples = 100001;

@@ -19,11 +19,7 @@ constexpr std::int64_t kMaxCells = 8'000'000;
 void give_boundary(WorldModel& world) {
   constexpr double kHeadland_m = 10.0, kLateralOffset_m = 3.0;
   std::vector<RowCurve> rows;
-  for (const PlantRow& row : world.rows->rows) {
-    std::vector<Eigen::Vector2d> line;
-    for (const Eigen::Vector3d& p : row.line_W) line.push_back(p.head<2>());
-    rows.emplace_back(std::move(line));
-  }
+  for (const PlantRow& row : world.rows->rows) rows.emplace_back(from_above(row.line_W));
   world.rows->boundary_W = parcel_boundary(rows, kHeadland_m, kLateralOffset_m);
   world.notes.push_back(
       fmt::format("the parcel has no boundary; a box {:g} m beyond the row ends and {:g} m beside "

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/math/polyline.h"
+
 namespace vinerow::mapping {
 namespace {
 
@@ -24,12 +26,12 @@ Eigen::Vector3d row_direction(const PlantRow& row, const Eigen::Vector3d& p) {
   double nearest = 1e300;
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
   for (std::size_t k = 0; k + 1 < row.line_W.size(); ++k) {
-    const Eigen::Vector3d step = row.line_W[k + 1] - row.line_W[k];
-    const double share = std::clamp((p - row.line_W[k]).dot(step) / step.squaredNorm(), 0.0, 1.0);
-    const double apart = (row.line_W[k] + share * step - p).squaredNorm();
+    const Eigen::Vector3d &a = row.line_W[k], &b = row.line_W[k + 1];
+    if (a == b) continue;
+    const double apart = (nearest_on_segment<3>(p, a, b) - p).squaredNorm();
     if (apart < nearest) {
       nearest = apart;
-      direction = step.normalized();
+      direction = (b - a).normalized();
     }
   }
   return direction;

@@ -6,6 +6,7 @@
 
 #include "engine/api/map.h"
 #include "engine/math/polygon.h"
+#include "engine/math/polyline.h"
 #include "worlds/mapping/grid/virtual_walls.h"
 
 namespace vinerow::mapping {
@@ -14,10 +15,7 @@ namespace {
 using Eigen::Vector2d;
 
 double from_segment_m(const Vector2d& p, const Vector2d& a, const Vector2d& b) {
-  const Vector2d d = b - a;
-  const double length2 = d.squaredNorm();
-  const double share = length2 > 0.0 ? std::clamp((p - a).dot(d) / length2, 0.0, 1.0) : 0.0;
-  return (a + share * d - p).norm();
+  return (nearest_on_segment<2>(p, a, b) - p).norm();
 }
 
 /// Of two segments that do not cross.
@@ -41,14 +39,12 @@ Vector2d outward_at(const PlantRow& row, RowEnd end) {
 double station_of(const Vector2d& p, const std::vector<Vector2d>& polygon) {
   double best_m = std::numeric_limits<double>::infinity(), station = 0.0;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
-    const Vector2d& a = polygon[k];
-    const Vector2d d = polygon[(k + 1) % polygon.size()] - a;
-    if (d.squaredNorm() == 0.0) continue;  // a corner given twice
-    const double share = std::clamp((p - a).dot(d) / d.squaredNorm(), 0.0, 1.0);
-    const double apart_m = (a + share * d - p).norm();
+    const Vector2d &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
+    if ((b - a).squaredNorm() == 0.0) continue;  // a corner given twice
+    const double apart_m = from_segment_m(p, a, b);
     if (apart_m < best_m) {
       best_m = apart_m;
-      station = static_cast<double>(k) + share;
+      station = static_cast<double>(k) + segment_share<2>(p, a, b);
     }
   }
   return station;

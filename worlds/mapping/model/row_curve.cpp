@@ -21,40 +21,24 @@ Pose frame_through(const Eigen::Vector3d& origin, const Eigen::Vector3d& along) 
 
 }  // namespace
 
-RowCurve::RowCurve(std::vector<Eigen::Vector2d> points_W) : points_(std::move(points_W)) {
-  VINEROW_DEMAND(points_.size() >= 2);
-  s_m_.push_back(0.0);
-  for (std::size_t i = 1; i < points_.size(); ++i) {
-    const double step_m = (points_[i] - points_[i - 1]).norm();
-    VINEROW_DEMAND(step_m > 0.0);
-    s_m_.push_back(s_m_.back() + step_m);
+RowCurve::RowCurve(std::vector<Eigen::Vector2d> points_W) : line_(std::move(points_W)) {
+  const std::vector<Eigen::Vector2d>& points = line_.points();
+  VINEROW_DEMAND(points.size() >= 2);
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    VINEROW_DEMAND(s_m()[i + 1] > s_m()[i]);
+    directions_.push_back((points[i + 1] - points[i]).normalized());
   }
-}
-
-std::size_t RowCurve::segment_of(double s_m) const {
-  const auto after = std::upper_bound(s_m_.begin() + 1, s_m_.end() - 1, s_m);
-  return static_cast<std::size_t>(after - s_m_.begin()) - 1;
-}
-
-Eigen::Vector2d RowCurve::direction_W(double s_m) const {
-  const std::size_t i = segment_of(s_m);
-  return (points_[i + 1] - points_[i]).normalized();
-}
-
-Eigen::Vector2d RowCurve::point_W(double s_m) const {
-  const std::size_t i = segment_of(s_m);
-  return points_[i] + (s_m - s_m_[i]) * (points_[i + 1] - points_[i]).normalized();
 }
 
 double RowCurve::nearest_s_m(const Eigen::Vector2d& p_W, double* distance_m) const {
   double best_s_m = 0.0, best_m = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
-    const Eigen::Vector2d d = (points_[i + 1] - points_[i]).normalized();
-    const double along = std::clamp((p_W - points_[i]).dot(d), 0.0, s_m_[i + 1] - s_m_[i]);
-    const double apart_m = (points_[i] + along * d - p_W).norm();
+  for (std::size_t i = 0; i < directions_.size(); ++i) {
+    const Eigen::Vector2d &from = points_W()[i], &d = directions_[i];
+    const double along = std::clamp((p_W - from).dot(d), 0.0, s_m()[i + 1] - s_m()[i]);
+    const double apart_m = (from + along * d - p_W).norm();
     if (apart_m < best_m) {
       best_m = apart_m;
-      best_s_m = s_m_[i] + along;
+      best_s_m = s_m()[i] + along;
     }
   }
   if (distance_m != nullptr) *distance_m = best_m;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "engine/math/polyline.h"
 #include "engine/math/pose.h"
 
 namespace vinerow::mapping {
@@ -18,20 +19,23 @@ class RowCurve {
   /// @param points_W  >= 2, neighbours distinct (demanded)
   explicit RowCurve(std::vector<Eigen::Vector2d> points_W);
 
-  double length_m() const { return s_m_.back(); }
-  const std::vector<Eigen::Vector2d>& points_W() const { return points_; }
+  double length_m() const { return line_.length_m(); }
+  const std::vector<Eigen::Vector2d>& points_W() const { return line_.points(); }
+  /// Arc length of each point.
+  const std::vector<double>& s_m() const { return line_.s_m(); }
+  /// Unit direction of each segment.
+  const std::vector<Eigen::Vector2d>& directions_W() const { return directions_; }
   /// Position at s; the line is extended straight beyond its ends.
-  Eigen::Vector2d point_W(double s_m) const;
+  Eigen::Vector2d point_W(double s_m) const { return line_.point_at(s_m); }
   /// Unit direction at s.
-  Eigen::Vector2d direction_W(double s_m) const;
+  Eigen::Vector2d direction_W(double s_m) const { return line_.direction_at(s_m); }
   /// Arc length of the nearest point, within [0, length]. @param distance_m  set to the distance if
   /// not null
   double nearest_s_m(const Eigen::Vector2d& p_W, double* distance_m = nullptr) const;
 
  private:
-  std::size_t segment_of(double s_m) const;
-  std::vector<Eigen::Vector2d> points_;
-  std::vector<double> s_m_;  // of each point
+  Polyline line_;
+  std::vector<Eigen::Vector2d> directions_;
 };
 
 /// Horizontal projection of a line, without repeated points.

@@ -11,7 +11,7 @@
 #include "engine/api/surface.h"
 #include "engine/api/world_model.h"
 #include "engine/core/check.h"
-#include "worlds/mapping/model/row_curve.h"
+#include "engine/math/polyline_index.h"
 
 namespace vinerow::mapping {
 namespace {
@@ -64,13 +64,10 @@ Vector2d edge_at(const Corner& a, const Corner& b, double z) {
 }  // namespace
 
 std::vector<std::vector<CanopyTriangle>> canopy_by_row(const WorldModel& world, double reach_m) {
-  std::vector<RowCurve> lines;
-  for (const PlantRow& row : world.rows->rows) {
-    std::vector<Vector2d> points;
-    for (const Vector3d& p : row.line_W) points.push_back(p.head<2>());
-    lines.emplace_back(std::move(points));
-  }
-  std::vector<std::vector<CanopyTriangle>> canopy(lines.size());
+  std::vector<Polyline> lines;
+  for (const PlantRow& row : world.rows->rows) lines.emplace_back(from_above(row.line_W));
+  const PolylineIndex rows(std::move(lines));
+  std::vector<std::vector<CanopyTriangle>> canopy(rows.lines().size());
   for (const MeshInstance& instance : world.meshes) {
     if (!instance.collides || instance.surface != SurfaceClass::kCanopy || !instance.mesh) continue;
     const TriangleMesh& mesh = *instance.mesh;
@@ -85,14 +82,8 @@ std::vector<std::vector<CanopyTriangle>> canopy_by_row(const WorldModel& world, 
     }
     for (std::size_t v = 0; v < piece.size(); ++v) {
       if (piece[v] != v) continue;
-      double nearest_m = reach_m;
-      for (std::size_t r = 0; r < lines.size(); ++r) {
-        double distance_m = 0.0;
-        lines[r].nearest_s_m(sum[v] / count[v], &distance_m);
-        if (distance_m > nearest_m) continue;
-        nearest_m = distance_m;
-        row_of[v] = static_cast<int>(r);
-      }
+      const PolylineIndex::Nearest nearest = rows.nearest(sum[v] / count[v]);
+      if (nearest.distance_m <= reach_m) row_of[v] = nearest.line;
     }
     for (const auto& [a, b, c] : mesh.triangles) {
       const int row = row_of[piece[a]];

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "engine/api/map.h"
 #include "engine/api/world_model.h"
@@ -28,24 +27,18 @@ void check_row(const WorldModel& world, int row) {
 HiddenRows::HiddenRows(const WorldModel& world, const std::vector<int>& hidden) {
   for (const int row : hidden) check_row(world, row);
   if (hidden.empty()) return;
+  std::vector<Polyline> lines;
   for (const PlantRow& row : world.rows->rows) {
-    std::vector<Eigen::Vector2d> points;
-    for (const Eigen::Vector3d& p : row.line_W) points.push_back(p.head<2>());
-    lines_.emplace_back(std::move(points));
+    lines.emplace_back(from_above(row.line_W));
     hidden_.push_back(std::find(hidden.begin(), hidden.end(), row.id) != hidden.end());
   }
+  rows_ = PolylineIndex(std::move(lines));
 }
 
 bool HiddenRows::hide(const Eigen::Vector3d& p_W, PointClass truth) const {
   if (truth != PointClass::kCanopy) return false;
-  double nearest_m = std::numeric_limits<double>::infinity();
-  bool hides = false;
-  for (std::size_t k = 0; k < lines_.size(); ++k) {
-    double here_m = 0.0;
-    lines_[k].nearest_s_m(p_W.head<2>(), &here_m);
-    if (here_m < nearest_m) nearest_m = here_m, hides = hidden_[k];
-  }
-  return hides;
+  const int nearest = rows_.nearest(p_W.head<2>()).line;
+  return nearest >= 0 && hidden_[static_cast<std::size_t>(nearest)];
 }
 
 }  // namespace vinerow::mapping

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "engine/api/forward.h"
+#include "engine/math/polyline_index.h"
 #include "worlds/mapping/model/parcel_cloud.h"
-#include "worlds/mapping/model/row_curve.h"
 
 namespace vinerow::mapping {
 
@@ -21,8 +21,8 @@ class HiddenRows {
   bool hide(const Eigen::Vector3d& p_W, PointClass truth) const;
 
  private:
-  std::vector<RowCurve> lines_;  ///< of all rows; empty if none is hidden
-  std::vector<bool> hidden_;     ///< of each line
+  PolylineIndex rows_;        ///< lines of all rows; empty if none is hidden
+  std::vector<bool> hidden_;  ///< of each line
 };
 
 }  // namespace vinerow::mapping

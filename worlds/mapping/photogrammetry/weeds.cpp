@@ -5,25 +5,19 @@
 #include <limits>
 
 #include "engine/core/check.h"
+#include "engine/math/polyline.h"
 
 namespace vinerow::mapping {
 namespace {
 
 using Eigen::Vector2d;
 
-double distance_to_segment_m(const Vector2d& p, const Vector2d& a, const Vector2d& b) {
-  const Vector2d way = b - a;
-  const double length2 = way.squaredNorm();
-  const double share = length2 > 0.0 ? std::clamp((p - a).dot(way) / length2, 0.0, 1.0) : 0.0;
-  return (p - a - share * way).norm();
-}
-
 double distance_to_rows_m(const Vector2d& p, const std::vector<PlantRow>& rows) {
   double nearest_m = std::numeric_limits<double>::infinity();
   for (const PlantRow& row : rows) {
     for (std::size_t i = 0; i + 1 < row.line_W.size(); ++i) {
-      nearest_m = std::min(nearest_m, distance_to_segment_m(p, row.line_W[i].head<2>(),
-                                                            row.line_W[i + 1].head<2>()));
+      nearest_m = std::min(nearest_m, distance_to_segment_m<2>(p, row.line_W[i].head<2>(),
+                                                               row.line_W[i + 1].head<2>()));
     }
   }
   return nearest_m;

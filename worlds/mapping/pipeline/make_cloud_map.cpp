@@ -340,9 +340,7 @@ CloudMap join_blocks(std::vector<CloudMap> blocks, CloudMapReport report,
       PlantRow row = block.map.rows[r];
       MappedRowFigures figures = block.report.rows[r];
       row.id = figures.row = first_row + static_cast<int>(r);
-      std::vector<Eigen::Vector2d> line_W;
-      for (const Eigen::Vector3d& p : row.line_W) line_W.push_back(p.head<2>());
-      lines_W.emplace_back(std::move(line_W));
+      lines_W.emplace_back(from_above(row.line_W));
       length_m += figures.length_m;
       contained += figures.containment * static_cast<double>(figures.points);
       points += static_cast<double>(figures.points);

@@ -18,22 +18,13 @@ constexpr double kLocatedBeyond_m = 1.0;
 RowLocator::RowLocator(const std::vector<RowCurve>& lines, double reach_m)
     : RowLocator(lines, std::vector<double>(lines.size(), reach_m)) {}
 
-RowLocator::RowLocator(const std::vector<RowCurve>& lines, const std::vector<double>& reach_m) {
+RowLocator::RowLocator(const std::vector<RowCurve>& lines, const std::vector<double>& reach_m)
+    : lines_(lines), reach_m_(reach_m) {
   VINEROW_DEMAND(lines.size() < 32767 && reach_m.size() == lines.size());
   Eigen::AlignedBox2d box;
-  for (const RowCurve& curve : lines) {
-    Line line;
-    line.points = curve.points_W();
-    VINEROW_DEMAND(line.points.size() < 32767);
-    line.s_m.push_back(0.0);
-    for (std::size_t k = 0; k + 1 < line.points.size(); ++k) {
-      const Eigen::Vector2d d = line.points[k + 1] - line.points[k];
-      line.directions.push_back(d.normalized());
-      line.s_m.push_back(line.s_m.back() + d.norm());
-    }
-    for (const Eigen::Vector2d& p : line.points) box.extend(p);
-    line.reach_m = reach_m[lines_.size()];
-    lines_.push_back(std::move(line));
+  for (const RowCurve& line : lines_) {
+    VINEROW_DEMAND(line.points_W().size() < 32767);
+    for (const Eigen::Vector2d& p : line.points_W()) box.extend(p);
   }
   if (lines_.empty()) return;
   const double margin_m =
@@ -46,15 +37,15 @@ RowLocator::RowLocator(const std::vector<RowCurve>& lines, const std::vector<dou
   std::vector<float> nearest(squares_.size(), std::numeric_limits<float>::infinity());
   const double half_diagonal_m = 0.71 * kSquare_m;
   for (std::size_t r = 0; r < lines_.size(); ++r) {
-    const Line& line = lines_[r];
-    for (std::size_t k = 0; k < line.directions.size(); ++k) {
+    const RowCurve& line = lines_[r];
+    for (std::size_t k = 0; k < line.directions_W().size(); ++k) {
       // The squares around the segment, a little longer at the row's ends.
-      const Eigen::Vector2d u = line.directions[k];
-      const Eigen::Vector2d a = line.points[k] - (k == 0 ? kLocatedBeyond_m : 0.0) * u;
-      const Eigen::Vector2d b =
-          line.points[k + 1] + (k + 1 == line.directions.size() ? kLocatedBeyond_m : 0.0) * u;
+      const Eigen::Vector2d u = line.directions_W()[k];
+      const Eigen::Vector2d a = line.points_W()[k] - (k == 0 ? kLocatedBeyond_m : 0.0) * u;
+      const Eigen::Vector2d b = line.points_W()[k + 1] +
+                                (k + 1 == line.directions_W().size() ? kLocatedBeyond_m : 0.0) * u;
       const double length_m = (b - a).norm();
-      const double far_m = line.reach_m + half_diagonal_m;
+      const double far_m = reach_m[r] + half_diagonal_m;
       // Long segments of straight rows are walked along in short pieces: their box would be huge.
       const int pieces = std::max(1, static_cast<int>(std::ceil(length_m / 4.0)));
       for (int piece = 0; piece < pieces; ++piece) {
@@ -89,16 +80,17 @@ RowPlace RowLocator::locate(double x, double y) const {
   const Square square =
       squares_[static_cast<std::size_t>(v) * columns_ + static_cast<std::size_t>(u)];
   if (square.row < 0) return {};
-  const Line& line = lines_[static_cast<std::size_t>(square.row)];
-  const int last = static_cast<int>(line.directions.size()) - 1;
+  const RowCurve& line = lines_[static_cast<std::size_t>(square.row)];
+  const double reach_of_line_m = reach_m_[static_cast<std::size_t>(square.row)];
+  const int last = static_cast<int>(line.directions_W().size()) - 1;
   const Eigen::Vector2d p(x, y);
   RowPlace place;
   double best = std::numeric_limits<double>::infinity();
   for (int k = std::max(0, square.segment - 1); k <= std::min(last, square.segment + 1); ++k) {
     const auto n = static_cast<std::size_t>(k);
-    const Eigen::Vector2d& d = line.directions[n];
-    const Eigen::Vector2d from = p - line.points[n];
-    const double length_m = line.s_m[n + 1] - line.s_m[n];
+    const Eigen::Vector2d& d = line.directions_W()[n];
+    const Eigen::Vector2d from = p - line.points_W()[n];
+    const double length_m = line.s_m()[n + 1] - line.s_m()[n];
     double along_m = from.dot(d);
     if (k > 0) along_m = std::max(along_m, 0.0);
     if (k < last) along_m = std::min(along_m, length_m);
@@ -107,10 +99,10 @@ RowPlace RowLocator::locate(double x, double y) const {
     best = square_m2;
     const double side = d.x() * from.y() - d.y() * from.x();
     place.row = square.row;
-    place.s_m = static_cast<float>(line.s_m[n] + along_m);
+    place.s_m = static_cast<float>(line.s_m()[n] + along_m);
     place.y_m = static_cast<float>(std::copysign(std::sqrt(square_m2), side));
   }
-  return best <= line.reach_m * line.reach_m ? place : RowPlace{};
+  return best <= reach_of_line_m * reach_of_line_m ? place : RowPlace{};
 }
 
 }  // namespace vinerow::mapping

@@ -29,16 +29,12 @@ class RowLocator {
   RowPlace locate(double x, double y) const;
 
  private:
-  struct Line {
-    std::vector<Eigen::Vector2d> points, directions;
-    std::vector<double> s_m;
-    double reach_m = 0.0;
-  };
   struct Square {
     std::int16_t row = -1;
     std::int16_t segment = 0;
   };
-  std::vector<Line> lines_;
+  std::vector<RowCurve> lines_;
+  std::vector<double> reach_m_;  // of each line
   std::vector<Square> squares_;
   Eigen::Vector2d corner_ = {0, 0};
   int columns_ = 0, rows_ = 0;

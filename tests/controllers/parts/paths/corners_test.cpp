@@ -42,7 +42,7 @@ MissionSetup make_setup(const std::string& controller, const std::vector<Vec>& p
 
 /// Largest distance of the way driven from the straights.
 double largest_deviation(const MissionResult& result, const std::vector<Vec>& points) {
-  const PolylineDistance line(points);
+  const Polyline line(points);
   double largest_m = 0.0;
   for (const controllers::Pose2& pose : result.poses) {
     largest_m = std::max(largest_m, line.nearest(pose.p).distance_m);

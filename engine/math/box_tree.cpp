@@ -1,9 +1,9 @@
-#include "engine/physics/box_tree.h"
+#include "engine/math/box_tree.h"
 
 #include <algorithm>
 #include <numeric>
 
-namespace vinerow::physics {
+namespace vinerow {
 namespace {
 
 // Items of a leaf are tested one by one. Chosen: few enough to be fast, enough to keep the tree
@@ -12,7 +12,8 @@ constexpr std::uint32_t kLeafItems = 6;
 
 }  // namespace
 
-BoxTree::BoxTree(std::span<const Eigen::AlignedBox3f> boxes) {
+template <class Scalar, int kDimension>
+BoxTree<Scalar, kDimension>::BoxTree(std::span<const Box> boxes) {
   if (boxes.empty()) return;
   items_.resize(boxes.size());
   std::iota(items_.begin(), items_.end(), 0u);
@@ -21,18 +22,17 @@ BoxTree::BoxTree(std::span<const Eigen::AlignedBox3f> boxes) {
   nodes_.shrink_to_fit();
 }
 
-std::uint32_t BoxTree::build(std::span<const Eigen::AlignedBox3f> boxes, std::uint32_t begin,
-                             std::uint32_t end) {
+template <class Scalar, int kDimension>
+std::uint32_t BoxTree<Scalar, kDimension>::build(std::span<const Box> boxes, std::uint32_t begin,
+                                                 std::uint32_t end) {
   const auto index = static_cast<std::uint32_t>(nodes_.size());
   nodes_.emplace_back();
-  Eigen::AlignedBox3f bounds;
-  Eigen::AlignedBox3f centres;
+  Box bounds, centres;
   for (std::uint32_t k = begin; k < end; ++k) {
     bounds.extend(boxes[items_[k]]);
     centres.extend(boxes[items_[k]].center());
   }
-  nodes_[index].low = bounds.min();
-  nodes_[index].high = bounds.max();
+  nodes_[index].box = bounds;
   if (end - begin <= kLeafItems) {
     nodes_[index].link = begin;
     nodes_[index].count = end - begin;
@@ -43,8 +43,8 @@ std::uint32_t BoxTree::build(std::span<const Eigen::AlignedBox3f> boxes, std::ui
   const std::uint32_t middle = begin + (end - begin) / 2;
   std::nth_element(items_.begin() + begin, items_.begin() + middle, items_.begin() + end,
                    [&](std::uint32_t a, std::uint32_t b) {
-                     const float centre_a = boxes[a].center()[axis];
-                     const float centre_b = boxes[b].center()[axis];
+                     const Scalar centre_a = boxes[a].center()[axis];
+                     const Scalar centre_b = boxes[b].center()[axis];
                      return centre_a != centre_b ? centre_a < centre_b : a < b;
                    });
   build(boxes, begin, middle);
@@ -54,4 +54,7 @@ std::uint32_t BoxTree::build(std::span<const Eigen::AlignedBox3f> boxes, std::ui
   return index;
 }
 
-}  // namespace vinerow::physics
+template class BoxTree<float, 3>;
+template class BoxTree<double, 2>;
+
+}  // namespace vinerow

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/math/angles.h"
+#include "vehicles/parts/chassis.h"
 #include "vehicles/parts/mesh_builder.h"
 
 namespace vinerow::vehicles {
@@ -226,9 +227,9 @@ void add_sensors(const Layout& l, MeshBuilder& b) {
 
 }  // namespace
 
-TriangleMesh make_rover_mesh(const RoverMeshParams& params) {
+TriangleMesh make_rover_mesh(const ChassisParams& params) {
   const Layout layout{0.5 * params.wheel_base_m, 0.5 * params.track_m, params.wheel_radius_m,
-                      params.tyre_width_m, params.ground_to_origin_m};
+                      params.tyre_width_m, params.com_height_m};
   MeshBuilder builder;
   add_frame(layout, builder);
   add_mudguards(layout, builder);

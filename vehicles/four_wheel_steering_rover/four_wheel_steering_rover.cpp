@@ -58,19 +58,8 @@ void FourWheelSteeringRover::describe() {
                   .max_axle_steer_rad = p.max_axle_steer_rad(),
                   .steered_axles = 2,
                   .knuckles = {0, 1, 2, 3}});
-  append_wheel_speed_actuators(p, description_.actuators);
-  description_.mass_kg = p.mass_kg;
-  description_.height_above_ground_m = p.com_height_m;
+  describe_chassis(p, kHullBottom_m, kHullTop_m, description_);
   description_.footprint_B = outline_B(p);
-  description_.collision_half_extents_m = {0.5 * p.wheel_base_m + p.wheel_radius_m,
-                                           0.5 * (p.track_m + p.tyre_width_m),
-                                           0.5 * (kHullTop_m - kHullBottom_m)};
-  description_.collision_centre_B = {0.0, 0.0, 0.5 * (kHullTop_m + kHullBottom_m) - p.com_height_m};
-  WheeledVehicle& wheeled = description_.wheeled.emplace();
-  wheeled.track_m = p.track_m;
-  wheeled.wheel_base_m = p.wheel_base_m;
-  wheeled.wheel_radius_m = p.wheel_radius_m;
-  wheeled.wheel_speed_limit_radps = p.wheel_speed_limit_radps;
   description_.max_speed_mps = p.wheel_speed_limit_radps * p.wheel_radius_m;
   description_.min_turning_radius_m = p.min_turning_radius_m();
   description_.battery_capacity_J = p.battery.capacity_Wh * 3600.0;

@@ -67,11 +67,23 @@ WheeledPlatformParams chassis_platform_params(const ChassisParams& p, double gra
   return platform;
 }
 
-void append_wheel_speed_actuators(const ChassisParams& params, std::vector<ActuatorSpec>& out) {
+void describe_chassis(const ChassisParams& p, double hull_bottom_m, double hull_top_m,
+                      VehicleDescription& description) {
   for (const Corner& corner : kCorners) {
-    out.push_back({fmt::format("wheel_{}_speed_radps", corner.name), "rad/s",
-                   -params.wheel_speed_limit_radps, params.wheel_speed_limit_radps});
+    description.actuators.push_back({fmt::format("wheel_{}_speed_radps", corner.name), "rad/s",
+                                     -p.wheel_speed_limit_radps, p.wheel_speed_limit_radps});
   }
+  description.mass_kg = p.mass_kg;
+  description.height_above_ground_m = p.com_height_m;
+  description.collision_half_extents_m = {0.5 * p.wheel_base_m + p.wheel_radius_m,
+                                          0.5 * (p.track_m + p.tyre_width_m),
+                                          0.5 * (hull_top_m - hull_bottom_m)};
+  description.collision_centre_B = {0.0, 0.0, 0.5 * (hull_top_m + hull_bottom_m) - p.com_height_m};
+  WheeledVehicle& wheeled = description.wheeled.emplace();
+  wheeled.track_m = p.track_m;
+  wheeled.wheel_base_m = p.wheel_base_m;
+  wheeled.wheel_radius_m = p.wheel_radius_m;
+  wheeled.wheel_speed_limit_radps = p.wheel_speed_limit_radps;
 }
 
 void append_wheel_links(WheelMeshParams wheel, const Material& material,

@@ -56,8 +56,11 @@ inline constexpr auto chassis_of = [](auto& params) -> ChassisParams& { return p
 /// Body, wheels and battery, without collision shapes.
 WheeledPlatformParams chassis_platform_params(const ChassisParams& params, double gravity_mps2);
 
-/// Appends "wheel_<name>_speed_radps" for each corner, forward and backward.
-void append_wheel_speed_actuators(const ChassisParams& params, std::vector<ActuatorSpec>& out);
+/// Sets mass, height above the ground, `wheeled` and a collision box around chassis and wheels, and
+/// appends the actuators "wheel_<name>_speed_radps" of the corners, forward and backward.
+/// @param hull_bottom_m, hull_top_m  of the box above level ground
+void describe_chassis(const ChassisParams& params, double hull_bottom_m, double hull_top_m,
+                      VehicleDescription& description);
 
 /// Appends four links "wheel_<name>" in the order of the corners.
 /// @param wheel  its `left` is ignored and set for each wheel

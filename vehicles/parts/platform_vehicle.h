@@ -27,11 +27,9 @@ class PlatformVehicle : public Vehicle {
   void read_links(std::vector<Pose>& X_WL) const override;
   void publish(Time now) override;
 
-  /// For factories: enables wind forces (WheeledPlatform::feel_wind). Wind has no effect on a
-  /// vehicle without a platform, which has kinematic fidelity.
-  void feel_wind(RandomStream random) {
-    if (platform_) platform_->feel_wind(random);
-  }
+  /// For factories: enables wind forces (WheeledPlatform::feel_wind). @pre build_platform() was
+  /// called
+  void feel_wind(RandomStream random) { platform_->feel_wind(random); }
   /// @pre build_platform() was called
   const WheeledPlatform& platform() const { return *platform_; }
 

@@ -7,23 +7,18 @@
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 #include "tests/vehicles/small_worlds.h"
+#include "vehicles/diff_drive_rover/kinematic_rover.h"
 
 namespace vinerow::vehicles::diff_drive_rover_test {
 namespace {
 
 using namespace test;
 
-DiffDriveRoverParams kinematic_params() {
-  DiffDriveRoverParams params;
-  params.kinematic = true;
-  return params;
-}
-
-TEST(DiffDriveRover, KinematicArcIsExactOnAnyTerrain) {
+TEST(KinematicRover, ArcIsExactOnAnyTerrain) {
   const WorldModel model = make_world(
       60.0, 0.5, [](double x, double y) { return 0.3 * std::sin(0.4 * x) + 0.02 * x * y; });
   physics::PhysicsWorld world({}, model);
-  DiffDriveRover rover(kinematic_params());
+  KinematicRover rover{DiffDriveRoverParams{}};
   rover.spawn(world, pose_on_ground(model, 1.0, 2.0, 0.3, 0.38));
   const Odometry start = [&] {
     Odometry truth;
@@ -71,19 +66,20 @@ TEST(DiffDriveRover, LinksTurnWithTheWheels) {
   const WorldModel model = make_flat_world();
   for (const bool kinematic : {false, true}) {
     physics::PhysicsWorld world({}, model);
-    DiffDriveRoverParams params;
-    params.kinematic = kinematic;
-    DiffDriveRover rover(params);
-    rover.spawn(world, pose_on_ground(model, 0, 0, 0, 0.38));
-    rover.actuate(std::vector<double>{2, 2, 2, 2});
+    ParameterSet parameters(diff_drive_rover_spec().parameters, "diff_drive_rover");
+    parameters.set("fidelity", kinematic ? "kinematic" : "physics");
+    const auto rover = make_diff_drive_rover(parameters, {});
+    ASSERT_EQ(dynamic_cast<KinematicRover*>(rover.get()) != nullptr, kinematic);
+    rover->spawn(world, pose_on_ground(model, 0, 0, 0, 0.38));
+    rover->actuate(std::vector<double>{2, 2, 2, 2});
     const Duration dt{1'000'000};
     for (int i = 0; i < 500; ++i) {
-      rover.before_physics({}, dt);
+      rover->before_physics({}, dt);
       world.step(dt);
-      rover.after_physics({}, dt);
+      rover->after_physics({}, dt);
     }
-    std::vector<Pose> poses(rover.links().size());
-    rover.read_links(poses);
+    std::vector<Pose> poses(rover->links().size());
+    rover->read_links(poses);
     ASSERT_EQ(poses.size(), 5u);
     EXPECT_NEAR(poses[1].p.z(), 0.2, 2e-3);  // hubs at wheel radius
     EXPECT_NEAR(poses[1].p.y(), 0.5, 1e-3);

@@ -89,12 +89,12 @@ TEST(WheelMesh, IsAsLargeAsTheWheel) {
 }
 
 TEST(RoverMesh, StandsAboveTheGroundAndIsOfTheVehiclesSize) {
-  const RoverMeshParams params;
+  const ChassisParams params;
   const TriangleMesh mesh = make_rover_mesh(params);
   expect_consistent(mesh);
   const Eigen::AlignedBox3d box = mesh.bounds();
-  EXPECT_GT(box.min().z() + params.ground_to_origin_m, 0.12);
-  EXPECT_LT(box.max().z() + params.ground_to_origin_m, 1.6);
+  EXPECT_GT(box.min().z() + params.com_height_m, 0.12);
+  EXPECT_LT(box.max().z() + params.com_height_m, 1.6);
   EXPECT_NEAR(box.sizes().x(), 2.0, 0.15);
   EXPECT_LT(box.sizes().y(), 1.25);
   EXPECT_LT(mesh.triangles.size(), 8000u);

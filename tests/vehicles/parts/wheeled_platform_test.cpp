@@ -59,7 +59,7 @@ struct Rig {
 };
 
 WheeledPlatformParams rover_params() {
-  return diff_drive_platform_params(DiffDriveRoverParams{});
+  return chassis_platform_params(DiffDriveRoverParams{}, kGravity);
 }
 
 WheeledPlatformParams free_wheeling_params() {
@@ -241,7 +241,7 @@ TEST(WheeledPlatform, RefusesStrutsThatAreTooStiffForTheStep) {
   EXPECT_EQ(fault_of(490.0, 900.0), "");
   EXPECT_EQ(fault_of(510.0, 900.0),
             "rover: physics.step_s = 0.001 s is too long for the struts under 100 kg: they swing "
-             "0.51 rad and damp by 0.9 in a step, must be at most 0.5 rad and 1");
+            "0.51 rad and damp by 0.9 in a step, must be at most 0.5 rad and 1");
   EXPECT_NE(fault_of(490.0, 1100.0).find("damp by 1.1 in a step"), std::string::npos);
 }
 
@@ -288,8 +288,7 @@ TEST(WheeledPlatform, ClimbsUpToTheFrictionLimitAndNotBeyond) {
 TEST(WheeledPlatform, WideTurnFollowsTheSmallSlipTrack) {
   // yaw rate = R (w_r - w_l) / (B (1 + (c_y / c_x)(L / B)^2)), vehicles/parts/README.md.
   WorldModel world = make_flat_world();
-  const double stiffness_ratio =
-      world.soil.cornering_stiffness_per_rad / world.soil.slip_stiffness;
+  const double stiffness_ratio = world.soil.cornering_stiffness_per_rad / world.soil.slip_stiffness;
   const double track = 1.0 * (1.0 + stiffness_ratio * (1.5 / 1.0) * (1.5 / 1.0));
   EXPECT_NEAR(track, 2.5, 1e-12);
   Rig rig(std::move(world), rover_params());

@@ -268,9 +268,6 @@ std::string map_report_text(const mapping::CloudMap& map) {
                      r.volume_m3, r.seen_volume_m3);
   out += fmt::format("meshes         {} triangles, {}, {:.2f} % less than the cloud\n", r.triangles,
                      megabytes(r.mesh_bytes), 100.0 * r.reduction);
-  out += fmt::format(
-      "sections       {:.1f} % larger than the smallest polygons with equally many corners\n",
-      100.0 * r.section_excess);
   out +=
       fmt::format("containment    {:.2f} % of canopy points within 1 cm\n", 100.0 * r.containment);
   if (!map.map.occupancy.empty()) {

@@ -35,7 +35,7 @@ inline const mapping::CloudMap& map_of_world(const std::string& type) {
   for (double* number :
        {&report.density_per_m2, &report.noise_m, &report.bearing_deg, &report.spacing_m,
         &report.spacing_std_m, &report.canopy_top_m, &report.canopy_width_m, &report.volume_m3,
-        &report.seen_volume_m3, &report.section_excess}) {
+        &report.seen_volume_m3}) {
     *number = next += 1.0 / 3.0;
   }
   report.containment = 0.987654321;

@@ -119,8 +119,7 @@ json report_json(const CloudMapReport& r) {
            {{"triangles", r.triangles},
             {"bytes", r.mesh_bytes},
             {"reduction", r.reduction},
-            {"containment", r.containment},
-            {"section_excess", r.section_excess}}},
+            {"containment", r.containment}}},
           {"rows", rows},
           {"notes", notes}};
 }
@@ -151,7 +150,6 @@ CloudMapReport read_report(const JsonReader& in) {
   r.mesh_bytes = meshes.at("bytes").whole(0);
   r.reduction = meshes.at("reduction").number();
   r.containment = meshes.at("containment").number();
-  r.section_excess = meshes.at("section_excess").number();
   for (const JsonReader& row : in.at("rows").items()) r.rows.push_back(read_figures(row));
   for (const JsonReader& note : in.at("notes").items()) r.notes.push_back(note.text());
   return r;

@@ -108,9 +108,7 @@ json report_properties() {
        object({{"triangles", whole("of all row meshes")},
                {"bytes", whole("of all row meshes as binary PLY")},
                {"reduction", number("1 - mesh bytes / cloud bytes")},
-               {"containment", share("of all canopy points within 1 cm of their row's meshes")},
-               {"section_excess",
-                number("area of cross-sections over the smallest with as many corners, - 1")}},
+               {"containment", share("of all canopy points within 1 cm of their row's meshes")}},
               "the low-complexity meshes")},
       {"rows", list(row_figures(), 0, "row by row")},
       {"notes", list(text("a sentence"), 0, "sentences for the user")}};

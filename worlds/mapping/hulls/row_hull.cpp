@@ -64,7 +64,7 @@ class RowWork {
       points += static_cast<std::int64_t>(stretch.points.size());
     }
     const HullDirections directions =
-        choose_directions(stretches_.stretches, options_.corners, &section_excess_);
+        choose_directions(stretches_.stretches, options_.corners);
     double area_m2 = 0.0;
     for (const RowStretch& stretch : stretches_.stretches) {
       fits_.push_back(std::make_unique<HullFit>(stretch, directions));
@@ -304,7 +304,6 @@ class RowWork {
     figures.containment = static_cast<double>(containment.count(row_.points)) /
                           static_cast<double>(row_.points.size());
     figures.gaps_m = stretches_.gaps_m;
-    hulls.section_excess = section_excess_;
     hulls.simplify_error_m = worst_m3_ / (perimeter_m_ * options_.slice_m);
     hulls.mesh_bytes = bytes();
     if (stretches_.not_finite > 0) {
@@ -327,7 +326,6 @@ class RowWork {
   std::vector<std::unique_ptr<HullFit>> fits_;  // one per stretch
   std::vector<std::vector<Removal>> removals_;
   std::vector<Eigen::Vector3d> line_W_;  // of the stretch at hand, at its first sections
-  double section_excess_ = 0.0;
   std::int64_t allowed_ = 0;  // points outside
   double per_point_m2_ = 0.0, price_m3_ = 0.0, perimeter_m_ = 0.0, length_m_ = 0.0, worst_m3_ = 0.0;
 };

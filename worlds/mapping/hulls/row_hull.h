@@ -49,9 +49,6 @@ struct RowHulls {
   /// about them: an estimate of the canopy's volume without the bias of noise.
   double canopy_volume_m3 = 0.0;
   double noise_m = 0.0;  ///< 1 sigma of the points across the side faces
-  /// Relative excess of the sections' area over the smallest polygons with as many corners, before
-  /// points are left outside: the cost of shared directions.
-  double section_excess = 0.0;
   double simplify_error_m = 0;  ///< largest mean movement of the surface by leaving out one section
   std::int64_t dropped = 0;     ///< points in sparse cells, still counted in the containment
   std::int64_t mesh_bytes = 0;  ///< as binary PLY without headers

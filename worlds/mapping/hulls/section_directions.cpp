@@ -6,37 +6,8 @@
 #include <limits>
 
 #include "engine/math/angles.h"
-#include "engine/math/polygon.h"
-#include "worlds/mapping/hulls/enclosing_polygon.h"
 
 namespace vinerow::mapping {
-namespace {
-
-/// @param supports  of each slice in each direction of `fine`
-double excess_of(const std::vector<double>& supports, const HullDirections& fine,
-                 const HullDirections& chosen, int corners) {
-  double own_m2 = 0.0, min_m2 = 0.0;
-  const auto count = static_cast<std::size_t>(fine.count());
-  std::vector<double> h(static_cast<std::size_t>(chosen.count()));
-  for (std::size_t row = 0; row < supports.size(); row += count) {
-    Polygon outline;
-    for (int k = 0; k < fine.count(); ++k) {
-      outline.push_back(fine.corner(supports.data() + row, k));
-    }
-    const auto smallest = smallest_enclosing_polygon(outline, corners);
-    if (!smallest) continue;
-    for (int k = 0; k < chosen.count(); ++k) {
-      double& level = h[static_cast<std::size_t>(k)];
-      level = -std::numeric_limits<double>::infinity();
-      for (const Eigen::Vector2d& p : outline) level = std::max(level, chosen.normal(k).dot(p));
-    }
-    own_m2 += chosen.area_m2(h.data());
-    min_m2 += signed_area_m2(*smallest);
-  }
-  return min_m2 > 0.0 ? own_m2 / min_m2 - 1.0 : 0.0;
-}
-
-}  // namespace
 
 float upper_level(std::vector<float>& values) {
   constexpr double kStartShare = 0.01;
@@ -45,8 +16,7 @@ float upper_level(std::vector<float>& values) {
   return values[static_cast<std::size_t>(above)];
 }
 
-HullDirections choose_directions(const std::vector<RowStretch>& stretches, int corners,
-                                 double* excess) {
+HullDirections choose_directions(const std::vector<RowStretch>& stretches, int corners) {
   constexpr int kFine = 32;
   constexpr int kSlices = 64;  // looked at
   std::vector<double> angles;
@@ -105,9 +75,7 @@ HullDirections choose_directions(const std::vector<RowStretch>& stretches, int c
   }
   std::vector<double> chosen;
   for (const int k : kept) chosen.push_back(angles[k]);
-  const HullDirections directions(std::move(chosen));
-  if (excess != nullptr) *excess = excess_of(supports, fine, directions, corners);
-  return directions;
+  return HullDirections(std::move(chosen));
 }
 
 }  // namespace vinerow::mapping

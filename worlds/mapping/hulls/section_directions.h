@@ -14,10 +14,6 @@ float upper_level(std::vector<float>& values);
 
 /// Chooses `corners` of 32 directions for a small total area of the polygons around the slices of
 /// all stretches: greedily removes the direction that adds the least area.
-/// @param excess  if not null: relative excess of the total area over the smallest polygons with as
-/// many corners around the same slices (enclosing_polygon.h), the cost of shared directions. 0 if
-/// there are no slices with enough points.
-HullDirections choose_directions(const std::vector<RowStretch>& stretches, int corners,
-                                 double* excess = nullptr);
+HullDirections choose_directions(const std::vector<RowStretch>& stretches, int corners);
 
 }  // namespace vinerow::mapping

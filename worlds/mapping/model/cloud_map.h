@@ -55,8 +55,6 @@ struct CloudMapReport {
   double seen_volume_m3 = 0.0;                                       ///< sum
   double containment = 0.0;  ///< share of all canopy points within 1 cm of their row's meshes
   std::int64_t triangles = 0;
-  double section_excess =
-      0.0;  ///< area of cross-sections over the smallest with as many corners, - 1
   std::int64_t mesh_bytes = 0;  ///< of the row meshes as binary PLY
   double reduction = 0.0;       ///< 1 - mesh_bytes / cloud_bytes
   std::vector<MappedRowFigures> rows;

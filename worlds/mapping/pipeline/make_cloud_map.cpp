@@ -226,7 +226,6 @@ void report_rows(std::span<const RowHulls> hulls, std::span<const RowCanopy> can
     report.seen_volume_m3 += figures.seen_volume_m3;
     report.triangles += figures.triangles;
     report.mesh_bytes += hulls[r].mesh_bytes;
-    report.section_excess += figures.length_m * hulls[r].section_excess;
     metres += figures.length_m;
     contained += figures.containment * static_cast<double>(figures.points);
     points += static_cast<double>(figures.points);
@@ -235,7 +234,6 @@ void report_rows(std::span<const RowHulls> hulls, std::span<const RowCanopy> can
   }
   report.canopy_top_m /= metres;
   report.canopy_width_m /= metres;
-  report.section_excess /= metres;
   report.containment = points > 0.0 ? contained / points : 0.0;
   if (distances.empty()) return;
   for (const double d : distances) report.spacing_m += d;
@@ -358,7 +356,6 @@ CloudMap join_blocks(std::vector<CloudMap> blocks, CloudMapReport report,
     squares += block.map.accuracy.surface_std_m * block.map.accuracy.surface_std_m * length_m;
     report.canopy_top_m += length_m * r.canopy_top_m;
     report.canopy_width_m += length_m * r.canopy_width_m;
-    report.section_excess += length_m * r.section_excess;
     report.spacing_m += length_m * r.spacing_m;
     report.spacing_std_m += length_m * r.spacing_std_m * r.spacing_std_m;
     report.volume_m3 += r.volume_m3;
@@ -374,7 +371,6 @@ CloudMap join_blocks(std::vector<CloudMap> blocks, CloudMapReport report,
   }
   report.canopy_top_m /= metres;
   report.canopy_width_m /= metres;
-  report.section_excess /= metres;
   report.spacing_m /= metres;
   report.spacing_std_m = std::sqrt(report.spacing_std_m / metres);
   report.containment = points > 0.0 ? contained / points : 0.0;

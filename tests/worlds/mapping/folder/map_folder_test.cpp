@@ -92,7 +92,6 @@ void expect_same(const CloudMapReport& a, const CloudMapReport& b) {
   EXPECT_EQ(a.containment, b.containment);
   EXPECT_EQ(a.triangles, b.triangles);
   EXPECT_EQ(a.mesh_bytes, b.mesh_bytes);
-  EXPECT_EQ(a.section_excess, b.section_excess);
   EXPECT_EQ(a.reduction, b.reduction);
   EXPECT_EQ(a.notes, b.notes);
   ASSERT_EQ(a.rows.size(), b.rows.size());

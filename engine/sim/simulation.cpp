@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <limits>
 
 #include "engine/api/map.h"
 #include "engine/core/check.h"
@@ -99,8 +98,8 @@ void Simulation::add_traffic(const RunContext& run) {
   // If the physics step does not divide this period, the separation is not measured.
   if (vehicles_.size() > 1 && period.ns % scenario_.physics_step.ns == 0) {
     separation_ = std::make_unique<Separation>(static_cast<int>(vehicles_.size()));
-    for (const auto& vehicle : vehicles_) {
-      vehicle->set_separation(std::numeric_limits<double>::infinity());
+    for (std::size_t i = 0; i < vehicles_.size(); ++i) {
+      vehicles_[i]->measure_separation(*separation_, static_cast<int>(i));
     }
     scheduler_.add(Stage::kJudge, "run.separation", period, {},
                    [this](Time now) { watch_separation(now); });
@@ -123,9 +122,6 @@ void Simulation::watch_separation(Time now) {
                        description.collision_half_extents_m);
   }
   separation_->update(now);
-  for (int i = 0; i < separation_->vehicles(); ++i) {
-    vehicles_[i]->set_separation(separation_->least(i).distance_m);
-  }
 }
 
 Simulation::~Simulation() {

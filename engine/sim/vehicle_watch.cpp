@@ -1,5 +1,4 @@
-/// Checks that end a vehicle's work or the run: invalid state, edge of the ground, contacts,
-/// crashes, driven wheels without progress. Part of VehicleRuntime.
+#include "engine/sim/vehicle_watch.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +6,7 @@
 
 #include "engine/api/may_fail.h"
 #include "engine/core/error.h"
-#include "engine/sim/vehicle_runtime.h"
+#include "engine/sim/spawn.h"
 
 namespace vinerow {
 namespace {
@@ -17,6 +16,7 @@ constexpr Duration kContactGap{500'000'000};
 /// Limits of a plausible state; beyond them the simulation has diverged.
 constexpr double kMaxDistance_m = 1e6;
 constexpr double kMaxSpeed_mps = 1e3;
+
 bool is_finite(const Odometry& state) {
   return state.X_WB.p.allFinite() && state.X_WB.q.coeffs().allFinite() &&
          state.v_WB_B.allFinite() && state.w_WB_B.allFinite();
@@ -66,34 +66,47 @@ Eigen::AlignedBox2d find_ground_extent(const WorldModel& world) {
 
 }  // namespace
 
-void VehicleRuntime::after_physics(Time now, Duration step) {
-  if (parked_) return;
-  vehicle_->after_physics(now, step);
+VehicleWatch::VehicleWatch(const scenario::VehicleConfig& config, const RunContext& run,
+                           const Vehicle& vehicle, int first_body, int end_body)
+    : config_(config),
+      run_(run),
+      vehicle_(vehicle),
+      first_body_(first_body),
+      end_body_(end_body),
+      progress_(vehicle.description()) {}
+
+void VehicleWatch::begin(Time now) {
+  if (now.ns > 0) {
+    contacts_.values = {0.0, 0.0};
+    publish_contacts(now);
+  }
+  progress_ = ProgressWatch(vehicle_.description());
+  progress_seen_ = now;
+}
+
+void VehicleWatch::check(Time now, const VehicleParts& parts) {
   Odometry state;
-  vehicle_->read_truth(state);
-  const std::string culprit = fmt::format("{} ({})", config_.name, config_.vehicle.type);
-  if (!is_finite(state)) throw SimulationError(culprit, now, "its state is no longer finite");
+  vehicle_.read_truth(state);
+  if (!is_finite(state)) fail(now, "its state is no longer finite");
   if (state.X_WB.p.cwiseAbs().maxCoeff() > kMaxDistance_m) {
-    throw SimulationError(culprit, now,
-                          fmt::format("it is farther than {:g} m from the origin", kMaxDistance_m));
+    fail(now, fmt::format("it is farther than {:g} m from the origin", kMaxDistance_m));
   }
   if (state.v_WB_B.norm() > kMaxSpeed_mps) {
-    throw SimulationError(
-        culprit, now,
-        fmt::format("its speed of {:g} m/s exceeds {:g} m/s", state.v_WB_B.norm(), kMaxSpeed_mps));
+    fail(now,
+         fmt::format("its speed of {:g} m/s exceeds {:g} m/s", state.v_WB_B.norm(), kMaxSpeed_mps));
   }
   demand_ground(now, state.X_WB);
   watch_contacts(now);
-  watch_crash(now);
+  watch_crash(now, parts);
 }
 
-void VehicleRuntime::demand_ground(Time now, const Pose& X_WB) const {
+void VehicleWatch::demand_ground(Time now, const Pose& X_WB) const {
   const Eigen::Vector3d& p = X_WB.p;
   if (run_.world.terrain && run_.world.terrain->contains(p.x(), p.y())) return;
   const SceneQuery& scene = run_.physics.scene();
   if (scene.ground_height_m(p.x(), p.y(), p.z())) return;
   // A hole in a mesh that is smaller than the vehicle does not count as an edge.
-  const VehicleDescription& description = vehicle_->description();
+  const VehicleDescription& description = vehicle_.description();
   const Eigen::Vector3d& half = description.collision_half_extents_m;
   for (const double side : {-1.0, 1.0}) {
     for (const double end : {-1.0, 1.0}) {
@@ -103,40 +116,39 @@ void VehicleRuntime::demand_ground(Time now, const Pose& X_WB) const {
       if (scene.ground_height_m(corner.x(), corner.y(), corner.z())) return;
     }
   }
-  const std::string culprit = fmt::format("{} ({})", config_.name, config_.vehicle.type);
   const Eigen::AlignedBox2d box = find_ground_extent(run_.world);
-  throw SimulationError(
-      culprit, now,
-      fmt::format("it left the terrain at x = {:.2f} m, y = {:.2f} m: the ground of world '{}' "
-                  "extends from x = {:.1f} to {:.1f} m, y = {:.1f} to {:.1f} m{}",
-                  p.x(), p.y(), run_.world.name, box.min().x(), box.max().x(), box.min().y(),
-                  box.max().y(), larger_ground_hint(run_.scenario.world.parameters)));
+  fail(now,
+       fmt::format("it left the terrain at x = {:.2f} m, y = {:.2f} m: the ground of world '{}' "
+                   "extends from x = {:.1f} to {:.1f} m, y = {:.1f} to {:.1f} m{}",
+                   p.x(), p.y(), run_.world.name, box.min().x(), box.max().x(), box.min().y(),
+                   box.max().y(), larger_ground_hint(run_.scenario.world.parameters)));
 }
 
-bool VehicleRuntime::finished() const {
-  if (crash_) return false;
-  if (controller_ == nullptr) return true;
-  // A part may fail at the same instant at which the controller finishes.
-  const bool has_failed = std::any_of(may_fail_.begin(), may_fail_.end(),
-                                      [](const MayFail* part) { return !part->failure().empty(); });
-  return at_work() && controller_->finished() && !has_failed;
+void VehicleWatch::fail(Time now, const std::string& text) const {
+  throw SimulationError(fmt::format("{} ({})", config_.name, config_.vehicle.type), now, text);
 }
 
-void VehicleRuntime::watch_crash(Time now) {
+void VehicleWatch::set_crash(Time now, EndKind kind, std::string text) {
+  crash_ = Crash{config_.name, now, std::move(text), kind};
+  run_.emit(Event::Level::kError, config_.name,
+            fmt::format("{}: {}", to_string(kind), crash_->text));
+}
+
+void VehicleWatch::watch_crash(Time now, const VehicleParts& parts) {
   if (crash_) return;
-  if (!vehicle_->crash().empty()) {
-    crash_ = Crash{config_.name, now, std::string(vehicle_->crash())};
-    run_.emit(Event::Level::kError, config_.name, fmt::format("crashed: {}", crash_->text));
+  if (!vehicle_.crash().empty()) {
+    set_crash(now, EndKind::kCrashed, std::string(vehicle_.crash()));
     return;
   }
-  for (const MayFail* part : may_fail_) {
-    if (crash_ || !at_work() || part->failure().empty()) continue;
-    crash_ = Crash{config_.name, now, std::string(part->failure()), EndKind::kGaveUp};
-    run_.emit(Event::Level::kError, config_.name, fmt::format("gave up: {}", crash_->text));
+  if (parts.tasks.empty()) return;
+  for (const MayFail* part : parts.may_fail) {
+    if (part->failure().empty()) continue;
+    set_crash(now, EndKind::kGaveUp, std::string(part->failure()));
+    return;
   }
 }
 
-void VehicleRuntime::watch_contacts(Time now) {
+void VehicleWatch::watch_contacts(Time now) {
   const physics::Contact* touched = nullptr;
   for (const physics::Contact& contact : run_.physics.contacts()) {
     // Between two vehicles a contact is listed once, from either side.
@@ -161,18 +173,17 @@ void VehicleRuntime::watch_contacts(Time now) {
   }
   const bool is_touching = touched != nullptr;
   if (is_touching != was_touching || contacts_.values[0] != touches_before) {
-    contacts_writer_.write(now, contacts_);
+    publish_contacts(now);
   }
 }
 
-void VehicleRuntime::watch_progress(Time now) {
-  if (crash_ || !progress_ || finished()) return;
-  std::string told = progress_->update(now, truth_.X_WB.p, actuator_values_, now - progress_seen_);
+void VehicleWatch::check_progress(Time now, const Eigen::Vector3d& p_W,
+                                  const std::vector<double>& actuators) {
+  std::string told = progress_.update(now, p_W, actuators, now - progress_seen_);
   progress_seen_ = now;
   if (told.empty()) return;
-  told += fmt::format(", at x = {:.2f} m, y = {:.2f} m", truth_.X_WB.p.x(), truth_.X_WB.p.y());
-  crash_ = Crash{config_.name, now, std::move(told), EndKind::kStuck};
-  run_.emit(Event::Level::kError, config_.name, fmt::format("is stuck: {}", crash_->text));
+  told += fmt::format(", at x = {:.2f} m, y = {:.2f} m", p_W.x(), p_W.y());
+  set_crash(now, EndKind::kStuck, std::move(told));
 }
 
 }  // namespace vinerow

@@ -9,7 +9,6 @@
 namespace vinerow::metrics {
 namespace {
 
-constexpr double kInside95 = 5.991464547107979;  // chi-square of 2 degrees: -2 ln 0.05
 /// Upper limit of a NEES sample: ten sigma. Chosen: beyond it the filter is lost, and unlimited
 /// values would dominate the mean.
 constexpr double kMaxNees = 100.0;

@@ -14,6 +14,10 @@
 
 namespace vinerow::metrics {
 
+/// Squared Mahalanobis distance within which 95 % of the errors of two coordinates are: chi-square
+/// of 2 degrees, -2 ln 0.05.
+inline constexpr double kInside95 = 5.991464547107979;
+
 class EstimateJudge {
  public:
   /// Signals to read: those of the vehicle's own estimator, or an observer's.

@@ -5,11 +5,12 @@
 
 #include "engine/math/angles.h"
 #include "engine/math/decomposition.h"
+#include "engine/metrics/estimate_judge.h"
 
 namespace vinerow::playback {
 namespace {
 
-constexpr double kInside95 = 5.991464547107979;  // chi-square of 2 degrees: -2 ln 0.05
+using metrics::kInside95;
 constexpr int kEllipsePoints = 96;
 constexpr int kEarlierPoints = 48;
 constexpr double kMinSpacing_m = 1.0;

@@ -9,6 +9,7 @@
 #include "controllers/parts/paths/footprint.h"
 #include "controllers/parts/paths/lift.h"
 #include "controllers/planning/routes/route_clearance.h"
+#include "controllers/planning/routes/route_planner.h"
 #include "controllers/planning/routes/row_check.h"
 #include "controllers/planning/search/analytic_turn.h"
 #include "controllers/planning/search/rrt_quartile.h"
@@ -164,11 +165,7 @@ class GoTo final : public Planner {
     }
     SearchReport done;
     auto found = search_.find(from, to, footprint_, problem, done);
-    report_.numbers["nodes"] += static_cast<double>(done.nodes);
-    report_.numbers["iterations"] += static_cast<double>(done.iterations);
-    for (const Eigen::Vector2d& p : done.tree_W) {
-      report_.tree.points_W.emplace_back(p.x(), p.y(), 0.0);
-    }
+    add_search(done, report_);
     return found;
   }
 

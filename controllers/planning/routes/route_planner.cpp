@@ -106,7 +106,7 @@ class RoutePlanner final : public Planner {
 
     SearchReport done;
     const auto found = search_->find(pose, entry, footprint_, 0, done);
-    add_work(done);
+    add_search(done, report_);
     if (!found) {
       return fmt::format("no path from the start at {} to the entrance of alley {} at {}: {}",
                          to_string(pose), leg.alley, to_string(entry), found.reason());
@@ -127,7 +127,7 @@ class RoutePlanner final : public Planner {
     const auto way = drive_around(
         leg, footprint_, clearance_, *search_, kFirstProblem + kProblemsPerLeg * leg.alley,
         {params_.turning_radius_m, params_.check_step_m, params_.speed_mps}, done);
-    for (const SearchReport& search : done) add_work(search);
+    for (const SearchReport& search : done) add_search(search, report_);
     if (!way) return way.reason();
     ++report_.numbers["legs_with_detours"];
     pieces.insert(pieces.end(), way->begin(), way->end());
@@ -156,7 +156,7 @@ class RoutePlanner final : public Planner {
                                          PathSegments& pieces) {
     SearchReport done;
     const auto found = search_->find(from.exit(), to.entry(), footprint_, problem, done);
-    add_work(done);
+    add_search(done, report_);
     if (found) {
       append_labelled(*found, PathKind::kTurn, pieces);
       ++report_.numbers["turns"];
@@ -191,14 +191,6 @@ class RoutePlanner final : public Planner {
       piece.kind = kind;
       piece.speed_mps = params_.turn_speed_mps;
       pieces.push_back(piece);
-    }
-  }
-
-  void add_work(const SearchReport& done) {
-    report_.numbers["nodes"] += static_cast<double>(done.nodes);
-    report_.numbers["iterations"] += static_cast<double>(done.iterations);
-    for (const Eigen::Vector2d& p : done.tree_W) {
-      report_.tree.points_W.emplace_back(p.x(), p.y(), 0.0);
     }
   }
 
@@ -242,6 +234,14 @@ class RoutePlanner final : public Planner {
 };
 
 }  // namespace
+
+void add_search(const SearchReport& done, PlanReport& report) {
+  report.numbers["nodes"] += static_cast<double>(done.nodes);
+  report.numbers["iterations"] += static_cast<double>(done.iterations);
+  for (const Eigen::Vector2d& p : done.tree_W) {
+    report.tree.points_W.emplace_back(p.x(), p.y(), 0.0);
+  }
+}
 
 const ParameterTable<RoutePlannerParams>& route_planner_table() {
   using P = RoutePlannerParams;

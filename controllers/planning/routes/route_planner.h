@@ -47,6 +47,9 @@ std::unique_ptr<Planner> make_route_planner(const RoutePlannerParams& params,
                                             std::unique_ptr<PoseSearch> search,
                                             const PlannerContext& context);
 
+/// Adds "nodes", "iterations" and the tree of a search, at height 0, to the report of a planner.
+void add_search(const SearchReport& done, PlanReport& report);
+
 /// Distance, m, by which all obstacles would have to be farther away for a turn between two poses
 /// to fit at the turning radius; 0 if it fits. Ground behind a wall counts as occupied. Considers
 /// Dubins paths only, so that a search may still find a path if this is > 0. nullopt if the ends

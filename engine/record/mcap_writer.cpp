@@ -7,6 +7,7 @@
 
 #include "engine/core/check.h"
 #include "engine/core/whole_file.h"
+#include "engine/record/crc32.h"
 
 namespace vinerow::record {
 
@@ -45,7 +46,7 @@ void McapWriter::write(std::span<const std::uint8_t> bytes) {
 }
 
 void McapWriter::write_record() {
-  data_crc_.add(scratch_.view());
+  data_crc_ = calc_crc32(scratch_.view(), data_crc_);
   write(scratch_.view());
   scratch_.clear();
 }
@@ -226,10 +227,9 @@ void McapWriter::add_statistics() {
 void McapWriter::finish() {
   if (!file_) return;
   close_chunk();
-  const std::uint32_t data_crc = data_crc_.value();
   {
     const RecordScope record(scratch_, Opcode::kDataEnd);
-    scratch_.add(data_crc);
+    scratch_.add(data_crc_);
   }
   write_record();
 

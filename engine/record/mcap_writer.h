@@ -16,7 +16,6 @@
 
 #include "engine/record/byte_buffer.h"
 #include "engine/record/compression.h"
-#include "engine/record/crc32.h"
 #include "engine/record/mcap_format.h"
 
 namespace vinerow::record {
@@ -82,7 +81,7 @@ class McapWriter {
   Compressor compressor_;
   std::string failure_;
   std::uint64_t bytes_written_ = 0;
-  Crc32 data_crc_;
+  std::uint32_t data_crc_ = 0;
   ByteBuffer scratch_;  ///< one record outside a chunk
 
   ByteBuffer chunk_;

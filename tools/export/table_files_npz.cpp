@@ -103,15 +103,15 @@ class StoredZip {
     check(data.size());
     check(bytes_.size() + data.size());
     const std::size_t offset = bytes_.size();
-    record::Crc32 crc;
-    crc.add(data.data(), data.size());
+    const std::uint32_t crc =
+        record::calc_crc32({reinterpret_cast<const std::uint8_t*>(data.data()), data.size()});
     std::string common;
     append_little<std::uint16_t>(common, 20);      // version needed
     append_little<std::uint16_t>(common, 0x0800);  // the name is UTF-8
     append_little<std::uint16_t>(common, 0);       // stored
     append_little<std::uint16_t>(common, 0);       // time
     append_little<std::uint16_t>(common, 0x21);    // 1 January 1980
-    append_little<std::uint32_t>(common, crc.value());
+    append_little<std::uint32_t>(common, crc);
     append_little<std::uint32_t>(common, static_cast<std::uint32_t>(data.size()));
     append_little<std::uint32_t>(common, static_cast<std::uint32_t>(data.size()));
     append_little<std::uint16_t>(common, static_cast<std::uint16_t>(name.size()));

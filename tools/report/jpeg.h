@@ -8,10 +8,11 @@
 
 namespace vinerow::tools::report {
 
-/// Baseline JPEG (ITU-T T.81) in JFIF, colours at half the resolution (4:2:0), with the tables of
-/// Annex K. The same pixels give the same bytes. Alpha is ignored.
-/// @param quality  1 to 100, scaled as by the Independent JPEG Group
+/// Baseline JPEG in JFIF with colours at half the resolution (4:2:0). The same pixels give the same
+/// bytes with the same libjpeg. Alpha is ignored.
+/// @param quality  1 to 100, as of libjpeg
 /// @pre width, height from 1 to 65535
+/// @throws std::runtime_error if memory is exhausted
 std::string encode_jpeg(const render::Pixels& pixels, int quality);
 
 }  // namespace vinerow::tools::report

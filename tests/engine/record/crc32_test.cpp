@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -13,12 +13,12 @@ std::uint32_t crc_of(std::string_view text) {
   return calc_crc32({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
-// The check value of every CRC-32 catalogue, and RFC 3720-style patterns computed with zlib.
+// The check value of every CRC-32 catalogue, and RFC 3720-style patterns computed with Python.
 TEST(Crc32, AgreesWithTheCheckValue) {
   EXPECT_EQ(crc_of("123456789"), 0xCBF43926u);
 }
 
-TEST(Crc32, AgreesWithZlib) {
+TEST(Crc32, AgreesWithKnownValues) {
   EXPECT_EQ(crc_of(""), 0u);
   EXPECT_EQ(crc_of("a"), 0xE8B7BE43u);
   EXPECT_EQ(crc_of("The quick brown fox jumps over the lazy dog"), 0x414FA339u);
@@ -29,11 +29,9 @@ TEST(Crc32, PiecesGiveTheSameAsTheWhole) {
   std::vector<std::uint8_t> bytes(1000);
   for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(i * 37);
   const std::uint32_t whole = calc_crc32(bytes);
-  for (const std::size_t cut : {1, 7, 8, 9, 500, 999}) {
-    Crc32 crc;
-    crc.add(bytes.data(), cut);
-    crc.add(bytes.data() + cut, bytes.size() - cut);
-    EXPECT_EQ(crc.value(), whole);
+  const std::span<const std::uint8_t> all(bytes);
+  for (const std::size_t cut : {0, 1, 7, 8, 9, 500, 999, 1000}) {
+    EXPECT_EQ(calc_crc32(all.subspan(cut), calc_crc32(all.first(cut))), whole);
   }
 }
 

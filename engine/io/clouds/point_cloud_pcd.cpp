@@ -39,7 +39,7 @@ class PcdReader : public PointCloudReader {
   Next next(CloudPoint& point) override {
     if (at_ == header_.points) {
       std::string_view line;
-      if (header_.ascii && next_line(&line)) {
+      if (header_.ascii && next_line(file_, &line, &is_comment)) {
         file_.fail(fmt::format("has more data than its header counts: {} points, then line {}",
                                header_.points, file_.line_number()));
       }
@@ -90,26 +90,13 @@ class PcdReader : public PointCloudReader {
     if (label_) class_ = load(label_->type, bytes + label_->at, kOrder);
   }
 
-  bool next_line(std::string_view* line) {
-    while (file_.line(line)) {
-      std::string_view rest = *line;
-      const std::string_view word = next_word(&rest);
-      if (!word.empty() && !word.starts_with('#')) return true;
-    }
-    return false;
-  }
+  static bool is_comment(std::string_view word) { return word.starts_with('#'); }
   void read_text() {
     std::string_view line;
-    if (!next_line(&line)) fail_count(at_);
+    if (!next_line(file_, &line, &is_comment)) fail_count(at_);
     for (const PcdField& field : header_.fields) {
       for (std::size_t k = 0; k < field.count; ++k) {
-        const std::string_view word = next_word(&line);
-        const std::optional<double> value = parse_number(word);
-        if (!value) {
-          file_.fail(fmt::format("has '{}' as {} in line {}, must be a number", word.substr(0, 40),
-                                 field.name, file_.line_number()));
-        }
-        take(field, *value);
+        take(field, number_in(file_, next_word(&line), field.name));
       }
     }
   }

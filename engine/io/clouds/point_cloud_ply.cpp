@@ -50,7 +50,7 @@ class PlyReader : public PointCloudReader {
   Next next(CloudPoint& point) override {
     if (at_ == vertex_->count) {
       std::string_view line;
-      if (header_.ascii && last_ && next_line(&line)) {
+      if (header_.ascii && last_ && next_line(file_, &line)) {
         file_.fail(fmt::format("has more data than its header counts: {} points, then line {}",
                                vertex_->count, file_.line_number()));
       }
@@ -135,7 +135,7 @@ class PlyReader : public PointCloudReader {
       std::string_view line;
       if (!header_.ascii) {
         read_bytes(element, k);
-      } else if (!next_line(&line)) {
+      } else if (!next_line(file_, &line)) {
         fail_cut_off(element, k);
       }
     }
@@ -176,31 +176,16 @@ class PlyReader : public PointCloudReader {
     file_.seek(file_.position() + bytes * static_cast<std::uint64_t>(count));
   }
 
-  /// Reads the next line that is not blank.
-  bool next_line(std::string_view* line) {
-    while (file_.line(line)) {
-      std::string_view rest = *line;
-      if (!next_word(&rest).empty()) return true;
-    }
-    return false;
-  }
-  double number(std::string_view* line, const PlyProperty& property) const {
-    const std::string_view word = next_word(line);
-    const std::optional<double> value = parse_number(word);
-    if (!value) {
-      file_.fail(fmt::format("has '{}' as {} in line {}, must be a number", word.substr(0, 40),
-                             property.name, file_.line_number()));
-    }
-    return *value;
-  }
   void read_text(const PlyElement& element, std::uint64_t index) {
     std::string_view line;
-    if (!next_line(&line)) fail_cut_off(element, index);
+    if (!next_line(file_, &line)) fail_cut_off(element, index);
     for (std::size_t k = 0; k < element.properties.size(); ++k) {
       const PlyProperty& property = element.properties[k];
-      const double value = number(&line, property);
+      const double value = number_in(file_, next_word(&line), property.name);
       if (property.list_count_type) {
-        for (double left = value; left > 0.0; left -= 1.0) number(&line, property);
+        for (double left = value; left > 0.0; left -= 1.0) {
+          number_in(file_, next_word(&line), property.name);
+        }
       } else if (roles_[k] != Role::kNone) {
         values_[static_cast<std::size_t>(roles_[k])] = value;
       }

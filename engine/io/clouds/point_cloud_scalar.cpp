@@ -1,5 +1,7 @@
 #include "engine/io/clouds/point_cloud_scalar.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <limits>
 
@@ -115,6 +117,22 @@ std::string_view next_word(std::string_view* line) {
   while (behind != end && !is_blank(*behind)) ++behind;
   *line = std::string_view(behind, static_cast<std::size_t>(end - behind));
   return {begin, static_cast<std::size_t>(behind - begin)};
+}
+
+bool next_line(BlockFile& file, std::string_view* line, bool (*is_comment)(std::string_view word)) {
+  while (file.line(line)) {
+    std::string_view rest = *line;
+    const std::string_view word = next_word(&rest);
+    if (!word.empty() && !(is_comment && is_comment(word))) return true;
+  }
+  return false;
+}
+
+double number_in(const BlockFile& file, std::string_view word, std::string_view name) {
+  const std::optional<double> value = parse_number(word);
+  if (value) return *value;
+  file.fail(fmt::format("has '{}' as {} in line {}, must be a number", word.substr(0, 40), name,
+                        file.line_number()));
 }
 
 }  // namespace vinerow::io

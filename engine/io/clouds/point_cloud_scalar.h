@@ -10,6 +10,8 @@
 #include <optional>
 #include <string_view>
 
+#include "engine/io/files/block_file.h"
+
 namespace vinerow::io {
 
 enum class Scalar { kI8, kU8, kI16, kU16, kI32, kU32, kI64, kU64, kF32, kF64 };
@@ -43,5 +45,14 @@ inline bool is_blank(char c) {
 }
 /// Removes the next word from the front of `line`, with the blanks before it; "" at the end.
 std::string_view next_word(std::string_view* line);
+
+/// Reads the next line that is not blank. @param is_comment  lines to leave out, by their first
+/// word
+/// @returns false at the end of the file
+bool next_line(BlockFile& file, std::string_view* line,
+               bool (*is_comment)(std::string_view word) = nullptr);
+/// Number in the line just read. @throws ConfigError "... has 'abc' as x in line 5, must be a
+/// number"
+double number_in(const BlockFile& file, std::string_view word, std::string_view name);
 
 }  // namespace vinerow::io

@@ -34,7 +34,7 @@ class XyzReader : public PointCloudReader {
  protected:
   Next next(CloudPoint& point) override {
     std::string_view line;
-    if (!next_line(&line)) {
+    if (!next_line(file_, &line, &is_comment)) {
       if (reported_ && at_ < *reported_) {
         file_.fail(fmt::format("is cut off: its first line counts {} points, it holds {}",
                                *reported_, at_));
@@ -58,16 +58,6 @@ class XyzReader : public PointCloudReader {
  private:
   static bool is_comment(std::string_view line) {
     return line.starts_with('#') || line.starts_with("//");
-  }
-
-  /// Reads the next line with a point, after find_first_point().
-  bool next_line(std::string_view* line) {
-    while (file_.line(line)) {
-      std::string_view rest = *line;
-      const std::string_view word = next_word(&rest);
-      if (!word.empty() && !is_comment(word)) return true;
-    }
-    return false;
   }
 
   /// Determines columns and separator, and moves back to the start of the first point's line.
@@ -123,12 +113,7 @@ class XyzReader : public PointCloudReader {
       }
       if (!quantity_of_[column]) continue;
       const std::size_t k = *quantity_of_[column];
-      const std::optional<double> value = parse_number(*field);
-      if (!value) {
-        file_.fail(fmt::format("has '{}' as {} in line {}, must be a number", field->substr(0, 40),
-                               kNames[k], file_.line_number()));
-      }
-      values_[k] = *value;
+      values_[k] = number_in(file_, *field, kNames[k]);
     }
   }
 

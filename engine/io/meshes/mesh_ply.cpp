@@ -66,7 +66,7 @@ class PlyRows {
   /// Checks that nothing follows the last element.
   void expect_end() {
     std::string_view line;
-    if (header.ascii ? next_line(&line) : file.remaining() > 0) {
+    if (header.ascii ? next_line(file, &line) : file.remaining() > 0) {
       file.fail("has more data than its header counts");
     }
   }
@@ -107,10 +107,10 @@ class PlyRows {
 
   void read_text() {
     std::string_view line;
-    if (!next_line(&line)) fail_cut_off();
+    if (!next_line(file, &line)) fail_cut_off();
     for (std::size_t k = 0; k < element_->properties.size(); ++k) {
       const PlyProperty& property = element_->properties[k];
-      const double value = number(&line, property);
+      const double value = number_in(file, next_word(&line), property.name);
       if (!property.list_count_type) {
         numbers[k] = value;
         continue;
@@ -118,7 +118,7 @@ class PlyRows {
       check_count(property, value);
       lists[k].clear();
       for (double left = value; left > 0.0; left -= 1.0) {
-        lists[k].push_back(number(&line, property));
+        lists[k].push_back(number_in(file, next_word(&line), property.name));
       }
     }
     if (!next_word(&line).empty()) {
@@ -126,28 +126,10 @@ class PlyRows {
           fmt::format("has more numbers in line {} than its header names", file.line_number()));
     }
   }
-  double number(std::string_view* line, const PlyProperty& property) const {
-    const std::string_view word = next_word(line);
-    const std::optional<double> value = parse_number(word);
-    if (!value) {
-      file.fail(fmt::format("has '{}' as {} in line {}, must be a number", word.substr(0, 40),
-                            property.name, file.line_number()));
-    }
-    return *value;
-  }
   void check_count(const PlyProperty& property, double count) const {
     if (count >= 0.0 && count == std::floor(count)) return;
     file.fail(fmt::format("has a list '{}' of {} values in {} {}, must be a whole number >= 0",
                           property.name, count, element_->name, row_ + 1));
-  }
-
-  /// Reads the next line that is not blank.
-  bool next_line(std::string_view* line) {
-    while (file.line(line)) {
-      std::string_view rest = *line;
-      if (!next_word(&rest).empty()) return true;
-    }
-    return false;
   }
 
   const PlyElement* element_ = nullptr;

@@ -256,8 +256,8 @@ TEST(GlbScene, PlacesVerticesToAHalfStepOfTheLongestSide) {
   }
   mesh.indices = {0, 1, 2};
   GlbScene scene;
-  const int material = scene.add_material({});
-  EXPECT_EQ(scene.add_material({}), material);
+  const int material = scene.add_material({}, false);
+  EXPECT_EQ(scene.add_material({}, false), material);
   const Pose X_WM{Eigen::Quaterniond(Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ())),
                   {1.0, -2.0, 0.5}};
   scene.add_node("m", scene.add_mesh("m", mesh, material, false, false), X_WM, {{"part", "world"}});

@@ -111,10 +111,10 @@ class SceneMaker {
               : "";
       notes_.push_back(fmt::format("the ground has a point every {:.2g} m{}", near_m, elsewhere));
     }
-    GlbMaterial material;
+    Material material;
     material.name = "ground";
     material.colour = {0.12f, 0.13f, 0.06f};
-    const int ground = scene_.add_material(material);
+    const int ground = scene_.add_material(material, false);
     int number = 0;
     std::vector<render::PreparedMesh> meshes = terrain_meshes(terrain.coarse, terrain.hole);
     if (terrain.fine) {
@@ -266,15 +266,12 @@ class SceneMaker {
     return place->second;
   }
 
-  int add_prepared(const std::string& name, const render::PreparedMesh& mesh, const Material& look,
+  int add_prepared(const std::string& name, const render::PreparedMesh& mesh, Material look,
                    bool coloured, bool cards) {
-    GlbMaterial material;
-    material.name = look.name.empty() ? "plain" : look.name;
-    material.colour = look.colour;
-    material.roughness = look.roughness;
-    material.two_sided = !mesh.closed;
-    material.leaf_cards = cards;
-    return scene_.add_mesh(name, mesh, scene_.add_material(material), coloured, cards);
+    if (look.name.empty()) look.name = "plain";
+    look.leaf_cards = cards;
+    const int material = scene_.add_material(look, !mesh.closed);
+    return scene_.add_mesh(name, mesh, material, coloured, cards);
   }
 
   void add_vehicles() {

@@ -1,8 +1,6 @@
 #pragma once
 /// Writers of several named meshes to one file, for other programs: Wavefront OBJ, binary glTF 2.0,
 /// and one joined mesh for write_ply().
-///
-/// Source: Khronos Group, "glTF 2.0 Specification", 2021 (ISO/IEC 12113:2022), 3.6 and 4.4.
 
 #include <filesystem>
 #include <span>

@@ -17,26 +17,8 @@ namespace {
 using Eigen::AlignedBox2d;
 using Eigen::Vector2d;
 
+constexpr int kRingCorners = 32;
 constexpr Rgb kLightInk = {248, 246, 238}, kDarkInk = {18, 22, 20};
-
-Rgb rgb_of(const Eigen::Vector3f& colour) {
-  Rgb rgb;
-  for (int c = 0; c < 3; ++c) {
-    rgb[static_cast<std::size_t>(c)] =
-        static_cast<int>(std::lround(255.0f * std::clamp(colour[c], 0.0f, 1.0f)));
-  }
-  return rgb;
-}
-
-std::vector<Vector2d> circle(const Vector2d& at, double radius_px) {
-  constexpr int kCorners = 32;
-  std::vector<Vector2d> points;
-  for (int k = 0; k < kCorners; ++k) {
-    const double angle = 2.0 * std::acos(-1.0) * k / kCorners;
-    points.push_back(at + radius_px * Vector2d(std::cos(angle), std::sin(angle)));
-  }
-  return points;
-}
 
 /// Light text with a dark outline, legible on any background.
 void write(Canvas& canvas, const std::string& text, int size_px, const Vector2d& at) {
@@ -71,9 +53,8 @@ AlignedBox2d place_of_text(const AlignedBox2d& there, double away_px, const Vect
   AlignedBox2d first;
   for (const Vector2d& side : {Vector2d(1, 0), Vector2d(-1, 0), Vector2d(0, -1), Vector2d(0, 1),
                                Vector2d(0.7, -1), Vector2d(0.7, 1)}) {
-    const Vector2d centre =
-        there.center() +
-        side.cwiseProduct(half + 0.5 * there.sizes() + Vector2d::Constant(away_px));
+    const Vector2d centre = there.center() + side.cwiseProduct(half + 0.5 * there.sizes() +
+                                                               Vector2d::Constant(away_px));
     const AlignedBox2d box(centre - half, centre + half);
     if (picture.contains(box) && !overlaps_any(box, taken)) return box;
     if (first.isEmpty()) first = box;
@@ -135,8 +116,8 @@ std::vector<AlignedBox2d> draw_markers(const Frame& frame,
   for (const Placed& one : placed) {
     if (one.inside && !one.ringed) continue;
     if (one.inside) {
-      canvas.outline(circle(one.at, radius), line_px + 2.0, kDarkInk, 0.55);
-      canvas.outline(circle(one.at, radius), line_px, one.colour);
+      canvas.outline(circle(one.at, radius, kRingCorners), line_px + 2.0, kDarkInk, 0.55);
+      canvas.outline(circle(one.at, radius, kRingCorners), line_px, one.colour);
     } else {
       const Vector2d way = (one.at - middle).normalized(), side(-way.y(), way.x());
       const auto arrow = [&](double grow) {
@@ -150,8 +131,7 @@ std::vector<AlignedBox2d> draw_markers(const Frame& frame,
   }
   for (const Placed& one : placed) {
     const Vector2d text_size(text_width(one.text, text_px), 1.2 * text_px);
-    const AlignedBox2d box =
-        place_of_text(one.there, 0.4 * radius, text_size, frame, taken);
+    const AlignedBox2d box = place_of_text(one.there, 0.4 * radius, text_size, frame, taken);
     write(canvas, one.text, text_px, {box.min().x(), box.max().y() - 0.28 * text_px});
     taken.push_back(box);
   }
@@ -169,9 +149,7 @@ AlignedBox2d draw_scale(const Frame& frame, Canvas& canvas) {
   const double left = draw_scale_bar(measured, end, wanted_m, px_per_m, kDarkInk, size);
   const AlignedBox2d box(Vector2d(left - 0.6 * text_px, end.y() - 47.0 * size),
                          Vector2d(frame.width - 1.15 * text_px, frame.height - 1.15 * text_px));
-  canvas.fill(
-      {box.min(), {box.max().x(), box.min().y()}, box.max(), {box.min().x(), box.max().y()}},
-      kDarkInk, 0.5);
+  canvas.fill(rectangle(box.min().x(), box.min().y(), box.max().x(), box.max().y()), kDarkInk, 0.5);
   draw_scale_bar(canvas, end, wanted_m, px_per_m, kLightInk, size);
   return box;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "engine/render/caption.h"
 
@@ -9,19 +10,41 @@ namespace vinerow::render {
 
 using Eigen::Vector2d;
 
+Rgb rgb_of(const Eigen::Vector3f& colour) {
+  Rgb rgb;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const float share = std::clamp(colour[static_cast<Eigen::Index>(c)], 0.0f, 1.0f);
+    rgb[c] = static_cast<int>(std::lround(255.0f * share));
+  }
+  return rgb;
+}
+
+void blend(Image& image, int x, int y, const Rgb& colour, double alpha) {
+  if (x < 0 || y < 0 || x >= image.width || y >= image.height) return;
+  std::uint8_t* pixel = &image.rgb[(static_cast<std::size_t>(y) * image.width + x) * 3];
+  for (std::size_t c = 0; c < 3; ++c) {
+    pixel[c] = static_cast<std::uint8_t>(std::lround(pixel[c] + (colour[c] - pixel[c]) * alpha));
+  }
+}
+
+std::vector<Vector2d> rectangle(double left, double top, double right, double bottom) {
+  return {{left, top}, {right, top}, {right, bottom}, {left, bottom}};
+}
+
+std::vector<Vector2d> circle(const Vector2d& at, double radius_px, int corners) {
+  std::vector<Vector2d> points;
+  for (int k = 0; k < corners; ++k) {
+    const double angle = 2.0 * std::numbers::pi * k / corners;
+    points.push_back(at + radius_px * Vector2d(std::cos(angle), std::sin(angle)));
+  }
+  return points;
+}
+
 Canvas::Canvas(int width, int height, const Rgb& background) {
   image_.width = width;
   image_.height = height;
   for (int k = 0; k < width * height; ++k) {
     for (const int value : background) image_.rgb.push_back(static_cast<std::uint8_t>(value));
-  }
-}
-
-void Canvas::blend(int x, int y, const Rgb& colour, double alpha) {
-  if (x < 0 || y < 0 || x >= image_.width || y >= image_.height) return;
-  std::uint8_t* pixel = &image_.rgb[(static_cast<std::size_t>(y) * image_.width + x) * 3];
-  for (std::size_t c = 0; c < 3; ++c) {
-    pixel[c] = static_cast<std::uint8_t>(std::lround(pixel[c] + (colour[c] - pixel[c]) * alpha));
   }
 }
 

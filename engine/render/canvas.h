@@ -13,6 +13,17 @@ namespace vinerow::render {
 
 using Rgb = std::array<int, 3>;  ///< 0 to 255, sRGB
 
+/// Bytes of a colour with shares 0 to 1; others are clamped.
+Rgb rgb_of(const Eigen::Vector3f& colour);
+
+/// Blends a pixel; pixels outside the picture are ignored.
+void blend(Image& image, int x, int y, const Rgb& colour, double alpha);
+
+/// Corners of a rectangle.
+std::vector<Eigen::Vector2d> rectangle(double left, double top, double right, double bottom);
+/// Corners of a regular polygon that stands for a circle.
+std::vector<Eigen::Vector2d> circle(const Eigen::Vector2d& at, double radius_px, int corners);
+
 /// Canvas with points in pixels: x to the right, y down, (0, 0) is the upper left corner of the
 /// picture.
 class Canvas {
@@ -21,7 +32,9 @@ class Canvas {
   /// Draws over a picture.
   explicit Canvas(Image image) : image_(std::move(image)) {}
 
-  void blend(int x, int y, const Rgb& colour, double alpha);
+  void blend(int x, int y, const Rgb& colour, double alpha) {
+    render::blend(image_, x, y, colour, alpha);
+  }
   /// Even-odd rule, edges smoothed by 4 x 4 samples.
   void fill(const std::vector<Eigen::Vector2d>& polygon, const Rgb& colour, double alpha = 1.0);
   void line(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double width_px, const Rgb& colour,

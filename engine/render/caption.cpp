@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <memory>
 
+#include "engine/render/canvas.h"
+
 namespace vinerow::render {
 
 namespace {
@@ -54,24 +56,6 @@ char32_t next_code_point(const std::string& text, std::size_t& at) {
   char32_t code = byte & (0x3F >> more);
   for (int i = 0; i < more; ++i) code = code << 6 | (static_cast<unsigned char>(text[at++]) & 0x3F);
   return code;
-}
-
-using Rgb = std::array<int, 3>;
-
-void blend(Image& image, int x, int y, const Rgb& colour, double alpha) {
-  if (x < 0 || y < 0 || x >= image.width || y >= image.height) return;
-  std::uint8_t* p = &image.rgb[(static_cast<std::size_t>(y) * image.width + x) * 3];
-  for (int c = 0; c < 3; ++c) {
-    p[c] = static_cast<std::uint8_t>(std::lround(p[c] + (colour[c] - p[c]) * alpha));
-  }
-}
-
-Rgb to_bytes(const Eigen::Vector3f& colour) {
-  Rgb rgb;
-  for (int c = 0; c < 3; ++c) {
-    rgb[c] = static_cast<int>(std::lround(std::clamp(colour[c], 0.0f, 1.0f) * 255.0f));
-  }
-  return rgb;
 }
 
 /// Draws (or, without an image, measures) one line. @returns its width in pixels
@@ -151,7 +135,7 @@ void draw_entry(const LegendEntry& entry, FT_Face face, int size_px, double x, i
                 Image& image) {
   const int side = static_cast<int>(std::lround(0.62 * size_px));
   const int left = static_cast<int>(std::lround(x));
-  const Rgb colour = to_bytes(entry.colour);
+  const Rgb colour = rgb_of(entry.colour);
   for (int dy = 0; dy < side; ++dy) {
     for (int dx = 0; dx < side; ++dx) blend(image, left + dx, baseline - 1 - dy, colour, 1.0);
   }

@@ -6,14 +6,17 @@
 
 namespace vinerow::render {
 
+double scale_length_m(double max_m) {
+  const double length_m = std::pow(10.0, std::floor(std::log10(max_m)));
+  for (const double factor : {5.0, 2.0}) {
+    if (factor * length_m <= max_m) return factor * length_m;
+  }
+  return length_m;
+}
+
 double draw_scale_bar(Canvas& canvas, const Eigen::Vector2d& right_end, double wanted_m,
                       double px_per_m, const Rgb& ink, double size) {
-  double length_m = std::pow(10.0, std::floor(std::log10(wanted_m)));
-  for (const double factor : {5.0, 2.0}) {
-    if (factor * length_m > wanted_m) continue;
-    length_m *= factor;
-    break;
-  }
+  const double length_m = scale_length_m(wanted_m);
   const auto text_px = [size](int px) { return static_cast<int>(std::lround(px * size)); };
   const double right = right_end.x(), y = right_end.y(), left = right - length_m * px_per_m;
   canvas.line({left, y}, {right, y}, 3.0 * size, ink);

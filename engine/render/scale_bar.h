@@ -5,8 +5,11 @@
 
 namespace vinerow::render {
 
-/// Draws a bar of 1, 2 or 5 times a power of ten metres that ends at `right_end`, with its length
-/// above and an arrow to the north (up) on its left.
+/// Longest length of 1, 2 or 5 times a power of ten metres that is at most `max_m`.
+double scale_length_m(double max_m);
+
+/// Draws a bar of such a length that ends at `right_end`, with its length above and an arrow to the
+/// north (up) on its left.
 /// @param wanted_m  upper limit of the bar's length
 /// @param size  of text, lines and arrow; 1: text of 17 px
 /// @returns the left end of the arrow, px

@@ -14,8 +14,10 @@
 #include "engine/playback/frame_words.h"
 #include "engine/render/scale_bar.h"
 #include "tools/pictures/colour_scale.h"
+#include "tools/pictures/legend.h"
 #include "tools/pictures/picture_canvas.h"
 #include "tools/pictures/picture_style.h"
+#include "tools/pictures/plan_view.h"
 
 namespace vinerow::tools {
 namespace {
@@ -36,25 +38,12 @@ Eigen::AlignedBox2d extent_of(const playback::SurveyCoverage& coverage) {
 }
 
 /// One map on the canvas.
-struct Panel {
-  double left = 0.0, top = 0.0, width = 0.0, height = 0.0, px_per_m = 1.0;
-  Vector2d corner_W = {0, 0};  ///< world position of the panel's lower left corner
+struct Panel : PlanProjection {
+  double top = 0.0, width = 0.0;
 
-  Vector2d operator()(const Vector2d& p_W) const {
-    return {left + (p_W.x() - corner_W.x()) * px_per_m,
-            top + height - (p_W.y() - corner_W.y()) * px_per_m};
-  }
-  Polygon operator()(const Polygon& polygon_W) const {
-    Polygon polygon;
-    for (const Vector2d& p : polygon_W) polygon.push_back((*this)(p));
-    return polygon;
-  }
-  Vector2d world(double x, double y) const {
-    return corner_W + Vector2d(x - left, top + height - y) / px_per_m;
-  }
   bool contains(const Vector2d& p_W) const {
     const Vector2d p = (*this)(p_W);
-    return p.x() >= left && p.y() >= top && p.x() <= left + width && p.y() <= top + height;
+    return p.x() >= left && p.y() >= top && p.x() <= left + width && p.y() <= bottom;
   }
 };
 
@@ -72,17 +61,19 @@ struct Layout {
     Panel panel;
     panel.px_per_m = std::min(room / w, kTallestPanel / h);
     panel.width = room;
-    panel.height = std::ceil(h * panel.px_per_m);
     panel.left = kPanelMargin;
     panel.top = kPanelMargin + kTitle;
+    const double panel_height = std::ceil(h * panel.px_per_m);
+    panel.bottom = panel.top + panel_height;
     // Centre a map that is narrower than its panel.
-    panel.corner_W = extent_W.center() - 0.5 * Vector2d(room, panel.height) / panel.px_per_m;
+    panel.corner_W = extent_W.center() - 0.5 * Vector2d(room, panel_height) / panel.px_per_m;
     panels = {panel, panel};
-    const double block = kTitle + panel.height + kScales;
+    const double block = kTitle + panel_height + kScales;
     if (beside) {
       panels[1].left += room + kPanelGap;
     } else {
       panels[1].top += block;
+      panels[1].bottom += block;
     }
     numbers_top = kPanelMargin + (beside ? block : 2 * block);
     height = static_cast<int>(numbers_top) + kNumbers;
@@ -126,7 +117,7 @@ void draw_cells(Canvas& canvas, const Panel& panel, const playback::SurveyCovera
   constexpr int kSamples = 3;
   const metrics::CoverageMap& map = coverage.map;
   const std::vector<char> inner = inner_cells(map);
-  for (int y = static_cast<int>(panel.top); y < panel.top + panel.height; ++y) {
+  for (int y = static_cast<int>(panel.top); y < panel.bottom; ++y) {
     for (int x = static_cast<int>(panel.left); x < panel.left + panel.width; ++x) {
       std::array<int, 3> sum = {0, 0, 0};
       int painted = 0;
@@ -167,44 +158,15 @@ void draw_world(Canvas& canvas, const Panel& panel, const playback::SurveyCovera
   for (const metrics::LaneShot& taken : coverage.shots) {
     if (!panel.contains(taken.shot.X_WS.p.head<2>())) continue;
     const Vector2d at = panel(Vector2d(taken.shot.X_WS.p.head<2>()));
-    Polygon dot, rim;
-    for (int k = 0; k < 12; ++k) {
-      const double angle = 2.0 * std::acos(-1.0) * k / 12;
-      const Vector2d way(std::cos(angle), std::sin(angle));
-      dot.push_back(at + 2.4 * way);
-      rim.push_back(at + 3.6 * way);
-    }
-    canvas.fill(rim, kTrack, 0.9);
-    canvas.fill(dot, taken.lane >= 0 ? kShot : kNone);
+    canvas.fill(render::circle(at, 3.6, 12), kTrack, 0.9);
+    canvas.fill(render::circle(at, 2.4, 12), taken.lane >= 0 ? kShot : kNone);
   }
-}
-
-/// Draws a colour bar with ticks. @returns its right end
-double draw_bar(Canvas& canvas, double left, double top, double width,
-                const std::function<Rgb(double share)>& colour) {
-  for (int x = 0; x < width; ++x) {
-    const Polygon column = {
-        {left + x, top}, {left + x + 1, top}, {left + x + 1, top + 16}, {left + x, top + 16}};
-    canvas.fill(column, colour((x + 0.5) / width));
-  }
-  canvas.outline({{left, top}, {left + width, top}, {left + width, top + 16}, {left, top + 16}},
-                 1.0, kFaint, 0.7);
-  return left + width;
 }
 
 void draw_tick(Canvas& canvas, double x, double top, const std::string& words,
                bool strong = false) {
   canvas.line({x, top + 16}, {x, top + 22}, 1.5, strong ? kInk : kFaint);
   canvas.text(words, 15, {x, top + 38}, strong ? kInk : kFaint, 0.5);
-}
-
-void draw_patch(Canvas& canvas, double right, double top, const Rgb& colour,
-                const std::string& words) {
-  const Polygon patch = {
-      {right - 150, top}, {right - 128, top}, {right - 128, top + 16}, {right - 150, top + 16}};
-  canvas.fill(patch, colour);
-  canvas.outline(patch, 1.0, kFaint, 0.7);
-  canvas.text(words, 15, {right - 120, top + 14}, kInk);
 }
 
 void draw_counts(Canvas& canvas, const Panel& panel, const playback::SurveyCoverage& coverage) {
@@ -221,15 +183,15 @@ void draw_counts(Canvas& canvas, const Panel& panel, const playback::SurveyCover
   });
   draw_world(canvas, panel, coverage);
   canvas.text("Number of pictures that see each point", 20, {panel.left, panel.top - 12}, kInk);
-  const double top = panel.top + panel.height + 14, width = panel.width - 190;
-  draw_bar(canvas, panel.left, top, width, [&](double share) {
+  const double top = panel.bottom + 14, width = panel.width - 190;
+  draw_colour_bar(canvas, panel.left, top, width, 16, [&](double share) {
     return colour_of(1 + std::min(most - 1, static_cast<int>(share * most)));
   });
   for (const double value : ticks(1, most, 12)) {
     if (value != std::floor(value)) continue;
     draw_tick(canvas, panel.left + (value - 0.5) / most * width, top, fmt::format("{:g}", value));
   }
-  draw_patch(canvas, panel.left + panel.width, top, kNone, "no picture");
+  draw_legend_patch(canvas, panel.left + panel.width - 150, top, kNone, "no picture");
 }
 
 void draw_overlaps(Canvas& canvas, const Panel& panel, const playback::SurveyCoverage& coverage) {
@@ -248,8 +210,8 @@ void draw_overlaps(Canvas& canvas, const Panel& panel, const playback::SurveyCov
   draw_world(canvas, panel, coverage);
   canvas.text("Smallest forward overlap of consecutive pictures at each point, on its best lane",
               20, {panel.left, panel.top - 12}, kInk);
-  const double top = panel.top + panel.height + 14, width = panel.width - 190;
-  draw_bar(canvas, panel.left, top, width, viridis);
+  const double top = panel.bottom + 14, width = panel.width - 190;
+  draw_colour_bar(canvas, panel.left, top, width, 16, viridis);
   const auto x_of = [&](double value) { return panel.left + (value - from) / (1 - from) * width; };
   for (const double value : ticks(from, 1.0, 6)) {
     if (std::abs(x_of(value) - x_of(wanted)) < 85.0) continue;
@@ -257,7 +219,7 @@ void draw_overlaps(Canvas& canvas, const Panel& panel, const playback::SurveyCov
   }
   canvas.line({x_of(wanted), top - 5}, {x_of(wanted), top + 16}, 2.5, kInk);
   draw_tick(canvas, x_of(wanted), top, fmt::format("{:g} % requested", 100 * wanted), true);
-  draw_patch(canvas, panel.left + panel.width, top, kNone, "no overlap");
+  draw_legend_patch(canvas, panel.left + panel.width - 150, top, kNone, "no overlap");
 }
 
 std::string percent(double share) {
@@ -330,10 +292,8 @@ render::Image draw_coverage(const playback::SurveyCoverage& coverage) {
   const Layout layout(extent_of(coverage));
   Canvas canvas(kPictureWidth, layout.height, kPaper);
   for (const Panel& panel : layout.panels) {
-    const double right = panel.left + panel.width, bottom = panel.top + panel.height;
-    canvas.fill(
-        {{panel.left, panel.top}, {right, panel.top}, {right, bottom}, {panel.left, bottom}},
-        kPlainGround);
+    canvas.fill(render::rectangle(panel.left, panel.top, panel.left + panel.width, panel.bottom),
+                kPlainGround);
   }
   draw_counts(canvas, layout.panels[0], coverage);
   draw_overlaps(canvas, layout.panels[1], coverage);

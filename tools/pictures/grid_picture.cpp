@@ -33,9 +33,8 @@ int state_at(const OccupancyGrid& grid, const Vector2d& p_W) {
 
 /// Draws the free ground.
 void draw_free_ground(Canvas& canvas, const PlanView& view, const OccupancyGrid& grid) {
-  const Vector2d size = grid.cell_m * Vector2d(grid.columns, grid.rows), &low = grid.corner_W;
-  canvas.fill(view({low, low + Vector2d(size.x(), 0), low + size, low + Vector2d(0, size.y())}),
-              kFree);
+  const Vector2d &low = grid.corner_W, high = low + grid.cell_m * Vector2d(grid.columns, grid.rows);
+  canvas.fill(view(render::rectangle(low.x(), low.y(), high.x(), high.y())), kFree);
 }
 
 /// Draws the occupied cells, with 3 x 3 samples per pixel.

@@ -2,11 +2,16 @@
 /// Legend entries of pictures.
 
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "tools/pictures/picture_canvas.h"
 
 namespace vinerow::tools {
+
+/// Draws a horizontal bar of colours with a thin edge. @param colour  of a share of its length
+void draw_colour_bar(Canvas& canvas, double left, double top, double width, double height,
+                     const std::function<Rgb(double share)>& colour);
 
 /// Draws a patch of colour with its text to the right.
 /// @param x, y  upper left corner of the patch

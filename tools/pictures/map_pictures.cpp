@@ -219,11 +219,7 @@ void draw_row_numbers(Canvas& canvas, const CloudView& view, const RowMap& map,
     // Leave out numbers that would overlap.
     if (!at || (drawn && (*at - *drawn).norm() < 2.0 * kRadius_px)) continue;
     drawn = at;
-    std::vector<Vector2d> disc;
-    for (int k = 0; k < 24; ++k) {
-      const double angle = 2.0 * std::acos(-1.0) * k / 24;
-      disc.push_back(*at + kRadius_px * Vector2d(std::cos(angle), std::sin(angle)));
-    }
+    const auto disc = render::circle(*at, kRadius_px, 24);
     canvas.fill(disc, kPaper, 0.92);
     canvas.outline(disc, 1.5, kInk);
     canvas.text(std::to_string(row.id), kSize_px, *at + Vector2d(0.0, 0.36 * kSize_px), kInk, 0.5);

@@ -8,6 +8,7 @@
 #include "engine/render/caption.h"
 #include "engine/render/scale_bar.h"
 #include "tools/pictures/colour_scale.h"
+#include "tools/pictures/legend.h"
 #include "tools/pictures/map_pictures.h"
 #include "tools/pictures/picture_style.h"
 #include "tools/pictures/plan_view.h"
@@ -104,9 +105,9 @@ double draw_shaded_ground(Canvas& canvas, const PlanView& view, const HeightFiel
   return step_m;
 }
 
-/// Colour of a canopy height, from dark (lowest) to light (highest).
-Rgb canopy_colour(double height_m, double low_m, double high_m) {
-  return viridis(0.12 + 0.85 * std::clamp((height_m - low_m) / (high_m - low_m), 0.0, 1.0));
+/// Colour of a canopy height, from dark (0, lowest) to light (1, highest).
+Rgb canopy_colour(double share) {
+  return viridis(0.12 + 0.85 * std::clamp(share, 0.0, 1.0));
 }
 
 void draw_canopy(Canvas& canvas, const PlanView& view, const CanopyPixels& pixels, double low_m,
@@ -116,18 +117,14 @@ void draw_canopy(Canvas& canvas, const PlanView& view, const CanopyPixels& pixel
       const std::size_t at = static_cast<std::size_t>(y) * kPictureWidth + x;
       if (pixels.others[at]) canvas.blend(x, y, {142, 146, 150}, 0.8);
       if (pixels.canopy_m[at] > 0.0f) {
-        canvas.blend(x, y, canopy_colour(pixels.canopy_m[at], low_m, high_m), 1.0);
+        canvas.blend(x, y, canopy_colour((pixels.canopy_m[at] - low_m) / (high_m - low_m)), 1.0);
       }
     }
   }
 }
 
 void draw_disc(Canvas& canvas, const Vector2d& at, double radius_px, const Rgb& colour) {
-  std::vector<Vector2d> disc;
-  for (int k = 0; k < 16; ++k) {
-    disc.push_back(at + radius_px * Vector2d(std::cos(k * 0.3927), std::sin(k * 0.3927)));
-  }
-  canvas.fill(disc, colour);
+  canvas.fill(render::circle(at, radius_px, 16), colour);
 }
 
 void draw_rows(Canvas& canvas, const PlanView& view, const mapping::CloudMap& map) {
@@ -173,14 +170,7 @@ void draw_top_legend(Canvas& canvas, double y, double low_m, double high_m, bool
   canvas.text(fmt::format("{:.1f} m", low_m), 16, {x, y + 5.5}, kInk);
   x += render::text_width(fmt::format("{:.1f} m", low_m), 16) + 8.0;
   constexpr int kBar_px = 136;
-  x = std::round(x);
-  for (int k = 0; k < kBar_px; ++k) {
-    const double height_m = low_m + (high_m - low_m) * k / kBar_px;
-    for (int j = -6; j < 7; ++j) {
-      canvas.blend(static_cast<int>(x) + k, static_cast<int>(y) + j,
-                   canopy_colour(height_m, low_m, high_m), 1.0);
-    }
-  }
+  draw_colour_bar(canvas, std::round(x), std::round(y) - 6.0, kBar_px, 13, canopy_colour);
   x += kBar_px + 8.0;
   words(fmt::format("{:.1f} m canopy above the ground", high_m));
   canvas.line({x, y}, {x + 30, y}, 6.0, {160, 160, 150});
@@ -226,9 +216,7 @@ render::Image draw_top(const mapping::CloudMap& map, const mapping::ParcelCloud&
   draw_rows(canvas, view, map);
 
   const double top = view.map_height;
-  canvas.fill(
-      {{0, top}, {kPictureWidth, top}, {kPictureWidth, top + kTopLegend}, {0, top + kTopLegend}},
-      kPaper);
+  canvas.fill(render::rectangle(0, top, kPictureWidth, top + kTopLegend), kPaper);
   canvas.text(title, 22, {kNumberedMargin, top + 26.0}, kInk);
   const mapping::CloudMapReport& r = map.report;
   canvas.text(fmt::format("{} rows, total length {:.0f} m, {:.2f} m apart, bearing {:.1f}°",

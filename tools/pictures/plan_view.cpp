@@ -11,16 +11,17 @@ using Eigen::Vector2d;
 
 PlanView::PlanView(const Vector2d& corner, const Vector2d& size_m, int margin_px, int tallest,
                    int strip)
-    : corner_W(corner), margin(margin_px) {
+    : PlanProjection{corner, 1.0, static_cast<double>(margin_px), 0.0}, margin(margin_px) {
   const double room = kPictureWidth - 2.0 * margin;
   px_per_m = std::min(room / size_m.x(), (tallest - 2.0 * margin) / size_m.y());
   map_height = static_cast<int>(std::ceil(size_m.y() * px_per_m)) + 2 * margin;
   height = map_height + strip;
+  bottom = map_height - margin;
   // Centre a map that is narrower than the picture.
   corner_W.x() -= 0.5 * (room / px_per_m - size_m.x());
 }
 
-std::vector<Vector2d> PlanView::operator()(const std::vector<Vector2d>& polygon_W) const {
+std::vector<Vector2d> PlanProjection::operator()(const std::vector<Vector2d>& polygon_W) const {
   std::vector<Vector2d> polygon;
   for (const Vector2d& p : polygon_W) polygon.push_back((*this)(p));
   return polygon;

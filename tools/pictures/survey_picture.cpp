@@ -10,6 +10,7 @@
 #include "engine/math/angles.h"
 #include "engine/render/scale_bar.h"
 #include "tools/pictures/colour_scale.h"
+#include "tools/pictures/legend.h"
 #include "tools/pictures/picture_canvas.h"
 #include "tools/pictures/picture_style.h"
 #include "tools/pictures/plan_view.h"
@@ -161,12 +162,9 @@ void draw_waypoints(Canvas& canvas, const PlanView& view, const controllers::Sur
     const PathPoint& point = plan.path.points[i];
     const Vector2d at = view(point.p_W);
     const Rgb colour = point.alley >= 0 ? colour_of(plan, point.alley) : kPath;
-    canvas.fill({at + Vector2d(0, -4.5), at + Vector2d(4.5, 0), at + Vector2d(0, 4.5),
-                 at + Vector2d(-4.5, 0)},
-                kPaper);
-    canvas.outline({at + Vector2d(0, -4.5), at + Vector2d(4.5, 0), at + Vector2d(0, 4.5),
-                    at + Vector2d(-4.5, 0)},
-                   1.6, colour);
+    const auto diamond = render::circle(at, 4.5, 4);
+    canvas.fill(diamond, kPaper);
+    canvas.outline(diamond, 1.6, colour);
     // Next to the path, where no other number is.
     const Vector2d way = controllers::direction(point.yaw_rad);
     const Vector2d beside(-way.y(), -way.x());
@@ -190,18 +188,16 @@ void draw_survey_legend(Canvas& canvas, double y, const controllers::SurveyPlan&
     canvas.text(text, 16, {x, y + 5.5}, kInk);
     x += 8.4 * static_cast<double>(text.size()) + 30.0;
   };
-  for (int k = 0; k < 60; ++k) {
-    canvas.line({x + 1.5 * k, y}, {x + 1.5 * (k + 1), y}, 9.0, viridis(0.86 * k / 60.0));
-  }
+  draw_colour_bar(canvas, x, y - 4.5, 90, 9, [](double share) { return viridis(0.86 * share); });
   x += 98.0;
   words(fmt::format("lanes, first to last ({})", plan.order.size()));
   canvas.line({x, y}, {x + 30, y}, 2.0, kPath);
   x += 38.0;
   words("turns and transit legs");
-  canvas.outline({{x, y - 7}, {x + 24, y - 7}, {x + 24, y + 7}, {x, y + 7}}, 2.0, kFootprint);
+  canvas.outline(render::rectangle(x, y - 7, x + 24, y + 7), 2.0, kFootprint);
   x += 32.0;
   words("one picture");
-  canvas.outline({{x, y - 7}, {x + 24, y - 7}, {x + 24, y + 7}, {x, y + 7}}, 2.5, kArea);
+  canvas.outline(render::rectangle(x, y - 7, x + 24, y + 7), 2.5, kArea);
   x += 32.0;
   words("area");
   if (!is_flat) {
@@ -243,11 +239,7 @@ render::Image draw_survey(const controllers::SurveyRequest& request,
 
   const double top = view.map_height;
   const auto number = [&](const char* name) { return plan.numbers.at(name); };
-  canvas.fill({{0, top},
-               {kPictureWidth, top},
-               {kPictureWidth, top + kSurveyLegend},
-               {0, top + kSurveyLegend}},
-              kPaper);
+  canvas.fill(render::rectangle(0, top, kPictureWidth, top + kSurveyLegend), kPaper);
   canvas.text(title, 22, {kNumberedMargin, top + 30.0}, kInk);
   canvas.text(
       fmt::format("{} at {:.0f} m: {:.1f} mm per pixel; {:.0f} lanes {:.1f} m apart; {} waypoints; "

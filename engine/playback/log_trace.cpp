@@ -25,14 +25,6 @@ Pose pose_between(const Pose& a, const Pose& b, double share) {
   return {a.q.slerp(share, b.q), a.p + share * (b.p - a.p)};
 }
 
-template <class T>
-void read_into(const record::LogReader& log, const std::string& topic, Trace<T>& trace) {
-  log.read<T>(topic, [&](Time t, const T& value) {
-    trace.times.push_back(t);
-    trace.values.push_back(value);
-  });
-}
-
 }  // namespace
 
 bool is_truth_of_reading(const record::LogReader& log, const std::string& topic) {

@@ -28,6 +28,15 @@ struct Trace {
   std::size_t index_at(Time t) const;
 };
 
+/// Appends the messages of a topic.
+template <class T>
+void read_into(const record::LogReader& log, const std::string& topic, Trace<T>& trace) {
+  log.read<T>(topic, [&](Time t, const T& value) {
+    trace.times.push_back(t);
+    trace.values.push_back(value);
+  });
+}
+
 /// Pose, speed and covariance at t, interpolated between the samples around it (positions linearly,
 /// attitudes by slerp). @pre !trace.empty()
 Odometry odometry_at(const Trace<Odometry>& trace, Time t);

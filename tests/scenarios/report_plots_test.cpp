@@ -16,7 +16,8 @@
 #include "engine/playback/vehicle_colours.h"
 #include "engine/render/png.h"
 #include "tests/scenarios/command.h"
-#include "tools/replay/base64.h"
+#include "tools/replay/page_text.h"
+#include "tools/replay/simplify_line.h"
 #include "tools/report/axis.h"
 #include "tools/report/estimate_plots.h"
 #include "tools/report/html.h"
@@ -160,13 +161,13 @@ TEST(ReportMap, SimplifiesALineWithinItsTolerance) {
     const double s = 0.01 * i;
     line.emplace_back(s, std::sin(s) + (i % 2 ? 0.004 : 0.0));
   }
-  const auto few = simplified(line, 0.01);
+  const auto few = simplify_line(line, 0.01);
   EXPECT_LT(few.size(), 150u);
   EXPECT_EQ(few.front(), line.front());
   EXPECT_EQ(few.back(), line.back());
   const Polyline distance(few);
   for (const Eigen::Vector2d& p : line) EXPECT_LE(distance.nearest(p).distance_m, 0.01 + 1e-12);
-  EXPECT_EQ(simplified({{0, 0}, {1, 1}, {2, 2}, {5, 5}}, 1e-9).size(), 2u);
+  EXPECT_EQ(simplify_line<Eigen::Vector2d>({{0, 0}, {1, 1}, {2, 2}, {5, 5}}, 1e-9).size(), 2u);
 }
 
 TEST(ReportPictures, ShrinkByTheMeanAndComeBackAsTheyWere) {

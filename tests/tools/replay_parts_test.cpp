@@ -7,12 +7,12 @@
 
 #include "engine/core/error.h"
 #include "tests/tools/replay_page.h"
-#include "tools/replay/base64.h"
+#include "tools/replay/page_text.h"
 #include "tools/replay/replay_decimate.h"
 #include "tools/replay/replay_glb.h"
 #include "tools/replay/replay_ground.h"
-#include "tools/replay/replay_plans.h"
 #include "tools/replay/replay_run.h"
+#include "tools/replay/simplify_line.h"
 
 namespace vinerow::tools::replay_parts_test {
 namespace {
@@ -216,7 +216,7 @@ TEST(SimplifyLine, KeepsCornersAndStaysWithinTheTolerance) {
     }
     EXPECT_LE(nearest_m, 0.03 + 1e-12);
   }
-  EXPECT_EQ(simplify_line({line[0], line[1]}, 0.03).size(), 2u);
+  EXPECT_EQ(simplify_line(std::vector{line[0], line[1]}, 0.03).size(), 2u);
 }
 
 TEST(PhasesOfSummary, AreThoseThatBegan) {

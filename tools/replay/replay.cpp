@@ -8,7 +8,7 @@
 
 #include "engine/api/map.h"
 #include "engine/core/check.h"
-#include "tools/replay/base64.h"
+#include "tools/replay/page_text.h"
 #include "tools/replay/replay_assets.h"
 #include "tools/replay/replay_scene.h"
 #include "tools/replay/replay_textures.h"
@@ -18,15 +18,6 @@ namespace vinerow::tools {
 namespace {
 
 using nlohmann::json;
-
-/// Text for a page, with < > & escaped.
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-  }
-  return out;
-}
 
 /// JSON for a script element: no text in it ends the element or looks like a comment.
 std::string script_json(const json& value) {
@@ -149,14 +140,11 @@ std::string replay_section(const ReplayInput& input, const ReplayLimits& limits)
 }
 
 std::string replay_page(const ReplayInput& input, const ReplayLimits& limits) {
-  return fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
-      "<title>{}: replay</title>\n"
-      "<style>html, body {{ margin: 0; height: 100%; background: #10151a; }}\n"
-      ".vinerow-replay {{ height: 100vh !important; border-radius: 0 !important; }}</style>\n"
-      "</head>\n<body>\n{}</body>\n</html>\n",
-      escaped(input.scenario->name), replay_section(input, limits));
+  constexpr const char* kStyle =
+      "html, body { margin: 0; height: 100%; background: #10151a; }\n"
+      ".vinerow-replay { height: 100vh !important; border-radius: 0 !important; }";
+  return page_head(input.scenario->name + ": replay", kStyle) + replay_section(input, limits) +
+         "</body>\n</html>\n";
 }
 
 }  // namespace vinerow::tools

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "engine/api/world_model.h"
-#include "engine/math/polyline.h"
+#include "tools/replay/simplify_line.h"
 
 namespace vinerow::tools {
 namespace {
@@ -27,37 +26,6 @@ std::vector<Eigen::Vector3d> line_of(const PlannedPath& plan, const WorldModel& 
 }
 
 }  // namespace
-
-std::vector<Eigen::Vector3d> simplify_line(const std::vector<Eigen::Vector3d>& points,
-                                           double tolerance_m) {
-  if (points.size() < 3) return points;
-  std::vector<bool> stays(points.size(), false);
-  stays.front() = stays.back() = true;
-  // A list of stretches replaces recursion: plans may have a hundred thousand points.
-  std::vector<std::pair<std::size_t, std::size_t>> stretches = {{0, points.size() - 1}};
-  while (!stretches.empty()) {
-    const auto [begin, end] = stretches.back();
-    stretches.pop_back();
-    double farthest_m = tolerance_m;
-    std::size_t at = begin;
-    for (std::size_t i = begin + 1; i < end; ++i) {
-      const double away_m = distance_to_segment_m<3>(points[i], points[begin], points[end]);
-      if (away_m > farthest_m) {
-        farthest_m = away_m;
-        at = i;
-      }
-    }
-    if (at == begin) continue;
-    stays[at] = true;
-    stretches.push_back({begin, at});
-    stretches.push_back({at, end});
-  }
-  std::vector<Eigen::Vector3d> line;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (stays[i]) line.push_back(points[i]);
-  }
-  return line;
-}
 
 void add_plans(const ReplayInput& input, const ReplayLimits& limits, ReplayTracks& tracks) {
   std::size_t left = limits.plan_points;

@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "engine/core/error.h"
+#include "engine/core/files.h"
 #include "engine/playback/run_frames.h"
 #include "engine/sim/simulation.h"
 
@@ -62,10 +61,8 @@ ReplayRun read_replay_run(const std::filesystem::path& run, const Registry& regi
     names.push_back(vehicle.name);
   result.trace = playback::read_trace(record::LogReader(log), names);
   const std::filesystem::path summary = log.parent_path() / "summary.json";
-  if (std::filesystem::exists(summary)) {
-    std::ifstream stream(summary, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(stream), {}};
-    result.phases = phases_of_summary(text, summary, result.trace.last.s());
+  if (const auto text = read_bytes(summary)) {
+    result.phases = phases_of_summary(*text, summary, result.trace.last.s());
   }
   return result;
 }

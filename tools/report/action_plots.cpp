@@ -27,11 +27,10 @@ std::string shown_unit(const std::string& unit) {
 Samples column(const Columns& columns, const std::string& name, const Track& track) {
   Samples samples;
   const std::vector<double>* values = columns.find(name);
-  if (values == nullptr || track.empty()) return samples;
+  if (values == nullptr) return samples;
   const std::string unit = unit_of(name);
   for (std::size_t i = 0; i < columns.t_s.size(); ++i) {
-    if (columns.t_s[i] < track.t_s.front() || columns.t_s[i] > track.t_s.back()) continue;
-    samples.add(columns.t_s[i], shown((*values)[i], unit));
+    if (track.contains(columns.t_s[i])) samples.add(columns.t_s[i], shown((*values)[i], unit));
   }
   return samples;
 }
@@ -164,9 +163,9 @@ LinePlot slip_plot(const VehicleLog& vehicle, const Track& track) {
 Samples actuator_share(const VehicleLog& vehicle, const Track& track) {
   Samples share;
   const Columns* columns = vehicle.find("actuators");
-  if (columns == nullptr || track.empty()) return share;
+  if (columns == nullptr) return share;
   for (std::size_t i = 0; i < columns->t_s.size(); ++i) {
-    if (columns->t_s[i] < track.t_s.front() || columns->t_s[i] > track.t_s.back()) continue;
+    if (!track.contains(columns->t_s[i])) continue;
     double largest = kNone;
     for (const ActuatorSpec& actuator : vehicle.actuators) {
       const std::vector<double>* values = columns->find(actuator.name);
@@ -212,7 +211,6 @@ LinePlot limit_plot(const VehicleLog& vehicle, const Track& track) {
 }
 
 std::vector<LinePlot> energy_plots(const VehicleLog& vehicle, const Track& track) {
-  if (vehicle.battery.empty() || track.empty()) return {};
   LinePlot charge =
       plot_of(track, "Battery charge", "% of the capacity", "Battery charge remaining.");
   LinePlot power = plot_of(track, "Power drawn", "W", "Electric power drawn from the battery.");
@@ -220,7 +218,7 @@ std::vector<LinePlot> energy_plots(const VehicleLog& vehicle, const Track& track
   Samples left, drawn;
   for (std::size_t i = 0; i < vehicle.battery.times.size(); ++i) {
     const double t_s = vehicle.battery.times[i].s();
-    if (t_s < track.t_s.front() || t_s > track.t_s.back()) continue;
+    if (!track.contains(t_s)) continue;
     left.add(t_s, 100.0 * vehicle.battery.values[i].charge);
     drawn.add(t_s, vehicle.battery.values[i].power_W);
   }

@@ -50,15 +50,20 @@ Strips strips_of(const CanopyFile& canopy) {
   return strips;
 }
 
+/// Opaque colour of a share of the scale.
+void paint(double share, std::uint8_t* rgba) {
+  const Rgb colour = viridis(share);
+  std::copy(colour.begin(), colour.end(), rgba);
+  rgba[3] = 255;
+}
+
 /// One pixel per patch, transparent where the row has no canopy.
 render::Pixels strip_pixels(const std::vector<const CanopyPatchAmount*>& patches, int columns,
                             int bands, double full) {
   render::Pixels pixels(columns, bands);
   for (const CanopyPatchAmount* patch : patches) {
-    const Rgb colour = viridis(full > 0.0 ? patch->amount / full : 0.0);
-    std::uint8_t* at = pixels.at(patch->along, bands - 1 - patch->band);
-    for (std::size_t c = 0; c < 3; ++c) at[c] = static_cast<std::uint8_t>(colour[c]);
-    at[3] = 255;
+    const double share = full > 0.0 ? patch->amount / full : 0.0;
+    paint(share, pixels.at(patch->along, bands - 1 - patch->band));
   }
   return pixels;
 }
@@ -98,11 +103,7 @@ std::string strips_svg(const CanopyFile& canopy, double full) {
 
 std::string colour_legend(const CanopyFile& canopy, double full) {
   render::Pixels bar(64, 1);
-  for (int i = 0; i < 64; ++i) {
-    const Rgb colour = viridis(i / 63.0);
-    for (std::size_t c = 0; c < 3; ++c) bar.at(i, 0)[c] = static_cast<std::uint8_t>(colour[c]);
-    bar.at(i, 0)[3] = 255;
-  }
+  for (int i = 0; i < 64; ++i) paint(i / 63.0, bar.at(i, 0));
   Svg svg(kWideChart, 34, "canopy", "colour scale");
   svg.text(kStripLeft, 22, "0", "tick end");
   svg.image(kStripLeft + 8, 8, 260, 18, render::encode_png(bar));
@@ -153,9 +154,6 @@ std::string payload_section(const CanopyFile& canopy, const std::vector<RowFace>
   for (const CanopyPatchAmount& patch : canopy.patches) {
     if (canopy.wanted <= 0.0) full = std::max(full, patch.amount);
   }
-  const auto card = [](const std::string& value, const std::string& what) {
-    return fmt::format("<div class=\"card\"><b>{}</b><span>{}</span></div>\n", value, what);
-  };
   const CanopyWords words = words_for(canopy);
   const std::string left_out = face_sentence(faces);
   std::string out = fmt::format("<h3>{} of {}: {}</h3>\n<div class=\"cards\">\n",
@@ -172,13 +170,13 @@ std::string payload_section(const CanopyFile& canopy, const std::vector<RowFace>
   out += card(fmt::format("{} m²", number_text(canopy.area_m2())), "total canopy surface");
   out += "</div>\n";
   if (!left_out.empty()) out += fmt::format("<p>{}.</p>\n", escaped(left_out));
-  out += "<figure class=\"plot wide-chart\">\n<h4>Both sides of every row, unrolled</h4>\n";
-  out += colour_legend(canopy, full) + strips_svg(canopy, full);
   return out +
-         "<figcaption>Each strip is one side of a row as seen from its alley, with the bottom of "
-         "the canopy below. Left and right are as seen looking along the row from its first point. "
-         "Rows have the numbers of the world; a map made from a point cloud may number them "
-         "differently. Heights are stretched. Blank: no canopy.</figcaption>\n</figure>\n";
+         figure("plot wide-chart", "Both sides of every row, unrolled",
+                colour_legend(canopy, full) + strips_svg(canopy, full),
+                "Each strip is one side of a row as seen from its alley, with the bottom of the "
+                "canopy below. Left and right are as seen looking along the row from its first "
+                "point. Rows have the numbers of the world; a map made from a point cloud may "
+                "number them differently. Heights are stretched. Blank: no canopy.");
 }
 
 }  // namespace
@@ -234,15 +232,10 @@ CanopyFile read_canopy(const fs::path& file) {
 }
 
 std::vector<CanopyFile> read_canopies(const RunFolder& run) {
-  const fs::path folder = run.path / "canopy";
-  if (!fs::is_directory(folder)) return {};
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.path().extension() == ".json") files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
   std::vector<CanopyFile> canopies;
-  for (const fs::path& file : files) canopies.push_back(read_canopy(file));
+  for (const fs::path& file : files_in(run.path / "canopy", ".json")) {
+    canopies.push_back(read_canopy(file));
+  }
   return canopies;
 }
 

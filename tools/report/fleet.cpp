@@ -16,10 +16,6 @@ constexpr double kClearanceReach_m = 3.0;
 /// Vehicles that work at the same time for less only hand over to each other. Chosen.
 constexpr double kTogether_s = 5.0;
 
-std::string card(const std::string& value, const std::string& what) {
-  return fmt::format("<div class=\"card\"><b>{}</b><span>{}</span></div>\n", value, what);
-}
-
 /// Sum of a metric over the vehicles that have it; NaN if no vehicle has it.
 double sum_of(const RunFolder& run, const std::string& metric) {
   double sum = kNone;

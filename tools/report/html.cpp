@@ -2,61 +2,21 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
-#include "tools/export/utf8.h"
-
 namespace vinerow::tools::report {
-namespace {
 
-constexpr const char* kThinSpace = "\u202f";  // no-break
-
-/// Integer digits with thin spaces between thousands.
-std::string grouped(const std::string& digits) {
+std::string grouped(const std::string& digits, std::size_t least) {
   const std::size_t whole = std::min(digits.find('.'), digits.size());
-  if (whole < 5) return digits;
+  if (whole < least) return digits;
   std::string out;
   for (std::size_t k = 0; k < whole; ++k) {
-    if (k > 0 && (whole - k) % 3 == 0) out += kThinSpace;
+    if (k > 0 && (whole - k) % 3 == 0) out += "\u202f";  // narrow, no-break
     out += digits[k];
   }
   return out + digits.substr(whole);
-}
-
-/// Text without U+FFFE and U+FFFF, which XML forbids.
-std::string without_noncharacters(std::string text) {
-  for (const char* none : {"\xEF\xBF\xBE", "\xEF\xBF\xBF"}) {
-    for (std::size_t at = 0; (at = text.find(none, at)) != std::string::npos;) text.erase(at, 3);
-  }
-  return text;
-}
-
-}  // namespace
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  out.reserve(text.size());
-  for (const char c : without_noncharacters(valid_utf8(text))) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        // XML 1.0 forbids the other control characters.
-        if (static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t') out += c;
-    }
-  }
-  return out;
 }
 
 std::string number_text(double value) {
@@ -110,6 +70,21 @@ std::string table(const std::vector<std::string>& heads,
 
 std::string legend_key(const std::string& css_class, const std::string& label) {
   return fmt::format("<span><i class=\"key {}\"></i>{}</span>", css_class, escaped(label));
+}
+
+std::string legend_line(const std::string& keys) {
+  return "<p class=\"legend\">" + keys + "</p>\n";
+}
+
+std::string card(const std::string& value, const std::string& what) {
+  return fmt::format("<div class=\"card\"><b>{}</b><span>{}</span></div>\n", value, what);
+}
+
+std::string figure(const std::string& css_class, const std::string& title,
+                   const std::string& content, const std::string& caption) {
+  return fmt::format("<figure class=\"{}\">\n{}{}<figcaption>{}</figcaption>\n</figure>\n",
+                     css_class, title.empty() ? "" : "<h4>" + escaped(title) + "</h4>\n", content,
+                     caption);
 }
 
 std::string section(const std::string& id, const std::string& title, const std::string& content) {

@@ -1,14 +1,15 @@
 #pragma once
-/// HTML elements used by all parts of the report. All output is well-formed XML too.
+/// HTML elements used by all parts of the report, beyond page_text.h.
 
 #include <string>
 #include <vector>
 
+#include "tools/replay/page_text.h"
+
 namespace vinerow::tools::report {
 
-/// Text for content and attributes. Escapes & < > ", drops control characters, and replaces invalid
-/// UTF-8 bytes by U+FFFD.
-std::string escaped(const std::string& text);
+/// Digits of a number with thin spaces between thousands, if the integer has at least this many.
+std::string grouped(const std::string& digits, std::size_t least = 5);
 
 /// Number for people: four significant digits, separated thousands, minus sign U+2212. "not
 /// measured" if it is not finite.
@@ -31,6 +32,16 @@ std::string table(const std::vector<std::string>& heads,
 
 /// Entry of a legend. @param css_class  class of its mark: "s0", "area s0", "limit"
 std::string legend_key(const std::string& css_class, const std::string& label);
+
+/// Legend from such entries.
+std::string legend_line(const std::string& keys);
+
+/// Number on the first screen or of a payload. @param value,what  HTML
+std::string card(const std::string& value, const std::string& what);
+
+/// Figure around HTML. @param css_class  "plot", "plot wide-chart" @param title  "": none
+std::string figure(const std::string& css_class, const std::string& title,
+                   const std::string& content, const std::string& caption);
 
 /// Chapter of the page with its title; empty if the content is empty.
 std::string section(const std::string& id, const std::string& title, const std::string& content);

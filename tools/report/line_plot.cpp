@@ -105,7 +105,7 @@ std::string legend(const LinePlot& plot) {
     told = limit.label;
     keys += legend_key("limit", limit.label);
   }
-  return "<p class=\"legend\">" + keys + "</p>\n";
+  return legend_line(keys);
 }
 
 }  // namespace
@@ -164,10 +164,8 @@ std::string draw(const LinePlot& plot, const PlotFrame& frame) {
 
 std::string figure(const LinePlot& plot, const PlotFrame& frame) {
   if (plot.empty()) return "";
-  return fmt::format(
-      "<figure class=\"plot{}\">\n<h4>{}</h4>\n{}{}<figcaption>{}</figcaption>\n</figure>\n",
-      frame.width > PlotFrame{}.width ? " wide-chart" : "", escaped(plot.title), legend(plot),
-      draw(plot, frame), with_citations(plot.caption));
+  return figure(frame.width > PlotFrame{}.width ? "plot wide-chart" : "plot", plot.title,
+                legend(plot) + draw(plot, frame), with_citations(plot.caption));
 }
 
 }  // namespace vinerow::tools::report

@@ -13,8 +13,6 @@
 namespace vinerow::tools {
 namespace {
 
-using report::escaped;
-
 constexpr const char* kMapStyle = R"(
 :root { color-scheme: light; }
 * { box-sizing: border-box; }
@@ -44,14 +42,8 @@ footer { margin-top: 48px; font-size: 13px; color: #787c7a; }
 @media print { body { background: #fff; } main { max-width: none; padding: 0; } figure, tr, .card { break-inside: avoid; } }
 )";
 
-/// "7 012 345", with narrow no-break spaces.
 std::string grouped_count(std::int64_t number) {
-  std::string digits = std::to_string(std::abs(number)), out;
-  for (std::size_t k = 0; k < digits.size(); ++k) {
-    if (k > 0 && (digits.size() - k) % 3 == 0) out += "\u202f";
-    out += digits[k];
-  }
-  return (number < 0 ? "-" : "") + out;
+  return report::grouped(std::to_string(number), 4);
 }
 
 std::string megabytes(std::int64_t bytes) {
@@ -215,12 +207,10 @@ std::string facts(const mapping::CloudMap& map) {
 std::string map_report_html(const mapping::CloudMap& map,
                             const std::vector<ReportPicture>& pictures, const std::string& title) {
   const mapping::CloudMapReport& r = map.report;
-  std::string out = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
-      "<title>{0}: map of the vineyard</title>\n<style>{1}</style>\n</head>\n<body>\n<main>\n"
-      "<h1>{0}</h1>\n<p class=\"lead\">Map of the vineyard from {2} points</p>\n",
-      escaped(title), kMapStyle, grouped_count(r.points));
+  std::string out = page_head(title + ": map of the vineyard", kMapStyle);
+  out +=
+      fmt::format("<main>\n<h1>{}</h1>\n<p class=\"lead\">Map of the vineyard from {} points</p>\n",
+                  escaped(title), grouped_count(r.points));
   out += cards(map);
   if (!r.notes.empty()) {
     out += "<h2>Notes</h2>\n<ul>\n";

@@ -8,6 +8,8 @@
 #include "engine/api/map.h"
 #include "engine/api/world_model.h"
 #include "engine/math/polyline.h"
+#include "engine/render/scale_bar.h"
+#include "tools/replay/simplify_line.h"
 #include "tools/report/html.h"
 #include "tools/report/svg.h"
 
@@ -81,7 +83,7 @@ std::vector<Eigen::Vector2d> projected(const std::vector<Eigen::Vector2d>& line,
   std::vector<Eigen::Vector2d> out;
   out.reserve(line.size());
   for (const Eigen::Vector2d& p : line) out.push_back(at(p));
-  return simplified(out, kTolerance_px);
+  return simplify_line(out, kTolerance_px);
 }
 
 std::vector<Eigen::Vector2d> track_line(const VehicleLog& vehicle) {
@@ -132,12 +134,7 @@ void draw_tracks(const std::vector<VehicleLog>& vehicles, const Projection& at,
 /// Draws a scale bar of a round length, about a sixth of the picture, and a north arrow.
 void draw_scale(const Projection& at, const MapStyle& style, Svg& svg) {
   const double max_m = style.width / at.scale() / 5.0;
-  double length_m = std::pow(10.0, std::floor(std::log10(max_m)));
-  for (const double factor : {5.0, 2.0}) {
-    if (factor * length_m > max_m) continue;
-    length_m *= factor;
-    break;
-  }
+  const double length_m = render::scale_length_m(max_m);
   const double length = at.scale() * length_m, x = style.width - 22 - length, y = at.bottom() - 16;
   svg.rect(x - 10, y - 22, length + 54 - 22, 32, "paper");
   svg.line(x, y, x + length, y, "scale");
@@ -169,40 +166,7 @@ std::optional<MapView> with_margin(MapView view) {
   return view;
 }
 
-/// Point farthest from the straight line between two points: its index and distance.
-std::pair<std::size_t, double> farthest(const std::vector<Eigen::Vector2d>& line, std::size_t first,
-                                        std::size_t last) {
-  std::pair<std::size_t, double> best{first, 0.0};
-  for (std::size_t i = first + 1; i < last; ++i) {
-    const double distance = distance_to_segment_m<2>(line[i], line[first], line[last]);
-    if (distance > best.second) best = {i, distance};
-  }
-  return best;
-}
-
 }  // namespace
-
-std::vector<Eigen::Vector2d> simplified(const std::vector<Eigen::Vector2d>& line,
-                                        double tolerance) {
-  if (line.size() < 3) return line;
-  std::vector<char> keep(line.size(), 0);
-  keep.front() = keep.back() = 1;
-  std::vector<std::pair<std::size_t, std::size_t>> open = {{0, line.size() - 1}};
-  while (!open.empty()) {
-    const auto [first, last] = open.back();
-    open.pop_back();
-    const auto [at, distance] = farthest(line, first, last);
-    if (distance <= tolerance) continue;
-    keep[at] = 1;
-    open.push_back({first, at});
-    open.push_back({at, last});
-  }
-  std::vector<Eigen::Vector2d> out;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (keep[i]) out.push_back(line[i]);
-  }
-  return out;
-}
 
 std::optional<MapView> whole_view(const RunFolder& run, const std::vector<VehicleLog>& vehicles) {
   MapView view;
@@ -272,18 +236,17 @@ std::string mission_map(const RunFolder& run, const std::vector<VehicleLog>& veh
 std::string map_legend(const RunFolder& run, const std::vector<VehicleLog>& vehicles,
                        const MapStyle& style) {
   std::string keys;
-  const auto key = [&](const std::string& css_class, const std::string& label) {
-    keys += fmt::format("<span><i class=\"key {}\"></i>{}</span>", css_class, escaped(label));
-  };
   bool planned = false;
   for (const VehicleLog& vehicle : vehicles) {
-    key(vehicle.style, vehicle.name);
+    keys += legend_key(vehicle.style, vehicle.name);
     planned = planned || !vehicle.plan.empty();
   }
-  if (planned && style.with_plans) key("ref", "planned");
-  if (run.world && !run.world->rows->rows.empty()) key("area row", "plant rows");
+  if (planned && style.with_plans) keys += legend_key("ref", "planned");
+  if (run.world && !run.world->rows->rows.empty()) {
+    keys += legend_key("area row", "plant rows");
+  }
   if (!vehicles.empty() && style.with_ends) keys += "<span>● start</span><span>■ end</span>";
-  return "<p class=\"legend\">" + keys + "</p>\n";
+  return legend_line(keys);
 }
 
 }  // namespace vinerow::tools::report

@@ -48,7 +48,4 @@ std::string mission_map(const RunFolder& run, const std::vector<VehicleLog>& veh
 std::string map_legend(const RunFolder& run, const std::vector<VehicleLog>& vehicles,
                        const MapStyle& style);
 
-/// Line with fewer points, within `tolerance` of the original (D. Douglas, T. Peucker, 1973).
-std::vector<Eigen::Vector2d> simplified(const std::vector<Eigen::Vector2d>& line, double tolerance);
-
 }  // namespace vinerow::tools::report

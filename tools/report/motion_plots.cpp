@@ -39,7 +39,7 @@ void cut_to(const Track& track, LinePlot& plot) {
     Samples kept;
     for (std::size_t i = 0; i < line.samples.size(); ++i) {
       const double t_s = line.samples.x[i];
-      if (t_s >= track.t_s.front() && t_s <= track.t_s.back()) kept.add(t_s, line.samples.y[i]);
+      if (track.contains(t_s)) kept.add(t_s, line.samples.y[i]);
     }
     line.samples = std::move(kept);
   }
@@ -60,6 +60,17 @@ Samples wrapped(const Samples& turning) {
 
 double ground_m(const RunFolder& run, const Eigen::Vector3d& p) {
   return run.world && run.world->terrain ? run.world->terrain->height_m(p.x(), p.y()) : kNone;
+}
+
+/// Number of a fixed wing's reference, with a gap while the vehicle waits.
+Samples in_flight(const VehicleLog& vehicle, double AirReference::*number) {
+  Samples samples;
+  for (std::size_t i = 0; i < vehicle.air_reference.times.size(); ++i) {
+    const AirReference& reference = vehicle.air_reference.values[i];
+    const bool flies = reference.phase != AirReference::Phase::kWait;
+    samples.add(vehicle.air_reference.times[i].s(), flies ? reference.*number : kNone);
+  }
+  return samples;
 }
 
 /// Height of a rotorcraft above the ground below it.
@@ -89,18 +100,13 @@ LinePlot altitude(const RunFolder& run, const VehicleLog& vehicle, const Track& 
       "Flown altitude (line) and the guidance's reference (dashed), with the ground below. As "
       "paper A, figures 9 and 10.";
   plot.min_span = 1.0;
-  Samples flown, ground, wanted;
+  Samples flown, ground;
   for (std::size_t i = 0; i < track.t_s.size(); ++i) {
     flown.add(track.t_s[i], track.p_W[i].z());
     ground.add(track.t_s[i], ground_m(run, track.p_W[i]));
   }
-  for (std::size_t i = 0; i < vehicle.air_reference.times.size(); ++i) {
-    const AirReference& reference = vehicle.air_reference.values[i];
-    const bool flies = reference.phase != AirReference::Phase::kWait;
-    wanted.add(vehicle.air_reference.times[i].s(), flies ? reference.height_m : kNone);
-  }
   plot.lines = {{"flown", std::move(flown), vehicle.style},
-                {"reference", std::move(wanted), "ref"},
+                {"reference", in_flight(vehicle, &AirReference::height_m), "ref"},
                 {"ground below", std::move(ground), "ground"}};
   return plot;
 }
@@ -116,14 +122,13 @@ LinePlot heading(const VehicleLog& vehicle, const Track& track) {
   plot.lines = {{"true", wrapped({track.t_s, in_degrees(track.heading_rad)}), vehicle.style}};
   Samples wanted;
   if (vehicle.has_wings) {
+    wanted = in_flight(vehicle, &AirReference::heading_rad);
     double near_rad = track.heading_rad.empty() ? 0.0 : track.heading_rad.front();
     std::size_t at = 0;
-    for (std::size_t i = 0; i < vehicle.air_reference.times.size(); ++i) {
-      const double t_s = vehicle.air_reference.times[i].s();
-      while (at < track.t_s.size() && track.t_s[at] <= t_s) near_rad = track.heading_rad[at++];
-      const AirReference& reference = vehicle.air_reference.values[i];
-      const bool flies = reference.phase != AirReference::Phase::kWait;
-      wanted.add(t_s, flies ? deg_from_rad(next_to(reference.heading_rad, near_rad)) : kNone);
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      while (at < track.t_s.size() && track.t_s[at] <= wanted.x[i])
+        near_rad = track.heading_rad[at++];
+      wanted.y[i] = deg_from_rad(next_to(wanted.y[i], near_rad));
     }
   } else {
     wanted = {track.t_s, in_degrees(track.plan_heading_rad)};
@@ -140,8 +145,8 @@ LinePlot bank(const VehicleLog& vehicle, const Track& track) {
   Samples flown, wanted;
   for (std::size_t i = 0; i < vehicle.truth.times.size(); ++i) {
     const double t_s = vehicle.truth.times[i].s();
-    if (track.empty() || t_s < track.t_s.front() || t_s > track.t_s.back()) continue;
-    flown.add(t_s, deg_from_rad(rpy_from_quaternion(vehicle.truth.values[i].X_WB.q).roll_rad));
+    if (track.contains(t_s))
+      flown.add(t_s, deg_from_rad(rpy_from_quaternion(vehicle.truth.values[i].X_WB.q).roll_rad));
   }
   for (std::size_t i = 0; i < vehicle.air_reference.times.size(); ++i) {
     wanted.add(vehicle.air_reference.times[i].s(),
@@ -162,13 +167,7 @@ LinePlot airspeed(const VehicleLog& vehicle, const Track& track) {
   if (const Columns* air = vehicle.find("air"); air && air->find("airspeed_mps")) {
     plot.lines.push_back({"airspeed", {air->t_s, *air->find("airspeed_mps")}, vehicle.style});
   }
-  Samples wanted;
-  for (std::size_t i = 0; i < vehicle.air_reference.times.size(); ++i) {
-    const AirReference& reference = vehicle.air_reference.values[i];
-    const bool flies = reference.phase != AirReference::Phase::kWait;
-    wanted.add(vehicle.air_reference.times[i].s(), flies ? reference.airspeed_mps : kNone);
-  }
-  plot.lines.push_back({"reference", std::move(wanted), "ref"});
+  plot.lines.push_back({"reference", in_flight(vehicle, &AirReference::airspeed_mps), "ref"});
   return plot;
 }
 

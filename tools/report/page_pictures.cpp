@@ -4,16 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 
 #include "engine/api/map.h"
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
+#include "engine/core/files.h"
 #include "engine/math/polyline.h"
 #include "engine/playback/frame_words.h"
 #include "engine/render/png.h"
-#include "tools/replay/base64.h"
+#include "tools/replay/page_text.h"
 #include "tools/report/html.h"
 #include "tools/report/jpeg.h"
 #include "tools/report/map_captions.h"
@@ -31,16 +31,6 @@ constexpr double kMoves_mps = 0.05;
 constexpr int kPhotoQuality = 84;
 /// Approximate ratio of a frame's JPEG size at that quality to its PNG size.
 constexpr double kPhotoShare = 0.1;
-
-std::vector<fs::path> png_files(const fs::path& folder) {
-  std::vector<fs::path> files;
-  if (!fs::is_directory(folder)) return files;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.path().extension() == ".png") files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
 
 /// Parsed frame name "<camera>_<milliseconds>"; the camera is empty if the name has another form.
 struct FrameName {
@@ -134,11 +124,6 @@ double score_of(const RunFolder& run, const fs::path& file,
   return score + 400.0 * std::min(1.0, moving_share / kFillsPicture);
 }
 
-std::string bytes_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 }  // namespace
 
 std::vector<Picture> frame_pictures(const RunFolder& run) {
@@ -153,7 +138,7 @@ std::vector<Picture> frame_pictures(const RunFolder& run) {
 
 std::vector<Picture> coverage_pictures(const RunFolder& run) {
   std::vector<Picture> pictures;
-  for (const fs::path& file : png_files(run.path)) {
+  for (const fs::path& file : files_in(run.path, ".png")) {
     if (!file.filename().string().starts_with("coverage")) continue;
     pictures.push_back({file,
                         "Number of survey pictures that see each point of the parcel, and "
@@ -174,7 +159,8 @@ std::vector<Picture> product_pictures(const RunFolder& run) {
     // The folder of a phase without a product may be left from an earlier run.
     if (!phase.contains("product") || !phase["product"].contains("file")) continue;
     const std::string name = phase.at("name");
-    std::vector<fs::path> files = png_files(run.path / phase["product"]["file"].get<std::string>());
+    std::vector<fs::path> files =
+        files_in(run.path / phase["product"]["file"].get<std::string>(), ".png");
     std::stable_sort(files.begin(), files.end(),
                      [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
     for (const fs::path& file : files) {
@@ -225,7 +211,7 @@ std::string embedded(const Picture& picture, int max_width) {
     type = "jpeg";
     bytes = encode_jpeg(shown, kPhotoQuality);
   } else {
-    bytes = as_it_is ? bytes_of(picture.file) : render::encode_png(shown);
+    bytes = as_it_is ? read_bytes(picture.file).value() : render::encode_png(shown);
   }
   return fmt::format("<img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"data:image/{};base64,{}\"/>",
                      shown.width, shown.height, escaped(picture.caption), type, base64(bytes));

@@ -141,9 +141,9 @@ std::string map_chapter(const PageMaterial& m) {
   style.max_height = 480;
   const auto map = [&](const MapView& view, const std::string& label, const std::string& caption) {
     style.label = label;
-    return fmt::format(
-        "<figure class=\"plot map wide-chart\">\n{}{}<figcaption>{}</figcaption>\n</figure>\n",
-        map_legend(m.run, m.vehicles, style), mission_map(m.run, m.vehicles, view, style),
+    return figure(
+        "plot map wide-chart", "",
+        map_legend(m.run, m.vehicles, style) + mission_map(m.run, m.vehicles, view, style),
         with_citations(caption));
   };
   std::string out =
@@ -168,10 +168,9 @@ std::vector<std::string> path_figures(const PageMaterial& m, const VehicleLog& v
                        const std::string& caption) {
     if (!view) return;
     style.label = title;
-    out.push_back(fmt::format(
-        "<figure class=\"plot\">\n<h4>{}</h4>\n{}{}<figcaption>{}</figcaption>\n</figure>\n", title,
-        map_legend(m.run, alone, style), mission_map(m.run, alone, *view, style),
-        with_citations(caption)));
+    out.push_back(figure("plot", title,
+                         map_legend(m.run, alone, style) + mission_map(m.run, alone, *view, style),
+                         with_citations(caption)));
   };
   if (m.vehicles.size() > 1) {
     add(own_view(vehicle), "Plan and track",
@@ -280,15 +279,10 @@ std::string page(const PageMaterial& m) {
     if (chapter.content.empty()) continue;
     links += fmt::format("<a href=\"#{}\">{}</a>\n", chapter.id, chapter.title);
   }
-  std::string out = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
-      "<title>{}: report of the run</title>\n<style>{}</style>\n</head>\n<body>\n<nav><div>\n",
-      escaped(playback::title_of_name(m.run.text("scenario"))), page_style());
-  out += links + "</div></nav>\n<main>\n" + first;
-  out += content;
-  return out + "</main>\n" + picture_dialog() + "<script>//<![CDATA[" + page_script() +
-         "//]]></script>\n</body>\n</html>\n";
+  const std::string title = playback::title_of_name(m.run.text("scenario"));
+  return page_head(title + ": report of the run", page_style()) + "<nav><div>\n" + links +
+         "</div></nav>\n<main>\n" + first + content + "</main>\n" + picture_dialog() +
+         "<script>//<![CDATA[" + page_script() + "//]]></script>\n</body>\n</html>\n";
 }
 
 }  // namespace

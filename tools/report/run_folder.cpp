@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <limits>
 
 #include "engine/core/error.h"
+#include "engine/core/files.h"
+#include "engine/playback/run_frames.h"
 #include "engine/sim/simulation.h"
 
 namespace vinerow::tools::report {
@@ -14,18 +15,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string read_text(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 Json read_summary(const fs::path& folder) {
   const fs::path file = folder / "summary.json";
   if (!fs::is_regular_file(file)) {
     throw ConfigError(fmt::format("{}: contains no summary.json, so it is not the folder of a run",
                                   folder.string()));
   }
-  Json summary = Json::parse(read_text(file), nullptr, false);
+  Json summary = Json::parse(read_bytes(file).value_or(""), nullptr, false);
   if (summary.is_discarded()) {
     throw ConfigError(
         fmt::format("{}: is not JSON, so the run's results cannot be read", file.string()));
@@ -60,7 +56,7 @@ void open_log(RunFolder& run) {
 void read_scenario(RunFolder& run, const Registry& registry) {
   const fs::path file = run.path / "scenario.resolved.yaml";
   if (fs::is_regular_file(file)) {
-    run.resolved_yaml = read_text(file);
+    run.resolved_yaml = read_bytes(file).value_or("");
   } else if (run.log) {
     const auto& attachments = run.log->info().attachments;
     const auto found = attachments.find("scenario.resolved.yaml");
@@ -74,15 +70,7 @@ void read_scenario(RunFolder& run, const Registry& registry) {
                     file.string(), run.scenario->name, run.text("scenario")));
   }
   run.world = build_world(*run.scenario, registry);
-  for (const scenario::VehicleConfig& config : run.scenario->vehicles) {
-    VehicleContext context;
-    context.vehicle = context.part = config.name;
-    context.seed = run.scenario->seed;
-    context.physics_step = run.scenario->physics_step;
-    context.gravity_mps2 = run.scenario->gravity_mps2;
-    run.models.push_back(
-        registry.make_vehicle(config.vehicle.type, config.vehicle.parameters, context));
-  }
+  run.models = playback::vehicles_of_scenario(*run.scenario, registry);
 }
 
 }  // namespace
@@ -117,12 +105,7 @@ RunFolder read_run_folder(const fs::path& folder, const Registry& registry) {
   run.summary = read_summary(folder);
   open_log(run);
   read_scenario(run, registry);
-  if (fs::is_directory(folder / "frames")) {
-    for (const auto& entry : fs::directory_iterator(folder / "frames")) {
-      if (entry.path().extension() == ".png") run.frames.push_back(entry.path());
-    }
-    std::sort(run.frames.begin(), run.frames.end());
-  }
+  run.frames = files_in(folder / "frames", ".png");
   if (run.scenario) {
     for (const scenario::VehicleConfig& vehicle : run.scenario->vehicles) {
       run.vehicles.push_back(vehicle.name);
@@ -131,6 +114,16 @@ RunFolder read_run_folder(const fs::path& folder, const Registry& registry) {
     for (const auto& [name, metrics] : run.summary["metrics"].items()) run.vehicles.push_back(name);
   }
   return run;
+}
+
+std::vector<fs::path> files_in(const fs::path& folder, const char* extension) {
+  std::vector<fs::path> files;
+  if (!fs::is_directory(folder)) return files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == extension) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
 double number_of(const Json& value) {

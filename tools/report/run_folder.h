@@ -43,6 +43,10 @@ struct RunFolder {
 /// it to 'b' (seed 1)"
 RunFolder read_run_folder(const std::filesystem::path& folder, const Registry& registry);
 
+/// Files of a folder, by name; empty if there is no such folder. @param extension  ".png"
+std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder,
+                                            const char* extension);
+
 /// Number in a JSON value; NaN if it is null or not a number.
 double number_of(const Json& value);
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tools/replay/base64.h"
+#include "tools/replay/page_text.h"
 #include "tools/report/html.h"
 
 namespace vinerow::tools::report {

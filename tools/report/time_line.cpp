@@ -222,10 +222,9 @@ std::string activity_legend(const std::vector<TimeRow>& rows) {
   }
   std::string keys;
   for (const auto& [style, told] : labels) {
-    keys += fmt::format("<span><i class=\"key area {}\"></i>{}</span>", style,
-                        escaped(fmt::format("{}", fmt::join(told, " / "))));
+    keys += legend_key("area " + style, fmt::format("{}", fmt::join(told, " / ")));
   }
-  return "<p class=\"legend\">" + keys + "</p>\n";
+  return legend_line(keys);
 }
 
 std::string phase_table(const RunFolder& run) {

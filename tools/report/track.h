@@ -24,6 +24,8 @@ struct Track {
   std::string turns_label;  ///< legend text of the turns
 
   bool empty() const { return t_s.empty(); }
+  /// True from its first to its last entry.
+  bool contains(double at_s) const { return !empty() && at_s >= t_s.front() && at_s <= t_s.back(); }
   /// Time spans in which the vehicle turns from row to row.
   std::vector<PlotSpan> turns() const;
 };

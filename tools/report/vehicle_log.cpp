@@ -9,17 +9,11 @@
 namespace vinerow::tools::report {
 namespace {
 
+using playback::read_into;
+
 /// Plotted signals; others of the same type are not read.
 constexpr const char* kColumns[] = {"actuators", "wheels", "deviation", "steering",
                                     "wrench",    "rotors", "air"};
-
-template <class T>
-void read_into(const record::LogReader& log, const std::string& topic, playback::Trace<T>& trace) {
-  log.read<T>(topic, [&](Time t, const T& value) {
-    trace.times.push_back(t);
-    trace.values.push_back(value);
-  });
-}
 
 void read_columns(const record::LogReader& log, const std::string& topic, Columns& columns) {
   log.read<NamedValues>(topic, [&](Time t, const NamedValues& value) {

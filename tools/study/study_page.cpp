@@ -20,8 +20,8 @@
 namespace vinerow::study {
 namespace {
 
+using tools::escaped;
 using tools::report::counted;
-using tools::report::escaped;
 using tools::report::number_text;
 using tools::report::section;
 using tools::report::table;
@@ -238,13 +238,10 @@ std::string study_page(const OpenStudy& open, const Results& results) {
   for (const std::string& name : names) plots += number_figures(results, name);
   plots += parallel_figure(results, names);
   if (!plots.empty()) plots = "<div class=\"figures\">\n" + plots + "</div>\n";
-  const std::string title = escaped(open.study.name);
-  std::string page = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
-      "<title>{}: study</title>\n<style>{}{}</style>\n</head>\n<body>\n<main data-command=\"{}\">\n"
-      "<h1>{}</h1>\n",
-      title, tools::report::page_style(), study_plot_style(), escaped(repeat_command(open)), title);
+  std::string page = tools::page_head(open.study.name + ": study",
+                                      tools::report::page_style() + study_plot_style());
+  page += fmt::format("<main data-command=\"{}\">\n<h1>{}</h1>\n", escaped(repeat_command(open)),
+                      escaped(open.study.name));
   if (!open.study.description.empty()) {
     page += fmt::format("<p>{}</p>\n", escaped(open.study.description));
   }

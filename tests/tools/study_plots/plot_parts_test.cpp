@@ -104,8 +104,7 @@ TEST(StudyTexts, AreShortenedToTheirRoom) {
   EXPECT_LE(widest_px(cut, 10.0), 100.0);
   EXPECT_EQ(shortened("abc", 3.0, 10.0), "");
   // Letters of several bytes stay whole.
-  EXPECT_EQ(tools::report::escaped(shortened("äöüäöüäöü", 40.0, 10.0)),
-            shortened("äöüäöüäöü", 40.0, 10.0));
+  EXPECT_EQ(tools::escaped(shortened("äöüäöüäöü", 40.0, 10.0)), shortened("äöüäöüäöü", 40.0, 10.0));
 }
 
 TEST(StudyTexts, BreakBetweenWords) {
@@ -172,13 +171,13 @@ TEST(StudyScript, IsWellFormedInsideAPage) {
 }
 
 TEST(StudyEscape, ReplacesBytesThatAreNoText) {
-  EXPECT_EQ(tools::report::escaped("a\xff"
-                                   "b"),
+  EXPECT_EQ(tools::escaped("a\xff"
+                           "b"),
             "a\uFFFDb");
-  EXPECT_EQ(tools::report::escaped("a\uFFFE\uFFFF"
-                                   "b"),
+  EXPECT_EQ(tools::escaped("a\uFFFE\uFFFF"
+                           "b"),
             "ab");
-  EXPECT_EQ(tools::report::escaped("grün \x01<"), "grün &lt;");
+  EXPECT_EQ(tools::escaped("grün \x01<"), "grün &lt;");
 }
 
 }  // namespace

@@ -11,8 +11,8 @@
 namespace vinerow::study {
 namespace {
 
+using tools::escaped;
 using tools::report::Axis;
-using tools::report::escaped;
 using tools::report::Svg;
 
 /// Tick labels of 12.5 px are drawn with at least 9 px and at most 15 px.
@@ -40,7 +40,7 @@ Svg study_svg(double width_px, double height_px, const std::string& title) {
 
 std::string study_figure(const PlotTexts& texts, const std::string& legend, const std::string& svg,
                          double width_px) {
-  const std::string keys = legend.empty() ? "" : "<p class=\"legend\">" + legend + "</p>\n";
+  const std::string keys = legend.empty() ? "" : tools::report::legend_line(legend);
   return fmt::format(
       "<figure class=\"plot study{}\">\n<h4>{}</h4>\n{}<div class=\"study-scroll\">\n{}</div>\n{}"
       "</figure>\n",

@@ -91,7 +91,7 @@ void draw_row(const IntervalPlot& plot, std::size_t i, const IntervalLayout& at,
       {row.label, plot.value.label + ": " + interval_text(row.value, row.low, row.high, plot.value),
        row.note},
       row.cell);
-  svg.raw("<title>" + tools::report::escaped(tip) + "</title>\n");
+  svg.raw("<title>" + tools::escaped(tip) + "</title>\n");
   // The whole row reacts to the pointer.
   svg.rect(0, y - 0.5 * at.row, at.width, at.row, "reach");
   if (can_draw(row.value)) {

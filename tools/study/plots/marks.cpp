@@ -81,7 +81,7 @@ void draw_marker(Shape shape, double x, double y, const std::string& css_class,
                  tools::report::Svg& svg) {
   const std::string attribute = cell_attribute(cell);
   svg.open_group("class=\"mark\"" + (attribute.empty() ? "" : " " + attribute));
-  if (!tip.empty()) svg.raw("<title>" + tools::report::escaped(tip) + "</title>\n");
+  if (!tip.empty()) svg.raw("<title>" + tools::escaped(tip) + "</title>\n");
   if (reach_px > kRadius_px) svg.circle(x, y, reach_px, "reach");
   draw_shape(shape, x, y, "dot " + css_class, svg);
   svg.close_group();

@@ -13,8 +13,8 @@
 namespace vinerow::study {
 namespace {
 
+using tools::escaped;
 using tools::report::Axis;
-using tools::report::escaped;
 using tools::report::px;
 using tools::report::Range;
 using tools::report::Svg;

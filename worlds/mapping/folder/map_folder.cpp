@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <set>
 
 #include "engine/core/error.h"
+#include "engine/core/files.h"
 #include "engine/core/whole_file.h"
 #include "engine/io/geo/height_raster.h"
 #include "engine/io/grids/ros_map.h"
@@ -20,11 +20,6 @@ namespace vinerow::mapping {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string read_text(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// Rows with meshes and how many.
 std::vector<std::pair<int, int>> count_hulls(const std::vector<RowMesh>& meshes) {
@@ -120,7 +115,7 @@ CloudMap load_map(const fs::path& folder) {
     throw ConfigError(fmt::format("'{}' holds no map: there is no map.json", folder.string()));
   }
   MapFiles files;
-  CloudMap map = map_from_json(read_text(file), file, files);
+  CloudMap map = map_from_json(read_bytes(file).value_or(""), file, files);
   load_all_meshes(folder, files, map);
   if (files.terrain) {
     HeightField terrain = io::read_height_raster(folder / "terrain.tif");

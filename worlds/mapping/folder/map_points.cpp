@@ -8,6 +8,7 @@
 #include <string>
 
 #include "engine/core/error.h"
+#include "engine/core/files.h"
 #include "engine/core/whole_file.h"
 #include "worlds/mapping/folder/json_reader.h"
 
@@ -98,8 +99,7 @@ std::optional<MapPoints> load_map_points(const std::filesystem::path& folder) {
   if (wall != "auto")
     points.occupancy.first_wall = wall == "first" ? RowEnd::kFirst : RowEnd::kLast;
 
-  std::ifstream bytes(classes, std::ios::binary);
-  const std::string all{std::istreambuf_iterator<char>(bytes), {}};
+  const std::string all = read_bytes(classes).value_or("");
   const std::int64_t count = in.at("points").whole(0);
   if (static_cast<std::int64_t>(all.size()) != count) {
     throw ConfigError(fmt::format("'{}' contains {} classes, but points.json states {}",

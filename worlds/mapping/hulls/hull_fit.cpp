@@ -35,12 +35,6 @@ namespace {
 
 // Chosen: a shorter side would be a degenerate face.
 constexpr double kMinSide_m = 0.005;
-// Price of a point below the hull, in points. Chosen: pictures show few low points, and the lower
-// edge must not rise above them.
-constexpr double kDownPrice = 20.0;
-// Vertical part of the normal below which a side looks down: 17 degrees below the horizontal.
-// Chosen.
-constexpr double kLooksDown = -0.3;
 // Most sides of a section; RowHullOptions::corners allows no more.
 constexpr std::size_t kMaxSides = 16;
 // Below this a side does not become shorter when it or its neighbour moves.
@@ -71,8 +65,9 @@ struct SideLines {
 
 }  // namespace
 
-HullFit::HullFit(const RowStretch& stretch, const HullDirections& directions)
-    : stretch_(stretch), directions_(directions), c_(directions.count()) {
+HullFit::HullFit(const RowStretch& stretch, const HullDirections& directions,
+                 const HullFitOptions& options)
+    : stretch_(stretch), directions_(directions), options_(options), c_(directions.count()) {
   const int slices = stretch.slices();
   left_ = slices + 1;
   for (int j = 0; j <= slices; ++j) {
@@ -194,7 +189,7 @@ void HullFit::improve(int j, int k, double price_m3, double tolerance_m, double 
                  room(directions_.side_m(h(j), behind), directions_.inverse_sin(k))});
   const double high = std::min(max_m, room(directions_.side_m(h(j), k), directions_.shrink(k)));
   const double slope = slope_m2(j, k);
-  if (directions_.normal(k).y() < kLooksDown) price_m3 *= kDownPrice;
+  if (directions_.normal(k).y() < options_.looks_down) price_m3 *= options_.down_price;
   // Breaks between low and high.
   breaks_.clear();
   const double own_m = h(j)[k];
@@ -242,9 +237,7 @@ void HullFit::sweep(double price_m3, double tolerance_m, double max_m) {
 }
 
 void HullFit::smooth_lower_edge() {
-  // Chosen: less than half the distance between vines, so that the gap between two trunks stays;
-  // a band of some leaves; fewer points than a dense cloud shows on one side of a row.
-  constexpr double kReach_m = 0.4, kBand_m = 0.1, kFew_per_m = 50.0;
+  const double reach_m = options_.edge_reach_m;
   // The side that looks down most.
   int k = 0;
   for (int other = 1; other < c_; ++other) {
@@ -253,24 +246,25 @@ void HullFit::smooth_lower_edge() {
   const std::vector<double> before = h_;
   const auto level_m = [&](int j) { return before[static_cast<std::size_t>(j) * c_ + k]; };
   const Eigen::Vector2f n = directions_.normal(k).cast<float>();
-  const int reach = std::max(1, static_cast<int>(std::lround(kReach_m / stretch_.slice_m())));
+  const int reach = std::max(1, static_cast<int>(std::lround(reach_m / stretch_.slice_m())));
   const auto few_were_seen = [&](int j) {
     const int from = std::max(0, j - reach), to = std::min(stretch_.slices(), j + reach);
-    const double min_m = level_m(j) - kBand_m;
+    const double min_m = level_m(j) - options_.edge_band_m;
     std::int64_t seen = 0;
     for (std::size_t p = stretch_.first[from]; p < stretch_.first[to]; ++p) {
       const Eigen::Vector3f& point = stretch_.points[p];
       seen += n.x() * point.y() + n.y() * point.z() > min_m ? 1 : 0;
     }
-    return static_cast<double>(seen) <= kFew_per_m * (to - from) * stretch_.slice_m();
+    const double few = options_.edge_few_per_m * (to - from) * stretch_.slice_m();
+    return static_cast<double>(seen) <= few;
   };
   for (int j = 0; j >= 0; j = next_[j]) {
     if (!few_were_seen(j)) continue;
     double lowest_m = level_m(j);
-    for (int i = prev_[j]; i >= 0 && knots_[j] - knots_[i] <= kReach_m; i = prev_[i]) {
+    for (int i = prev_[j]; i >= 0 && knots_[j] - knots_[i] <= reach_m; i = prev_[i]) {
       lowest_m = std::max(lowest_m, level_m(i));
     }
-    for (int i = next_[j]; i >= 0 && knots_[i] - knots_[j] <= kReach_m; i = next_[i]) {
+    for (int i = next_[j]; i >= 0 && knots_[i] - knots_[j] <= reach_m; i = next_[i]) {
       lowest_m = std::max(lowest_m, level_m(i));
     }
     const double room_m = directions_.side_m(h(j), k) - kMinSide_m;
@@ -338,7 +332,7 @@ void HullFit::find_above(double excess_m, std::vector<Eigen::Vector3f>& points) 
 }
 
 /// Number of pairs (point, side) outside between sections a and b, those below weighted by
-/// kDownPrice.
+/// down_price.
 std::int64_t HullFit::outside(int a, int b, double tolerance_m) const {
   std::int64_t count = 0;
   const double per_m = 1.0 / (knots_[b] - knots_[a]);
@@ -352,8 +346,8 @@ std::int64_t HullFit::outside(int a, int b, double tolerance_m) const {
         own += candidates_[p].v_m > at + rise * candidates_[p].s_m;
       }
     }
-    count +=
-        directions_.normal(k).y() < kLooksDown ? static_cast<std::int64_t>(kDownPrice) * own : own;
+    const bool looks_down = directions_.normal(k).y() < options_.looks_down;
+    count += looks_down ? static_cast<std::int64_t>(options_.down_price) * own : own;
   }
   return count;
 }
@@ -378,8 +372,6 @@ void HullFit::drop(int j) {
 /// Cost of removing section j, over the up to four spans around it. The hull is restored.
 /// @param made  if not null: the removal
 double HullFit::try_without(int j, double price_m3, double tolerance_m, Removal* made) {
-  // Chosen: largest move of a neighbour's side, a third of the depth that collect() has looked at.
-  constexpr double kMax_m = 0.05;
   const int a = prev_[j], b = next_[j];
   const auto sum = [&] {
     double total = cost(a, b, price_m3, tolerance_m);
@@ -398,8 +390,8 @@ double HullFit::try_without(int j, double price_m3, double tolerance_m, Removal*
   next_[a] = b;
   prev_[b] = a;
   for (int k = 0; k < c_; ++k) {
-    improve(a, k, price_m3, tolerance_m, kMax_m);
-    improve(b, k, price_m3, tolerance_m, kMax_m);
+    improve(a, k, price_m3, tolerance_m, options_.removal_move_m);
+    improve(b, k, price_m3, tolerance_m, options_.removal_move_m);
   }
   const double without = sum();
   if (made != nullptr) {

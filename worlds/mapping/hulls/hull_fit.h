@@ -17,6 +17,24 @@
 
 namespace vinerow::mapping {
 
+/// Thresholds of the fit, all chosen.
+struct HullFitOptions {
+  /// Price of a point below the hull, in points: pictures show few low points, and the lower edge
+  /// must not rise above them.
+  double down_price = 20.0;
+  /// Vertical part of the normal below which a side looks down: 17 degrees below the horizontal.
+  double looks_down = -0.3;
+  // Smoothing of the lower edge.
+  /// Along the row: less than half the distance between vines, so that the gap between two trunks
+  /// stays.
+  double edge_reach_m = 0.4;
+  double edge_band_m = 0.1;      ///< some leaves
+  double edge_few_per_m = 50.0;  ///< points; a dense cloud shows more on one side of a row
+  /// Largest move of a neighbour's side when a section is removed: a third of the depth that
+  /// collect() looks at then.
+  double removal_move_m = 0.05;
+};
+
 /// Removal of one section.
 struct Removal {
   double added_m3 = 0.0;  ///< cost in volume and price of points; never falls in the order of
@@ -30,7 +48,8 @@ class HullFit {
  public:
   /// Starts with the offsets that leave one point in a hundred of each slice outside.
   /// @param stretch  must outlive this object
-  HullFit(const RowStretch& stretch, const HullDirections& directions);
+  HullFit(const RowStretch& stretch, const HullDirections& directions,
+          const HullFitOptions& options = {});
 
   int sections() const { return left_; }
   double length_m() const { return stretch_.to_m - stretch_.from_m; }
@@ -47,10 +66,10 @@ class HullFit {
   void count_excess(ExcessCounts& counts) const;
   /// Appends the points with a larger excess, and all points beyond the stretch's ends.
   void find_above(double excess_m, std::vector<Eigen::Vector3f>& points) const;
-  /// Moves the lowest side out to its outermost offset within 0.4 m along the row, if few low
-  /// points were seen there (at most 50 per metre of row within 0.1 m of the side) and as far as
-  /// the section stays convex. Pictures from above do not show the lowest leaves of every slice,
-  /// but the underside of a canopy is even over a few slices.
+  /// Moves the lowest side out to its outermost offset within edge_reach_m along the row, if few
+  /// low points were seen there (edge_few_per_m within edge_band_m of the side) and as far as the
+  /// section stays convex. Pictures from above do not show the lowest leaves of every slice, but
+  /// the underside of a canopy is even over a few slices.
   void smooth_lower_edge();
   /// Moves all sides out, or in if negative.
   void offset(double out_m);
@@ -85,6 +104,7 @@ class HullFit {
 
   const RowStretch& stretch_;
   HullDirections directions_;
+  HullFitOptions options_;
   int c_ = 0;
   int left_ = 0;
   std::vector<double> knots_;     // s of each section, from the start of the stretch

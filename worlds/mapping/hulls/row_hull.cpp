@@ -20,13 +20,6 @@ namespace vinerow::mapping {
 namespace {
 
 constexpr double kSweepReach_m[] = {0.03, 0.02, 0.015, 0.01, 0.01, 0.01};  // of the sweeps
-// Depth of points considered while sections are removed: if the row is wider between two remaining
-// sections, the straight side between them is that far inside the former one.
-constexpr double kRemovalReach_m = 0.15;
-constexpr double kStraight_m = 0.01;  // a row's line may leave the mesh's between two sections
-constexpr double kSparseShare = 0.2;  // of a side's point density below which it was not seen
-// Price of a point in units of area per point: with noise of 1.5 cm it leaves 2 % outside.
-constexpr double kFirstPrice_m = 0.3, kLowPrice_m = 0.12, kHighPrice_m = 3.0;
 
 void check(const RowHullOptions& options) {
   const auto demand = [](bool good, const char* name, double value, const char* allowed) {
@@ -57,7 +50,8 @@ class RowWork {
       : row_(row), ground_(ground), options_(options) {}
 
   void fit() {
-    stretches_ = slice_row(row_, {options_.slice_m, options_.cell_m, options_.gap_m});
+    stretches_ =
+        slice_row(row_, {options_.slice_m, options_.cell_m, options_.gap_m, options_.slices});
     if (stretches_.stretches.empty()) return;
     std::int64_t points = 0;
     for (const RowStretch& stretch : stretches_.stretches) {
@@ -67,7 +61,7 @@ class RowWork {
         choose_directions(stretches_.stretches, options_.corners);
     double area_m2 = 0.0;
     for (const RowStretch& stretch : stretches_.stretches) {
-      fits_.push_back(std::make_unique<HullFit>(stretch, directions));
+      fits_.push_back(std::make_unique<HullFit>(stretch, directions, options_.fit));
       area_m2 += fits_.back()->side_area_m2();
       length_m_ += fits_.back()->length_m();
     }
@@ -78,7 +72,7 @@ class RowWork {
     allowed_ = static_cast<std::int64_t>(std::max(0.97 * spare - static_cast<double>(lost()),
                                                   0.5 * (1.0 - options_.containment) * all));
     per_point_m2_ = area_m2 / static_cast<double>(points);
-    price_m3_ = kFirstPrice_m * per_point_m2_;
+    price_m3_ = options_.first_price_m * per_point_m2_;
     for (const double reach_m : kSweepReach_m) {
       sweep(reach_m);
       adapt_price();
@@ -95,7 +89,7 @@ class RowWork {
         line_W_.emplace_back(p.x(), p.y(), ground_(p.x(), p.y()));
       }
       const auto fewest = static_cast<int>(0.3 * share * stretch.slices());
-      fits_[i]->collect(kRemovalReach_m);
+      fits_[i]->collect(options_.removal_reach_m);
       removals_[i] = fits_[i]->find_removals(
           price_m3_, options_.tolerance_m, free_m3(), fewest,
           [&](double from_m, double to_m) { return is_straight(stretch, from_m, to_m); });
@@ -160,8 +154,9 @@ class RowWork {
   void adapt_price() {
     const double ratio =
         (static_cast<double>(exactly_outside()) + 1.0) / (static_cast<double>(allowed_) + 1.0);
-    price_m3_ = std::clamp(price_m3_ * std::clamp(ratio, 0.3, 3.0), kLowPrice_m * per_point_m2_,
-                           kHighPrice_m * per_point_m2_);
+    price_m3_ =
+        std::clamp(price_m3_ * std::clamp(ratio, 0.3, 3.0), options_.low_price_m * per_point_m2_,
+                   options_.high_price_m * per_point_m2_);
   }
 
   ExcessCounts count() const {
@@ -191,7 +186,8 @@ class RowWork {
     const int a = knot(from_m), b = knot(to_m);
     for (int j = a + 1; j < b; ++j) {
       const double share = static_cast<double>(j - a) / (b - a);
-      if (((1.0 - share) * line_W_[a] + share * line_W_[b] - line_W_[j]).norm() > kStraight_m) {
+      if (((1.0 - share) * line_W_[a] + share * line_W_[b] - line_W_[j]).norm() >
+          options_.straight_m) {
         return false;
       }
     }
@@ -209,7 +205,8 @@ class RowWork {
     }
     double shell = 0.0;
     for (int k = 0; k < options_.corners; ++k) {
-      if (static_cast<double>(counts.count(k)) < kSparseShare * max_per_m2 * area_m2[k]) continue;
+      if (static_cast<double>(counts.count(k)) < options_.unseen * max_per_m2 * area_m2[k])
+        continue;
       const double middle_m = counts.middle_m(k);
       if (std::isfinite(middle_m)) shell -= middle_m * area_m2[k];
     }

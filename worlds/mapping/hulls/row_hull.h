@@ -17,6 +17,7 @@
 
 #include "engine/api/mesh.h"
 #include "worlds/mapping/hulls/hull_chain.h"
+#include "worlds/mapping/hulls/hull_fit.h"
 #include "worlds/mapping/model/cloud_map.h"
 #include "worlds/mapping/rows/row_canopy.h"
 
@@ -36,6 +37,17 @@ struct RowHullOptions {
   /// sections are left out, the least important first, until both are met. 0: no budget.
   double budget_bytes = 0.0;
   double budget_bytes_per_m = 1300.0;
+
+  // Thresholds, all chosen.
+  /// Depth of points considered while sections are removed: if the row is wider between two
+  /// remaining sections, the straight side between them is that far inside the former one.
+  double removal_reach_m = 0.15;
+  double straight_m = 0.01;  ///< that a row's line may leave the mesh's between two sections
+  double unseen = 0.2;       ///< of the densest side's points per area: a side that was not seen
+  // Price of a point in units of area per point: with noise of 1.5 cm it leaves 2 % outside.
+  double first_price_m = 0.3, low_price_m = 0.12, high_price_m = 3.0;
+  RowSliceThresholds slices = {};
+  HullFitOptions fit = {};
 };
 
 /// Hulls of one row.

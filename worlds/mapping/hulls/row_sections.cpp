@@ -8,16 +8,7 @@ namespace {
 
 // Points farther out belong to no plant row; the limit bounds the memory for stray points.
 constexpr float kBeyondEnds_m = 10.0f, kMaxAcross_m = 4.0f, kLowest_m = -2.0f, kHighest_m = 8.0f;
-constexpr double kLocalShare = 0.03, kRowShare = 0.01;
-constexpr float kStray = 2.5f;  // one or two points alone, unless the whole row is as sparse
-constexpr double kStrayShare = 0.15;
-constexpr double kOccupied_m = 0.05;     // steps along the row in which gaps are looked for
-constexpr double kOccupiedShare = 0.05;  // of the median step's points that is canopy
-constexpr double kShortest_m = 0.25;  // shorter stretches are posts, or strays that stand together
-constexpr std::size_t kFewest = 24;   // points of a stretch
-constexpr double kPointsPerSlice = 60.0;
-constexpr double kEndShare = 0.02;  // of the points of an end that noise has carried beyond it
-constexpr double kEnd_m = 0.3;
+constexpr double kOccupied_m = 0.05;  // steps along the row in which gaps are looked for
 
 /// Counts of points in cells along and across the row, to find sparse cells.
 class CellFilter {
@@ -38,7 +29,7 @@ class CellFilter {
     cells_.assign(count_[0] * count_[1] * count_[2], 0);
     for (const Eigen::Vector3f& p : points) ++cells_[cell_of(p)];
     add_up();
-    find_thresholds();
+    find_thresholds(options.thresholds);
   }
 
   bool is_sparse(const Eigen::Vector3f& p) const {
@@ -73,7 +64,7 @@ class CellFilter {
     }
   }
 
-  void find_thresholds() {
+  void find_thresholds(const RowSliceThresholds& thresholds) {
     // Of each layer the sums of its cells with their points; the median weighs points.
     std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> layers(count_[0]);
     for (std::size_t i = 0; i < count_[0]; ++i) {
@@ -111,9 +102,10 @@ class CellFilter {
         std::nth_element(near.begin(), middle, near.end());
         local = *middle;
       }
-      least_[i] = std::max({static_cast<float>(kLocalShare) * local,
-                            static_cast<float>(kRowShare) * row_median,
-                            std::min(kStray, static_cast<float>(kStrayShare) * row_median)});
+      least_[i] = std::max({static_cast<float>(thresholds.local) * local,
+                            static_cast<float>(thresholds.row) * row_median,
+                            std::min(static_cast<float>(thresholds.stray),
+                                     static_cast<float>(thresholds.stray_row) * row_median)});
     }
   }
 
@@ -133,10 +125,10 @@ double median_of_positive(std::vector<std::uint32_t> counts) {
 
 /// Steps along the row with canopy: enough points, and not only those of a post where vines are
 /// missing.
-std::vector<std::uint8_t> occupied_steps(const std::vector<std::uint32_t>& counts) {
+std::vector<std::uint8_t> occupied_steps(const std::vector<std::uint32_t>& counts, double share) {
   constexpr std::size_t kPost = 6;   // steps that it takes up at most, with the points' noise
   constexpr std::size_t kApart = 2;  // empty ones on both sides
-  const double least = kOccupiedShare * median_of_positive(counts);
+  const double least = share * median_of_positive(counts);
   std::vector<std::uint8_t> occupied(counts.size());
   for (std::size_t i = 0; i < counts.size(); ++i) {
     occupied[i] = counts[i] > 0 && static_cast<double>(counts[i]) >= least ? 1 : 0;
@@ -161,22 +153,24 @@ std::vector<std::uint8_t> occupied_steps(const std::vector<std::uint32_t>& count
 }
 
 /// End of the canopy from values of s in any order: a share of those close to the end is noise.
-double robust_end(std::vector<float>& s_m, bool low) {
+double robust_end(std::vector<float>& s_m, bool low, const RowSliceThresholds& thresholds) {
   const auto order = [low](float a, float b) { return low ? a < b : a > b; };
   const float outermost = *std::min_element(s_m.begin(), s_m.end(), order);
   const double sign = low ? 1.0 : -1.0;
   std::vector<float> near;
   for (const float s : s_m) {
-    if (sign * (s - outermost) <= kEnd_m) near.push_back(s);
+    if (sign * (s - outermost) <= thresholds.end_m) near.push_back(s);
   }
-  const auto left_out = static_cast<std::ptrdiff_t>(kEndShare * static_cast<double>(near.size()));
+  const auto left_out =
+      static_cast<std::ptrdiff_t>(thresholds.end_share * static_cast<double>(near.size()));
   std::nth_element(near.begin(), near.begin() + left_out, near.end(), order);
   return near[static_cast<std::size_t>(left_out)];
 }
 
 /// @param low_m,high_m  where canopy is dense enough to end
 RowStretch make_stretch(const std::vector<Eigen::Vector3f>& points, double low_m, double high_m,
-                        double slice_m) {
+                        const RowSliceOptions& options) {
+  const RowSliceThresholds& thresholds = options.thresholds;
   RowStretch stretch;
   std::vector<float> s_m;
   s_m.reserve(points.size());
@@ -184,12 +178,13 @@ RowStretch make_stretch(const std::vector<Eigen::Vector3f>& points, double low_m
     if (p.x() >= low_m && p.x() <= high_m) s_m.push_back(p.x());
   }
   if (s_m.empty()) return stretch;
-  stretch.from_m = robust_end(s_m, true);
-  stretch.to_m = robust_end(s_m, false);
+  stretch.from_m = robust_end(s_m, true, thresholds);
+  stretch.to_m = robust_end(s_m, false, thresholds);
   const double length_m = stretch.to_m - stretch.from_m;
-  if (!(length_m >= kShortest_m)) return stretch;
+  if (!(length_m >= thresholds.shortest_m)) return stretch;
   const double per_m = static_cast<double>(points.size()) / length_m;
-  const double step_m = std::min(std::max(slice_m, kPointsPerSlice / per_m), 0.5 * length_m);
+  const double step_m =
+      std::min(std::max(options.slice_m, thresholds.points_per_slice / per_m), 0.5 * length_m);
   const auto slices = static_cast<std::size_t>(std::ceil(length_m / step_m - 1e-6));
   const auto slice_of = [&](const Eigen::Vector3f& p) {
     const double at = (p.x() - stretch.from_m) / length_m * static_cast<double>(slices);
@@ -241,7 +236,7 @@ RowStretches slice_row(const RowCanopy& row, const RowSliceOptions& options) {
   };
   std::vector<std::uint32_t> counts(static_cast<std::size_t>((high_m - low_m) / kOccupied_m) + 1);
   for (const Eigen::Vector3f& p : points) ++counts[step_of(p)];
-  const std::vector<std::uint8_t> canopy = occupied_steps(counts);
+  const std::vector<std::uint8_t> canopy = occupied_steps(counts, options.thresholds.occupied);
   // Points outside the canopy, and not at its rim, would widen the stretch's last section.
   const auto is_off_canopy = [&](const Eigen::Vector3f& p) {
     constexpr std::size_t kRim = 2;
@@ -281,8 +276,8 @@ RowStretches slice_row(const RowCanopy& row, const RowSliceOptions& options) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     std::vector<Eigen::Vector3f>& part = parts[i];
     RowStretch stretch;
-    if (part.size() >= kFewest) {
-      stretch = make_stretch(part, occupied_m[i].first, occupied_m[i].second, options.slice_m);
+    if (static_cast<double>(part.size()) >= options.thresholds.fewest_points) {
+      stretch = make_stretch(part, occupied_m[i].first, occupied_m[i].second, options);
     }
     if (stretch.first.empty()) {
       result.lone += static_cast<std::int64_t>(part.size());

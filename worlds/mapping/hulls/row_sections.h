@@ -10,10 +10,28 @@
 
 namespace vinerow::mapping {
 
+/// Thresholds of slice_row(), all chosen.
+struct RowSliceThresholds {
+  // Sparse cells, as shares of the median point's neighbourhood.
+  double local = 0.03;      ///< of that within 1 m along the row
+  double row = 0.01;        ///< of that of the whole row
+  double stray = 2.5;       ///< points: one or two alone, unless the whole row is as sparse
+  double stray_row = 0.15;  ///< of the whole row's median: its limit for `stray`
+  // Stretches.
+  double occupied = 0.05;          ///< of the median step's points that is canopy
+  double shortest_m = 0.25;        ///< shorter stretches are posts, or strays that stand together
+  double fewest_points = 24.0;     ///< of a stretch
+  double points_per_slice = 60.0;  ///< slices are longer if they would contain fewer
+  // Ends.
+  double end_share = 0.02;  ///< of the points of an end that noise has carried beyond it
+  double end_m = 0.3;       ///< length of an end
+};
+
 struct RowSliceOptions {
   double slice_m = 0.14;
   double cell_m = 0.08;
   double gap_m = 0.5;
+  RowSliceThresholds thresholds = {};
 };
 
 /// Canopy without a gap.

@@ -110,7 +110,7 @@ FoundRows find_rows(const ParcelCloud& cloud, const HeightField& terrain, double
   found.body_cut_m = body_height_m(cloud, above, options.canopy_cut_m, kHighest_m);
   const CanopyRaster raster =
       make_canopy_raster(cloud, above, raster_cell_m(density_per_m2), found.body_cut_m, kHighest_m);
-  RowPatchOptions patch_options;
+  RowPatchOptions patch_options = options.thresholds.direction;
   patch_options.spacing_low_m = options.spacing_low_m;
   patch_options.spacing_high_m = options.spacing_high_m;
   const std::vector<RowPatch> patches =
@@ -125,17 +125,17 @@ FoundRows find_rows(const ParcelCloud& cloud, const HeightField& terrain, double
   TakenSquares taken;
   for (const std::vector<RowPatch>& group : groups) {
     if (group.empty()) continue;
-    RowTrackingOptions tracking;
+    RowTrackingOptions tracking = options.thresholds.tracking;
     tracking.spacing_m = median_spacing_m(group);
     // A machine that turns at the rows' ends needs more than an alley.
     tracking.open_gap_m = std::max(tracking.open_gap_m, 1.2 * tracking.spacing_m);
     tracking.longest_gap_m = std::max(tracking.longest_gap_m, tracking.open_gap_m);
-    RowLineOptions line_options;
+    RowLineOptions line_options = options.thresholds.lines;
     line_options.spacing_m = tracking.spacing_m;
     line_options.length_low_m = options.row_length_low_m;
     const std::vector<RowCurve> found_here =
         fit_row_lines(raster, track_rows(raster, group, tracking, taken), line_options);
-    take_rows(raster, found_here, tracking.spacing_m, taken);
+    take_rows(raster, found_here, tracking, taken);
     lines.insert(lines.end(), found_here.begin(), found_here.end());
     spacing_m.resize(lines.size(), tracking.spacing_m);
   }
@@ -424,7 +424,8 @@ CloudMap make_cloud_map(ParcelCloud& cloud, const CloudMapOptions& options,
   CloudMapReport report;
   report.points = static_cast<std::int64_t>(cloud.points.size());
 
-  const CloudTerrain terrain = fit_terrain(cloud, options.terrain_cell_m);
+  const CloudTerrain terrain =
+      fit_terrain(cloud, options.terrain_cell_m, options.thresholds.terrain);
   report.noise_m = terrain.noise_m;
   report.density_per_m2 = static_cast<double>(report.points) / terrain.covered_m2;
   end_phase("terrain");
@@ -445,7 +446,7 @@ CloudMap make_cloud_map(ParcelCloud& cloud, const CloudMapOptions& options,
   end_phase("points");
 
   const GroundHeight ground = [&](double x, double y) { return terrain.field.height_m(x, y); };
-  RowHullOptions hull_options;
+  RowHullOptions hull_options = options.thresholds.hulls;
   hull_options.corners = options.corners;
   hull_options.slice_m = options.slice_m;
   hull_options.gap_m = options.gap_m;

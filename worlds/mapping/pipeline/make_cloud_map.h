@@ -12,10 +12,22 @@
 #include <vector>
 
 #include "worlds/mapping/grid/occupancy.h"
+#include "worlds/mapping/hulls/row_hull.h"
 #include "worlds/mapping/model/cloud_map.h"
 #include "worlds/mapping/model/parcel_cloud.h"
+#include "worlds/mapping/rows/row_lines.h"
 
 namespace vinerow::mapping {
+
+/// Thresholds of the stages. Fields that CloudMapOptions or the cloud itself give (spacings,
+/// lengths, corners, slices, gaps, budget) are overwritten.
+struct MappingThresholds {
+  CloudTerrainOptions terrain;
+  RowPatchOptions direction;
+  RowTrackingOptions tracking;
+  RowLineOptions lines;
+  RowHullOptions hulls;
+};
 
 struct CloudMapOptions {
   double terrain_cell_m = 1.0;    ///< of the map's ground
@@ -30,6 +42,7 @@ struct CloudMapOptions {
   double gap_m = 0.5;                       ///< a longer stretch without canopy splits a row's mesh
   double budget_MB = 0.0;      ///< of all row meshes as binary PLY; 0: 1.3 kB per metre of row
   OccupancyOptions occupancy;  ///< cell_m = 0: no grid
+  MappingThresholds thresholds;
 };
 
 /// @throws ConfigError for options out of range or in contradiction

@@ -15,26 +15,24 @@
 
 // Plan
 //
-//   1. Coarse surface c(x, y), cells of kCoarseCell_m: a low quantile of each cell's heights,
+//   1. Coarse surface c(x, y), cells of coarse_cell_m: a low quantile of each cell's heights,
 //   filled
 //      in and smoothed. It removes the slope.
 //   2. r = z - c(x, y) of every point goes into the histogram of its terrain cell.
 //   3. The ground of a cell is the lowest peak of its histogram (lowest_peak), by mean shift from a
-//      low quantile: middle <- mean of the r within kReach of middle.
+//      low quantile: middle <- mean of the r within peak_reach_bins of middle.
 //   4. Samples above the morphological opening (the largest of the smallest neighbours) by more
 //      than a step are removed: canopy, walls, hedges (remove_outliers).
 //   5. Holes are filled from their border (fill_in), all samples smoothed with their weights
 //      (smooth), and c is added again.
 //
-// Thresholds are chosen unless a source is named.
+// Thresholds: CloudTerrainOptions. Constants below are chosen too.
 
 namespace vinerow::mapping {
 namespace {
 
 using Eigen::Vector3f;
 
-// Chosen: wider than most row spacings, so that a cell holds a part of an alley.
-constexpr double kCoarseCell_m = 5.0;
 // Limits of memory. The terrain's histograms then take 3.6 GB if all cells are full, and those of
 // the coarse surface 2 GB.
 constexpr double kMaxCells = 4e6;
@@ -198,10 +196,9 @@ void check_extent(const Eigen::AlignedBox3f& box, std::size_t points, const Latt
   }
 }
 
-/// Coarse surface c: the kLowShare quantile of each cell's heights, filled in and smoothed.
-HeightField coarse_surface(const ParcelCloud& cloud, const Lattice& lattice) {
-  // Chosen: above the false matches below the ground, below the vegetation on it.
-  constexpr double kLowShare = 0.03;
+/// Coarse surface c: the coarse_share quantile of each cell's heights, filled in and smoothed.
+HeightField coarse_surface(const ParcelCloud& cloud, const Lattice& lattice,
+                           const CloudTerrainOptions& options) {
   // Chosen: 0.2 m is a tenth of the margin; 2000 bins limit the memory on a steep parcel.
   constexpr float kBin_m = 0.2f;
   constexpr int kMaxBins = 2000;
@@ -223,7 +220,7 @@ HeightField coarse_surface(const ParcelCloud& cloud, const Lattice& lattice) {
   HeightField field;
   field.columns = lattice.columns;
   field.rows = lattice.rows;
-  field.cell_m = kCoarseCell_m;
+  field.cell_m = options.coarse_cell_m;
   field.corner_W = {lattice.corner_x, lattice.corner_y};
   field.heights_m.assign(lattice.size(), kNoHeight);
   for (std::size_t cell = 0; cell < lattice.size(); ++cell) {
@@ -234,7 +231,7 @@ HeightField coarse_surface(const ParcelCloud& cloud, const Lattice& lattice) {
     std::uint64_t below = 0;
     for (int b = 0; b < bins; ++b) {
       below += counts[b];
-      if (static_cast<double>(below) < kLowShare * static_cast<double>(all)) continue;
+      if (static_cast<double>(below) < options.coarse_share * static_cast<double>(all)) continue;
       field.heights_m[cell] = low + (static_cast<float>(b) + 0.5f) / per_bin;
       break;
     }
@@ -262,31 +259,30 @@ struct Ground {
 
 /// Mode of the histogram that mean shift reaches from a low quantile; no ground if there are too
 /// few points.
-Ground lowest_peak(const std::uint32_t* counts) {
+Ground lowest_peak(const std::uint32_t* counts, const CloudTerrainOptions& options) {
   constexpr std::uint64_t kMinPoints = 3;  // chosen: fewer do not share a height
   std::uint64_t all = 0;
   for (int b = 0; b < kHeightBins; ++b) all += counts[b];
   if (all < kMinPoints) return {};
-  constexpr double kLowShare = 0.05;  // chosen: false matches below the ground are fewer
   std::uint64_t below = 0;
   int start = 0;
   while (start < kHeightBins) {
     below += counts[start];
-    if (static_cast<double>(below) >= kLowShare * static_cast<double>(all)) break;
+    if (static_cast<double>(below) >= options.low_share * static_cast<double>(all)) break;
     ++start;
   }
-  // Mean shift. The reach of 7.5 bins is 0.15 m: it spans the noise of the ground and not the
-  // canopy above it. The quantile is on the lower flank of the peak, so that the start is 2 bins
-  // above it.
-  constexpr double kReach = 7.5, kAboveQuantile = 2.0;
+  // Mean shift. The quantile is on the lower flank of the peak, so that the start is 2 bins above
+  // it.
+  constexpr double kAboveQuantile = 2.0;
+  const double reach = options.peak_reach_bins;
   constexpr int kRounds = 6;
   constexpr double kSettled = 0.02;  // bins: 0.4 mm
   double middle = start + kAboveQuantile, sum = 0.0, squares = 0.0;
   for (int round = 0; round < kRounds; ++round) {
     double moment = 0.0;
     sum = squares = 0.0;
-    const int from = std::max(0, static_cast<int>(std::ceil(middle - kReach)));
-    const int to = std::min(kHeightBins - 1, static_cast<int>(std::floor(middle + kReach)));
+    const int from = std::max(0, static_cast<int>(std::ceil(middle - reach)));
+    const int to = std::min(kHeightBins - 1, static_cast<int>(std::floor(middle + reach)));
     for (int b = from; b <= to; ++b) {
       sum += counts[b];
       moment += counts[b] * (b - middle);
@@ -357,13 +353,14 @@ float HeightAbove::operator()(const Eigen::Vector3f& p) const {
   return static_cast<float>(p.z() + origin_z_ - ground);
 }
 
-CloudTerrain fit_terrain(const ParcelCloud& cloud, double cell_m) {
+CloudTerrain fit_terrain(const ParcelCloud& cloud, double cell_m,
+                         const CloudTerrainOptions& options) {
   VINEROW_DEMAND(!cloud.points.empty() && cell_m > 0.0);
   Eigen::AlignedBox3f box;
   for (const Vector3f& p : cloud.points) box.extend(p);
-  const Lattice lattice(box, cell_m), coarse_lattice(box, kCoarseCell_m);
+  const Lattice lattice(box, cell_m), coarse_lattice(box, options.coarse_cell_m);
   check_extent(box, cloud.points.size(), lattice, coarse_lattice);
-  const HeightField coarse = coarse_surface(cloud, coarse_lattice);
+  const HeightField coarse = coarse_surface(cloud, coarse_lattice, options);
   const HeightAbove above_coarse(coarse, Eigen::Vector3d::Zero());
   Histograms histograms(lattice.size(), kHeightBins);
   for_chunks(
@@ -380,22 +377,20 @@ CloudTerrain fit_terrain(const ParcelCloud& cloud, double cell_m) {
   std::vector<Ground> ground(lattice.size());
   CloudTerrain terrain;
   for (std::size_t cell = 0; cell < lattice.size(); ++cell) {
-    ground[cell] = lowest_peak(histograms.of(cell));
+    ground[cell] = lowest_peak(histograms.of(cell), options);
     if (ground[cell].weight > 0.0f) terrain.covered_m2 += cell_m * cell_m;
   }
-  // Small objects first, with a small step; then wide ones, with a larger step, because over 5 m
-  // the ground itself bends. Chosen.
-  constexpr double kSmallReach_m = 2.0, kWideReach_m = 5.0;
-  constexpr float kSmallStep_m = 0.2f, kWideStep_m = 0.8f;
   const auto cells = [&](double reach_m) {
     return std::max(1, static_cast<int>(std::ceil(reach_m / cell_m)));
   };
-  remove_outliers(ground, lattice.columns, lattice.rows, cells(kSmallReach_m), kSmallStep_m);
-  remove_outliers(ground, lattice.columns, lattice.rows, cells(kWideReach_m), kWideStep_m);
+  remove_outliers(ground, lattice.columns, lattice.rows, cells(options.small_reach_m),
+                  static_cast<float>(options.small_step_m));
+  remove_outliers(ground, lattice.columns, lattice.rows, cells(options.wide_reach_m),
+                  static_cast<float>(options.wide_step_m));
 
-  // Weights for smoothing: filled-in samples weigh little, full ones all the same. Chosen: a cell
-  // is full with 20 points, whose mean is steady to a fifth of the noise.
-  constexpr float kFilledIn = 0.02f, kFull_points = 20.0f;
+  // Weights for smoothing: filled-in samples weigh little, full ones all the same.
+  const auto filled_in = static_cast<float>(options.filled_weight);
+  const auto full_points = static_cast<float>(options.full_points);
   HeightField& field = terrain.field;
   field.columns = lattice.columns;
   field.rows = lattice.rows;
@@ -405,7 +400,7 @@ CloudTerrain fit_terrain(const ParcelCloud& cloud, double cell_m) {
   double squares = 0.0, points = 0.0;
   for (std::size_t cell = 0; cell < lattice.size(); ++cell) {
     field.heights_m.push_back(ground[cell].height_m);
-    weights[cell] = kFilledIn + std::min(1.0f, ground[cell].weight / kFull_points);
+    weights[cell] = filled_in + std::min(1.0f, ground[cell].weight / full_points);
     squares += ground[cell].square_sum;
     points += ground[cell].weight;
   }

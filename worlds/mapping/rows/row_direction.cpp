@@ -26,9 +26,6 @@ namespace {
 
 // As the squares of the canopy raster.
 constexpr double kProfileBin_m = 0.1;
-// Likelihoods, chosen: of a window that agrees with its neighbours, and of one that disagrees with
-// most and must be clearer.
-constexpr double kLikely = 0.12, kClear = 0.25;
 constexpr double kDegrees = std::numbers::pi / 180.0;
 
 /// A raster square with canopy, relative to the window's middle.
@@ -138,14 +135,14 @@ double best_angle(const std::vector<Square>& squares, Profile& profile) {
 }
 
 /// v(t): the profile over that of an even cover of the round window; 0 where the chord is short.
-std::vector<double> levelled(const Profile& profile, double radius_m, double square_m) {
-  // Chosen, of R: a shorter chord holds too little canopy. 0.6 R is left at |t| < 0.95 R.
-  constexpr double kMinChord = 0.6;
+std::vector<double> levelled(const Profile& profile, const RowPatchOptions& options,
+                             double square_m) {
+  const double radius_m = options.radius_m;
   std::vector<double> level(profile.bins().size(), 0.0);
   for (std::size_t k = 0; k < level.size(); ++k) {
     const double y = profile.offset_of(static_cast<double>(k));
     const double chord_m = 2.0 * std::sqrt(std::max(0.0, radius_m * radius_m - y * y));
-    if (chord_m < kMinChord * radius_m) continue;
+    if (chord_m < options.min_chord * radius_m) continue;
     level[k] = profile.bins()[k] * square_m * square_m / (chord_m * kProfileBin_m);
   }
   return level;
@@ -157,11 +154,6 @@ struct Period {
 
 /// Period of v by the first large peak of the autocorrelation r; null without one.
 std::optional<Period> period_of(const std::vector<double>& level, const RowPatchOptions& options) {
-  // Chosen: the first peak of nearly the largest height is the spacing, the later ones are its
-  // multiples; a lower one before it comes from weeds or from the shape of the rows.
-  constexpr double kOfHighest = 0.75;
-  // Chosen: below this r is noise.
-  constexpr double kMinPeak = 0.15;
   // Inner part, where the chord is long enough.
   std::size_t first = 0, last = level.size();
   const auto [low, high] = std::minmax_element(level.begin(), level.end());
@@ -195,7 +187,9 @@ std::optional<Period> period_of(const std::vector<double>& level, const RowPatch
   for (std::size_t lag = lag_low; lag <= lag_high; ++lag) highest = std::max(highest, values[lag]);
   for (std::size_t lag = lag_low; lag <= lag_high; ++lag) {
     const bool is_peak = values[lag] >= values[lag - 1] && values[lag] >= values[lag + 1];
-    if (!is_peak || values[lag] < kOfHighest * highest || values[lag] < kMinPeak) continue;
+    if (!is_peak || values[lag] < options.first_peak * highest || values[lag] < options.min_peak) {
+      continue;
+    }
     const double trough =
         *std::min_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(lag) + 1);
     // Vertex of the parabola through the peak and its neighbours, within half a bin.
@@ -208,22 +202,18 @@ std::optional<Period> period_of(const std::vector<double>& level, const RowPatch
   return std::nullopt;
 }
 
-/// Offsets of the rows: for every local maximum of v above a third of the highest, the centre of
+/// Offsets of the rows: for every local maximum of v that is high enough, the centre of
 /// mass of v around it.
 std::vector<double> peaks_of(const std::vector<double>& level, const Profile& profile,
-                             double spacing_m) {
-  // Chosen: a third of the highest is a row with gaps.
-  constexpr double kHighestOver = 3.0;
-  // Chosen, of the spacing: less than half, so that the next row is not reached.
-  constexpr double kPeakReach = 0.35;
+                             double spacing_m, const RowPatchOptions& options) {
   const double highest = *std::max_element(level.begin(), level.end());
   const auto reach =
-      static_cast<std::ptrdiff_t>(std::lround(kPeakReach * spacing_m / kProfileBin_m));
+      static_cast<std::ptrdiff_t>(std::lround(options.row_reach * spacing_m / kProfileBin_m));
   const auto count = static_cast<std::ptrdiff_t>(level.size());
   std::vector<double> offsets;
   for (std::ptrdiff_t k = 0; k < count; ++k) {
     const double value = level[static_cast<std::size_t>(k)];
-    if (value < highest / kHighestOver) continue;
+    if (value < highest / options.row_peak_over) continue;
     bool is_highest = true;
     double sum = 0.0, moment = 0.0;
     for (std::ptrdiff_t n = std::max<std::ptrdiff_t>(0, k - reach);
@@ -241,25 +231,23 @@ std::vector<double> peaks_of(const std::vector<double>& level, const Profile& pr
 /// Rows in one window; null if it holds almost no canopy.
 std::optional<RowPatch> look_at(const CanopyRaster& raster, const Eigen::Vector2d& middle,
                                 const RowPatchOptions& options) {
-  // Chosen: canopy area over R^2, a third of a percent of the window's area.
-  constexpr double kMinCanopy = 0.01;
   const std::vector<Square> squares = squares_around(raster, middle, options.radius_m);
   double canopy_m2 = 0.0;
   for (const Square& square : squares) canopy_m2 += square.weight;
   canopy_m2 *= raster.cell_m * raster.cell_m;
-  if (canopy_m2 < kMinCanopy * options.radius_m * options.radius_m) return std::nullopt;
+  if (canopy_m2 < options.min_canopy * options.radius_m * options.radius_m) return std::nullopt;
   Profile profile(options.radius_m);
   RowPatch patch;
   patch.middle = middle;
   patch.canopy_m2 = canopy_m2;
   patch.angle_rad = best_angle(squares, profile);
   profile.fill(squares, patch.angle_rad);
-  const std::vector<double> level = levelled(profile, options.radius_m, raster.cell_m);
+  const std::vector<double> level = levelled(profile, options, raster.cell_m);
   const auto period = period_of(level, options);
   if (!period) return patch;
   patch.spacing_m = period->spacing_m;
   patch.likelihood = period->likelihood;
-  patch.offsets_m = peaks_of(level, profile, patch.spacing_m);
+  patch.offsets_m = peaks_of(level, profile, patch.spacing_m, options);
   return patch;
 }
 
@@ -306,33 +294,29 @@ double median_spacing_m(const std::vector<RowPatch>& patches) {
 
 std::vector<RowPatch> consistent_windows(const std::vector<RowPatch>& patches,
                                          const RowPatchOptions& options) {
-  // Chosen: share of the surrounding canopy that must agree. At an edge of the parcel, and beside
-  // windows that see no rows clearly, it is well below 1.
-  constexpr double kWith = 0.4;
-  // Directions are axes, so that angles are doubled: +-15 degrees, chosen for curved rows.
-  const double kParallel = std::cos(2.0 * 15.0 * std::numbers::pi / 180.0);
-  // Chosen, of the median spacing: a third, so that neither half nor twice of it passes.
-  constexpr double kNarrow = 0.75, kWide = 1.33;
+  // Directions are axes, so that angles are doubled.
+  const double parallel = std::cos(2.0 * options.parallel_deg * std::numbers::pi / 180.0);
   // Windows are R apart; 3 R, with a margin for rounding.
   constexpr double kAround = 3.01;
   std::vector<RowPatch> likely;
   for (const RowPatch& patch : patches) {
-    if (patch.likelihood >= kLikely) likely.push_back(patch);
+    if (patch.likelihood >= options.likely) likely.push_back(patch);
   }
   if (likely.empty()) return {};
   const double spacing_m = median_spacing_m(likely);
   std::vector<RowPatch> consistent;
   for (const RowPatch& patch : likely) {
-    if (patch.spacing_m < kNarrow * spacing_m || patch.spacing_m > kWide * spacing_m) continue;
+    if (patch.spacing_m < options.narrow * spacing_m) continue;
+    if (patch.spacing_m > options.wide * spacing_m) continue;
     double with = 0.0, all = 0.0;
     for (const RowPatch& other : patches) {
       const double apart_m = (other.middle - patch.middle).norm();
       if (apart_m == 0.0 || apart_m > kAround * options.radius_m) continue;
       all += other.canopy_m2;
-      if (other.likelihood < kLikely) continue;
-      if (std::cos(2.0 * (other.angle_rad - patch.angle_rad)) >= kParallel) with += other.canopy_m2;
+      if (other.likelihood < options.likely) continue;
+      if (std::cos(2.0 * (other.angle_rad - patch.angle_rad)) >= parallel) with += other.canopy_m2;
     }
-    if (with >= kWith * all) consistent.push_back(patch);
+    if (with >= options.agreeing * all) consistent.push_back(patch);
   }
   return consistent;
 }
@@ -340,10 +324,7 @@ std::vector<RowPatch> consistent_windows(const std::vector<RowPatch>& patches,
 std::vector<std::vector<RowPatch>> other_patches(const std::vector<RowPatch>& patches,
                                                  const std::vector<RowPatch>& consistent,
                                                  const RowPatchOptions& options) {
-  // +-10 degrees (axes, doubled angles) and a fifth, chosen: stricter than for the main block,
-  // because fewer windows can agree.
-  const double kParallel = std::cos(2.0 * 10.0 * std::numbers::pi / 180.0);
-  constexpr double kSameSpacing = 1.2;
+  const double parallel = std::cos(2.0 * options.other_parallel_deg * std::numbers::pi / 180.0);
   // Between the distances of a diagonal neighbour, 1.41 R, and of the next but one, 2 R.
   constexpr double kAdjacent = 1.5;
   std::vector<RowPatch> left;
@@ -351,12 +332,13 @@ std::vector<std::vector<RowPatch>> other_patches(const std::vector<RowPatch>& pa
     const bool is_taken =
         std::any_of(consistent.begin(), consistent.end(),
                     [&](const RowPatch& other) { return other.middle == patch.middle; });
-    if (!is_taken && patch.likelihood >= kClear) left.push_back(patch);
+    if (!is_taken && patch.likelihood >= options.clear) left.push_back(patch);
   }
   const auto are_consistent = [&](const RowPatch& a, const RowPatch& b) {
     return (a.middle - b.middle).norm() < kAdjacent * options.radius_m &&
-           std::cos(2.0 * (a.angle_rad - b.angle_rad)) >= kParallel &&
-           std::max(a.spacing_m, b.spacing_m) <= kSameSpacing * std::min(a.spacing_m, b.spacing_m);
+           std::cos(2.0 * (a.angle_rad - b.angle_rad)) >= parallel &&
+           std::max(a.spacing_m, b.spacing_m) <=
+               options.other_spacing * std::min(a.spacing_m, b.spacing_m);
   };
   // Connected components, by growing each from its first window.
   std::vector<std::vector<RowPatch>> groups;

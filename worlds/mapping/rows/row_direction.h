@@ -21,6 +21,27 @@ struct RowPatch {
 struct RowPatchOptions {
   double radius_m = 10.0;
   double spacing_low_m = 1.0, spacing_high_m = 6.0;
+
+  // Thresholds, all chosen.
+  double min_canopy = 0.01;  ///< canopy area over R^2, a third of a percent of the window's area
+  /// Of R. A shorter chord of the window holds too little canopy. 0.6 R is left at |t| < 0.95 R.
+  double min_chord = 0.6;
+  /// Of the highest peak of the autocorrelation. The first peak above it is the spacing, later ones
+  /// are its multiples; a lower one before it comes from weeds or from the shape of the rows.
+  double first_peak = 0.75;
+  double min_peak = 0.15;      ///< of the autocorrelation; below is noise
+  double row_peak_over = 3.0;  ///< a third of the highest peak of the profile is a row with gaps
+  double row_reach = 0.35;     ///< of the spacing: less than half, so that the next row is not met
+  double likely = 0.12;        ///< likelihood of a window that agrees with its neighbours
+  double clear = 0.25;         ///< and of one that disagrees with most and must be clearer
+  /// Share of the surrounding canopy that must agree. At an edge of the parcel, and beside windows
+  /// that see no rows clearly, it is well below 1.
+  double agreeing = 0.4;
+  double parallel_deg = 15.0;         ///< for curved rows
+  double narrow = 0.75, wide = 1.33;  ///< of the median spacing: neither half nor twice of it
+  // Of other blocks: stricter than for the main one, because fewer windows can agree.
+  double other_parallel_deg = 10.0;
+  double other_spacing = 1.2;  ///< ratio of two spacings
 };
 
 /// Windows over the whole raster, one radius apart, in the raster's order. Windows without canopy

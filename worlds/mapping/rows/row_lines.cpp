@@ -12,18 +12,18 @@
 //
 //   1. Centres. Every metre of the line, c = weighted mean of the canopy squares in a window of
 //      1.5 m x 2 across_m, with the raster's weights w.
-//   2. Line. Straight if no 10 m mean of the centres is farther than kStraight_m from the total
+//   2. Line. Straight if no mean_m mean of the centres is farther than straight_m from the total
 //      least squares line; else locally weighted parabolas p(x) = b0 + b1 x + b2 x^2 through the
 //      centres (one per coordinate), evaluated at x = 0 every kPitch_m. Steps 1 and 2 are repeated,
 //      because a better line moves the windows.
-//   3. Ends. The line is cut to the canopy along it (canopy_stretch). If more than kCutOff_m is cut
+//   3. Ends. The line is cut to the canopy along it (canopy_stretch). If more than cut_off_m is cut
 //      off, steps 1 to 3 are repeated without the part that was cut off.
 //   4. Checks: length, canopy along the line and free alleys (is_row_like), and at last, among all
 //      lines, a parallel neighbour (has_neighbour).
 //
 // x is along a line and y to its left, with unit vectors u and n. Weights are counts of squares: 1
 // is an average square of canopy (CanopyRaster). Thresholds in shares of the row spacing scale
-// with the vineyard. All of them are chosen.
+// with the vineyard: RowLineOptions.
 
 namespace vinerow::mapping {
 namespace {
@@ -62,24 +62,21 @@ struct Centre {
 };
 
 /// Centres of the canopy at every metre of a line. Windows without canopy give none.
-std::vector<Centre> centres_along(const CanopyRaster& raster, const RowCurve& line,
-                                  double across_m) {
-  // Chosen: windows 1 m apart overlap by 0.5 m, so that a vine is seen by two of them.
-  constexpr double kHalfWindow_m = 0.75;
-  // Chosen: one average square; less is a stray point.
-  constexpr double kMinWeight = 1.0;
+std::vector<Centre> centres_along(const CanopyRaster& raster, const RowCurve& line, double across_m,
+                                  const RowLineOptions& options) {
   std::vector<Centre> centres;
   const int count = std::max(2, static_cast<int>(std::lround(line.length_m())) + 1);
   for (int k = 0; k < count; ++k) {
     const double s_m = line.length_m() * k / (count - 1);
     const Vector2d p = line.point_W(s_m), u = line.direction_W(s_m);
     double sum = 0.0, x_sum = 0.0, y_sum = 0.0;
-    for_canopy(raster, p, u, kHalfWindow_m, across_m, [&](double x, double y, double weight) {
-      sum += weight;
-      x_sum += weight * x;
-      y_sum += weight * y;
-    });
-    if (sum <= kMinWeight) continue;
+    for_canopy(raster, p, u, options.half_window_m, across_m,
+               [&](double x, double y, double weight) {
+                 sum += weight;
+                 x_sum += weight * x;
+                 y_sum += weight * y;
+               });
+    if (sum <= options.min_weight) continue;
     centres.push_back({p + x_sum / sum * u + y_sum / sum * left_of(u), sum});
   }
   return centres;
@@ -99,15 +96,12 @@ std::optional<RowCurve> curve_through(const std::vector<Vector2d>& points) {
 
 struct StraightLine {
   Vector2d middle, u;
-  double off_m;  // largest distance of a 10 m mean of the centres from the line
+  double off_m;  // largest distance of a mean_m mean of the centres from the line
 };
 
 /// Total least squares line: minimises sum w (n . (c - middle))^2. With the second moments xx, xy,
 /// yy about the weighted mean, its angle is 1/2 atan2(2 xy, xx - yy).
-StraightLine straight_through(const std::vector<Centre>& centres) {
-  // Chosen: a single centre is off by the shape of its vine; about ten vines average that out, and
-  // the bend of a curved row still shows.
-  constexpr double kMean_m = 10.0;
+StraightLine straight_through(const std::vector<Centre>& centres, double mean_m) {
   Vector2d middle = Vector2d::Zero();
   double weight = 0.0;
   for (const Centre& c : centres) {
@@ -126,13 +120,13 @@ StraightLine straight_through(const std::vector<Centre>& centres) {
   StraightLine line{middle, {std::cos(angle), std::sin(angle)}, 0.0};
   const Vector2d way = centres.back().p - centres.front().p;
   if (way.dot(line.u) < 0.0) line.u = -line.u;
-  // off_m = max |sum w y / sum w| over consecutive pieces of kMean_m.
+  // off_m = max |sum w y / sum w| over consecutive pieces of mean_m.
   double sum = 0.0, sum_weight = 0.0;
   double from_m = (centres.front().p - middle).dot(line.u);
   for (std::size_t k = 0; k <= centres.size(); ++k) {
     const bool is_end = k == centres.size();
     const double s_m = is_end ? 0.0 : (centres[k].p - middle).dot(line.u);
-    if (is_end || s_m - from_m > kMean_m) {
+    if (is_end || s_m - from_m > mean_m) {
       // The last piece may be short and its mean noisy: it counts only if it is the only one.
       if (sum_weight > 0.0 && (!is_end || line.off_m == 0.0)) {
         line.off_m = std::max(line.off_m, std::abs(sum / sum_weight));
@@ -147,20 +141,16 @@ StraightLine straight_through(const std::vector<Centre>& centres) {
   return line;
 }
 
-/// Locally weighted parabolas. At each s, b = argmin sum w (1 - (x / kReach_m)^2)^2
+/// Locally weighted parabolas. At each s, b = argmin sum w (1 - (x / smooth_reach_m)^2)^2
 /// |c - here - b0 - b1 x - b2 x^2|^2 with x the centre's distance along the line; the point is
 /// here + b0. `moments` b = `sums` are the normal equations.
-std::vector<Vector2d> smoothed(const RowCurve& line, const std::vector<Centre>& centres) {
-  // Chosen: the window of 16 m holds 16 centres for 3 unknowns; a point every 2 m follows what such
-  // a window can resolve.
-  constexpr double kPitch_m = 2.0, kReach_m = 8.0;
-  // Chosen: with centres less far than this to one side the parabola extrapolates there.
-  constexpr double kMinSide_m = 2.0;
+std::vector<Vector2d> smoothed(const RowCurve& line, const std::vector<Centre>& centres,
+                               const RowLineOptions& options) {
+  // Chosen: a point every 2 m follows what a window of 16 m can resolve.
+  constexpr double kPitch_m = 2.0;
   // Added to the normal equations. With squares of 0.1 m the sums of w x^4 stay below 1e6 m^4, so
   // that 1e9 forces b2 to 0; 1e-9 keeps the matrix regular with a single centre.
   constexpr double kNoBend = 1e9, kRegular = 1e-9;
-  // Chosen: a jump of more than this is a failed fit, and the old point is kept.
-  constexpr double kMaxShift_m = 1.0;
   std::vector<double> at_m;
   for (const Centre& c : centres) at_m.push_back(line.nearest_s_m(c.p));
   const int count = std::max(2, static_cast<int>(std::lround(line.length_m() / kPitch_m)) + 1);
@@ -172,7 +162,7 @@ std::vector<Vector2d> smoothed(const RowCurve& line, const std::vector<Centre>& 
     const Vector2d here = line.point_W(s_m);
     double low_m = 0.0, high_m = 0.0;
     for (std::size_t n = 0; n < centres.size(); ++n) {
-      const double x = at_m[n] - s_m, share = std::abs(x) / kReach_m;
+      const double x = at_m[n] - s_m, share = std::abs(x) / options.smooth_reach_m;
       if (share >= 1.0) continue;
       const double bell = 1.0 - share * share;
       const Eigen::Vector3d powers(1.0, x, x * x);
@@ -181,24 +171,21 @@ std::vector<Vector2d> smoothed(const RowCurve& line, const std::vector<Centre>& 
       low_m = std::min(low_m, x), high_m = std::max(high_m, x);
     }
     // Few centres, or all to one side: a parabola would swing out, so a straight line is fitted.
-    const bool is_bent = low_m < -kMinSide_m && high_m > kMinSide_m;
+    const bool is_bent = low_m < -options.min_side_m && high_m > options.min_side_m;
     if (!is_bent) moments(2, 2) += kNoBend;
     moments.diagonal().array() += kRegular;
     const Vector2d off = moments.ldlt().solve(sums).row(0).transpose();
-    points.push_back(here + (off.norm() < kMaxShift_m ? off : Vector2d::Zero()));
+    points.push_back(here + (off.norm() < options.max_shift_m ? off : Vector2d::Zero()));
   }
   return points;
 }
 
 /// Bins of a line at which the canopy is too wide for a row: a tree's crown, or a hedge across. In
 /// a window of `run` bins around each, share = sum(beside) / sum(core); wide is a share above
-/// max(kWide, kTimesUsual * median share of the line).
+/// max(wide, wide_over * median share of the line).
 /// @param core,beside  canopy on the line and in the half alleys beside it, for each bin
 std::vector<bool> find_wide(const std::vector<double>& core, const std::vector<double>& beside,
-                            int run) {
-  // Chosen: the half alleys hold 3 squares for every 2 of the core, so an even cover has a share of
-  // 1.5 and a row with free alleys nearly 0. The median admits rows that are wide throughout.
-  constexpr double kWide = 0.6, kTimesUsual = 2.0;
+                            int run, const RowLineOptions& options) {
   std::vector<double> shares(core.size(), 0.0), usual;
   for (std::size_t k = 0; k < core.size(); ++k) {
     const auto reach = static_cast<std::size_t>(run / 2);
@@ -215,7 +202,7 @@ std::vector<bool> find_wide(const std::vector<double>& core, const std::vector<d
   if (usual.empty()) return std::vector<bool>(core.size(), false);
   const auto middle = usual.begin() + static_cast<std::ptrdiff_t>(usual.size() / 2);
   std::nth_element(usual.begin(), middle, usual.end());
-  const double least = std::max(kWide, kTimesUsual * *middle);
+  const double least = std::max(options.wide, options.wide_over * *middle);
   std::vector<bool> is_wide(core.size());
   for (std::size_t k = 0; k < core.size(); ++k) is_wide[k] = shares[k] > least;
   return is_wide;
@@ -224,41 +211,33 @@ std::vector<bool> find_wide(const std::vector<double>& core, const std::vector<d
 /// Stretch [from, to] of a line, in m from its start, from its first canopy to its last; it may
 /// begin before 0 and end beyond the line.
 ///
-/// The line, extended by kBeyond_ends_m, is divided into bins. A bin is canopy if its weight is at
-/// least kLow times the median of the bins that hold any, and it is not too wide (find_wide). A run
-/// is kRun bins of canopy in a row. Each end is searched outwards from a little inside the track's
-/// end, until a gap beyond that end exceeds kLongest_gap_m; the outermost run found is the end.
-/// Without one the search goes inwards from the track's end.
+/// The line, extended by beyond_ends_m, is divided into bins. A bin is canopy if its weight is at
+/// least `low` times the median of the bins that hold any, and it is not too wide (find_wide). A
+/// run is kRun bins of canopy in a row. Each end is searched outwards from a little inside the
+/// track's end, until a gap beyond that end exceeds longest_gap_m; the outermost run found is the
+/// end. Without one the search goes inwards from the track's end.
 std::optional<std::pair<double, double>> canopy_stretch(const CanopyRaster& raster,
                                                         const RowCurve& line, double across_m,
-                                                        double half_alley_m) {
-  // Chosen: a track ends on canopy within a step or two of 1 m, so that the row goes on a few
-  // metres at most; a larger gap is a headland.
-  constexpr double kBeyond_ends_m = 4.0, kLongest_gap_m = 2.0;
+                                                        double half_alley_m,
+                                                        const RowLineOptions& options) {
+  const double beyond_m = options.beyond_ends_m;
   // Bins are as long as a raster square, and at least 0.1 m.
   constexpr double kMinBin_m = 0.1;
   const double kBin_along_m = std::max(kMinBin_m, raster.cell_m);
-  // Chosen: core of a row, as a share of the half alley.
-  constexpr double kCoreShare = 0.4;
-  // Chosen: a thin vine passes; a post or a stay, which is a few squares wide, does not.
-  constexpr double kLow = 0.45;
-  // Chosen: 0.6 m in one piece is a vine, and not a post or the stay behind the last one. At least
-  // three bins, so that one noisy square makes no run.
-  constexpr double kRun_m = 0.6;
+  // Chosen: three bins, so that one noisy square makes no run.
   constexpr int kMinRun_bins = 3;
   // Chosen: the search starts this far inside the track (2 m in bins of 0.1 m).
   constexpr int kInside_bins = 20;
-  const int bins =
-      static_cast<int>(std::ceil((line.length_m() + 2.0 * kBeyond_ends_m) / kBin_along_m));
+  const int bins = static_cast<int>(std::ceil((line.length_m() + 2.0 * beyond_m) / kBin_along_m));
   std::vector<double> weights(static_cast<std::size_t>(bins), 0.0);
   std::vector<double> core(weights.size(), 0.0), beside(weights.size(), 0.0);
   for (int k = 0; k < bins; ++k) {
     const auto bin = static_cast<std::size_t>(k);
-    const double s_m = -kBeyond_ends_m + (k + 0.5) * kBin_along_m;
+    const double s_m = -beyond_m + (k + 0.5) * kBin_along_m;
     for_canopy(raster, line.point_W(s_m), line.direction_W(s_m), 0.5 * kBin_along_m, half_alley_m,
                [&](double, double y, double weight) {
                  if (std::abs(y) <= across_m) weights[bin] += weight;
-                 (std::abs(y) < kCoreShare * half_alley_m ? core : beside)[bin] += weight;
+                 (std::abs(y) < options.core * half_alley_m ? core : beside)[bin] += weight;
                });
   }
   // Median weight of the bins that hold canopy.
@@ -269,11 +248,12 @@ std::optional<std::pair<double, double>> canopy_stretch(const CanopyRaster& rast
   if (sorted.empty()) return std::nullopt;
   std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
                    sorted.end());
-  const double least = kLow * sorted[sorted.size() / 2];
+  const double least = options.low * sorted[sorted.size() / 2];
   std::vector<bool> is_canopy(weights.size());
   for (std::size_t k = 0; k < weights.size(); ++k) is_canopy[k] = weights[k] >= least;
-  const int kRun = std::max(kMinRun_bins, static_cast<int>(std::lround(kRun_m / kBin_along_m)));
-  const std::vector<bool> is_wide = find_wide(core, beside, kRun);
+  const int kRun =
+      std::max(kMinRun_bins, static_cast<int>(std::lround(options.run_m / kBin_along_m)));
+  const std::vector<bool> is_wide = find_wide(core, beside, kRun, options);
   for (std::size_t k = 0; k < weights.size(); ++k) is_canopy[k] = is_canopy[k] && !is_wide[k];
   int first = -1, last = -1;
   const int middle = bins / 2;
@@ -286,11 +266,11 @@ std::optional<std::pair<double, double>> canopy_stretch(const CanopyRaster& rast
   };
   // Outwards from both ends of the track. Gaps count beyond its ends only: inside the track they
   // are missing vines.
-  const int track_first = static_cast<int>(kBeyond_ends_m / kBin_along_m);
+  const int track_first = static_cast<int>(beyond_m / kBin_along_m);
   const int track_last = bins - 1 - track_first;
+  const int longest_gap = static_cast<int>(options.longest_gap_m / kBin_along_m);
   int gap = 0;
-  for (int k = track_first + kInside_bins;
-       k >= 0 && gap <= static_cast<int>(kLongest_gap_m / kBin_along_m); --k) {
+  for (int k = track_first + kInside_bins; k >= 0 && gap <= longest_gap; --k) {
     if (k <= middle && run_at(k)) {
       first = k;
       gap = 0;
@@ -299,8 +279,8 @@ std::optional<std::pair<double, double>> canopy_stretch(const CanopyRaster& rast
     }
   }
   gap = 0;
-  for (int k = std::max(0, track_last - kInside_bins);
-       k + kRun <= bins && gap <= static_cast<int>(kLongest_gap_m / kBin_along_m); ++k) {
+  for (int k = std::max(0, track_last - kInside_bins); k + kRun <= bins && gap <= longest_gap;
+       ++k) {
     if (k >= middle - kRun && run_at(k)) {
       last = k + kRun;
       gap = 0;
@@ -320,7 +300,7 @@ std::optional<std::pair<double, double>> canopy_stretch(const CanopyRaster& rast
     }
   }
   if (first < 0 || last <= first) return std::nullopt;
-  return std::pair{-kBeyond_ends_m + first * kBin_along_m, -kBeyond_ends_m + last * kBin_along_m};
+  return std::pair{-beyond_m + first * kBin_along_m, -beyond_m + last * kBin_along_m};
 }
 
 /// The line from `from_m` to `to_m`, which may be beyond its ends; null if that is too short.
@@ -340,54 +320,47 @@ std::optional<RowCurve> cut_to(const RowCurve& line, double from_m, double to_m)
   return curve_through(points);
 }
 
-/// True if at least kCovered of the line's metres hold canopy and the line holds more than
-/// kContrast times the canopy of the alleys beside it. Lines through bushes on a meadow fail.
-bool is_row_like(const CanopyRaster& raster, const RowCurve& line, double spacing_m) {
-  // Chosen: rows with many missing vines pass, chains of single bushes do not.
-  constexpr double kCovered = 0.45, kContrast = 3.0;
-  // Chosen, in row spacings from the line: the row, and its alleys up to a little beyond their
-  // middle at 0.5, between them the reach of shoots that belongs to neither.
-  constexpr double kRowShare = 0.2, kAlleyFrom = 0.4, kAlleyTo = 0.6;
-  constexpr double kHalfMetre_m = 0.5;   // windows along the line abut
-  constexpr double kMinCanopy_m2 = 0.1;  // chosen: of canopy, in a metre that counts as covered
+/// True if enough of the line's metres hold canopy and the line holds more than `contrast` times
+/// the canopy of the alleys beside it. Lines through bushes on a meadow fail.
+bool is_row_like(const CanopyRaster& raster, const RowCurve& line, const RowLineOptions& options) {
+  constexpr double kHalfMetre_m = 0.5;  // windows along the line abut
+  const double spacing_m = options.spacing_m;
   const int count = std::max(2, static_cast<int>(line.length_m()));
   int covered = 0;
   double row = 0.0, beside = 0.0;
   for (int k = 0; k < count; ++k) {
     const double s_m = line.length_m() * (k + 0.5) / count;
     double here = 0.0;
-    for_canopy(raster, line.point_W(s_m), line.direction_W(s_m), kHalfMetre_m, kAlleyTo * spacing_m,
-               [&](double, double y, double weight) {
-                 if (std::abs(y) < kRowShare * spacing_m) here += weight;
-                 if (std::abs(y) > kAlleyFrom * spacing_m) beside += weight;
+    for_canopy(raster, line.point_W(s_m), line.direction_W(s_m), kHalfMetre_m,
+               options.alley_to * spacing_m, [&](double, double y, double weight) {
+                 if (std::abs(y) < options.row_share * spacing_m) here += weight;
+                 if (std::abs(y) > options.alley_from * spacing_m) beside += weight;
                });
     row += here;
-    covered += here * raster.cell_m * raster.cell_m > kMinCanopy_m2 ? 1 : 0;
+    covered += here * raster.cell_m * raster.cell_m > options.min_canopy_m2 ? 1 : 0;
   }
-  return covered >= kCovered * count && row > kContrast * beside;
+  return covered >= options.covered * count && row > options.contrast * beside;
 }
 
 /// Line through the centres of the canopy along a first guess (steps 1 and 2); null if there is too
 /// little canopy.
 std::optional<RowCurve> fit_curve(const CanopyRaster& raster, const RowCurve& guess,
-                                  double across_m) {
-  // Chosen: about half a raster square of 0.1 m, below which a bend is noise.
-  constexpr double kStraight_m = 0.06;
+                                  double across_m, const RowLineOptions& options) {
   constexpr int kRounds = 4;              // chosen: enough for the windows to settle on the row
   constexpr std::size_t kMinCentres = 3;  // a parabola has three unknowns
   constexpr double kMinLength_m = 1.0;    // chosen: the pitch of the centres
   std::optional<RowCurve> line = guess;
   for (int round = 0; round < kRounds; ++round) {
-    const std::vector<Centre> centres = centres_along(raster, *line, across_m);
+    const std::vector<Centre> centres = centres_along(raster, *line, across_m, options);
     if (centres.size() < kMinCentres) return std::nullopt;
-    const StraightLine straight = straight_through(centres);
-    if (straight.off_m < kStraight_m) {
+    const StraightLine straight = straight_through(centres, options.mean_m);
+    if (straight.off_m < options.straight_m) {
       const double from_m = (centres.front().p - straight.middle).dot(straight.u);
       const double to_m = (centres.back().p - straight.middle).dot(straight.u);
       if (to_m - from_m < kMinLength_m) return std::nullopt;
       line = RowCurve({straight.middle + from_m * straight.u, straight.middle + to_m * straight.u});
     } else {
-      line = curve_through(smoothed(*line, centres));
+      line = curve_through(smoothed(*line, centres, options));
       if (!line) return std::nullopt;
     }
   }
@@ -397,35 +370,34 @@ std::optional<RowCurve> fit_curve(const CanopyRaster& raster, const RowCurve& gu
 /// Steps 1 to 4 for one track, without the neighbour; null if it is no row.
 std::optional<RowCurve> fit_line(const CanopyRaster& raster, const RowTrack& track,
                                  const RowLineOptions& options) {
-  // Of the spacing: the reach of a row, as in row_tracking.cpp, and the middle of the alley.
-  constexpr double kAcross = 0.4, kHalfAlley = 0.5;
-  const double across_m = kAcross * options.spacing_m;
+  constexpr double kHalfAlley = 0.5;  // of the spacing: the middle of the alley
+  const double across_m = options.across * options.spacing_m;
   const double half_alley_m = kHalfAlley * options.spacing_m;
   auto line = curve_through(track);
-  if (line) line = fit_curve(raster, *line, across_m);
+  if (line) line = fit_curve(raster, *line, across_m, options);
   if (!line) return std::nullopt;
-  auto stretch = canopy_stretch(raster, *line, across_m, half_alley_m);
+  auto stretch = canopy_stretch(raster, *line, across_m, half_alley_m, options);
   // The part that is cut off was no row and has drawn the line towards it: fit again without it.
-  // Chosen: 1.5 m, a window of centres_along().
-  constexpr double kCutOff_m = 1.5;
-  if (stretch && (stretch->first > kCutOff_m || line->length_m() - stretch->second > kCutOff_m)) {
+  if (stretch && (stretch->first > options.cut_off_m ||
+                  line->length_m() - stretch->second > options.cut_off_m)) {
     line = cut_to(*line, stretch->first, stretch->second);
-    if (line) line = fit_curve(raster, *line, across_m);
+    if (line) line = fit_curve(raster, *line, across_m, options);
     if (!line) return std::nullopt;
-    stretch = canopy_stretch(raster, *line, across_m, half_alley_m);
+    stretch = canopy_stretch(raster, *line, across_m, half_alley_m, options);
   }
   if (!stretch || stretch->second - stretch->first < options.length_low_m) return std::nullopt;
   auto row = cut_to(*line, stretch->first, stretch->second);
-  if (row && !is_row_like(raster, *row, options.spacing_m)) return std::nullopt;
+  if (row && !is_row_like(raster, *row, options)) return std::nullopt;
   return row;
 }
 
 /// True if another line is parallel to this one and about a row spacing away, at a third of ten
 /// places along this one at least.
-bool has_neighbour(const std::vector<RowCurve>& lines, std::size_t index, double spacing_m) {
+bool has_neighbour(const std::vector<RowCurve>& lines, std::size_t index,
+                   const RowLineOptions& options) {
   constexpr double kParallel = 0.94;  // cosine of 20 degrees, chosen
-  // Chosen, of the spacing: blocks are planted evenly, and a hedge is farther from the last row.
-  constexpr double kNear = 0.6, kFar = 1.6;
+  const double near_m = options.neighbour_near * options.spacing_m;
+  const double far_m = options.neighbour_far * options.spacing_m;
   constexpr double kFirstShare = 0.05, kShareStep = 0.1;  // ten places, from 5 % to 95 %
   constexpr int kOneIn = 3;  // chosen: the neighbour may be shorter, or have a gap
   const RowCurve& own = lines[index];
@@ -438,7 +410,7 @@ bool has_neighbour(const std::vector<RowCurve>& lines, std::size_t index, double
       const double other_m = lines[k].nearest_s_m(own.point_W(s_m), &apart_m);
       const bool is_parallel =
           std::abs(own.direction_W(s_m).dot(lines[k].direction_W(other_m))) > kParallel;
-      beside += is_parallel && apart_m > kNear * spacing_m && apart_m < kFar * spacing_m ? 1 : 0;
+      beside += is_parallel && apart_m > near_m && apart_m < far_m ? 1 : 0;
       ++looked;
     }
     if (kOneIn * beside >= looked) return true;
@@ -456,7 +428,7 @@ std::vector<RowCurve> fit_row_lines(const CanopyRaster& raster, const std::vecto
   }
   std::vector<RowCurve> rows;
   for (std::size_t k = 0; k < lines.size(); ++k) {
-    if (has_neighbour(lines, k, options.spacing_m)) rows.push_back(lines[k]);
+    if (has_neighbour(lines, k, options)) rows.push_back(lines[k]);
   }
   return rows.empty() ? rows : order_block(std::move(rows));
 }

@@ -14,16 +14,16 @@
 // around it (x along u, y along n). That line is a regularised weighted least squares fit: with
 // weights w of the raster squares, tapered by exp(-y^2 / (2 sigma^2)), it minimises
 //
-//   sum w (y - across_m - slope x)^2 + hold (kCentreHold across_m^2 + kAlong_m^2 slope^2),
+//   sum w (y - across_m - slope x)^2 + hold (centre_hold across_m^2 + along_m^2 slope^2),
 //
 // so that sparse canopy keeps the track straight. `hold` is the canopy that a full row has, taken
 // from the nine steps around the seed. The normal equations are, with s = sum w, sx = sum w x, ...,
 //
-//   [s + kCentreHold hold   sx                     ] [across_m]   [sy ]
-//   [sx                     sxx + kAlong_m^2 hold  ] [slope   ] = [sxy].
+//   [s + centre_hold hold   sx                     ] [across_m]   [sy ]
+//   [sx                     sxx + along_m^2 hold   ] [slope   ] = [sxy].
 //
 // A track ends at a taken square, at the raster's edge, or after too long a gap. Then the pieces of
-// one row are joined (join_tracks), the shortest gap first. All thresholds are chosen.
+// one row are joined (join_tracks), the shortest gap first. Thresholds: RowTrackingOptions.
 
 namespace vinerow::mapping {
 namespace {
@@ -32,10 +32,6 @@ using Eigen::Vector2d;
 
 // Chosen: about the distance between vines.
 constexpr double kTrackStep_m = 1.0;
-// Half width of a row, of the spacing. Chosen below 0.5, so that neighbouring rows do not overlap.
-constexpr double kRowReach = 0.4;
-// A curved row turns by at most this in one step, about 6 degrees: a radius of 10 m.
-constexpr double kMaxTurn = 0.1;
 
 /// Line through the canopy around a place.
 struct Fit {
@@ -84,26 +80,20 @@ class Tracker {
   }
 
  private:
-  double reach_m() const { return kRowReach * options_.spacing_m; }
+  double reach_m() const { return options_.row_reach * options_.spacing_m; }
 
   bool is_taken(const Vector2d& p) const {
     const std::int64_t cell = raster_.cell_of(p.x(), p.y());
     return cell < 0 || taken_[static_cast<std::size_t>(cell)] != 0;
   }
 
-  /// Line through the canopy up to kAlong_m before and behind `p`, regularised towards `p` and `u`
+  /// Line through the canopy up to along_m before and behind `p`, regularised towards `p` and `u`
   /// by the canopy of a full row.
   Fit fit(const Vector2d& p, const Vector2d& u, double full_weight) const {
-    // Chosen: seven steps, so that two missing vines leave canopy on both sides.
-    constexpr double kAlong_m = 3.0;
-    // Chosen: canopy off the middle counts less; at the row's reach, 2 sigma, 0.14.
-    constexpr double kSigmaShare = 0.5;
-    // Chosen: the place is held less than the direction, so that a track returns to the middle.
-    constexpr double kCentreHold = 0.3;
     // Keeps the equations regular when nothing is known of the row, and no canopy is there.
     constexpr double kMinHold = 1e-6;
     const Vector2d n = left_of(u);
-    const double half_m = kAlong_m + reach_m();
+    const double along_m = options_.along_m, half_m = along_m + reach_m();
     const auto bound = [&](double at, double corner, int count) {
       return std::pair{
           std::clamp(static_cast<int>((at - half_m - corner) / raster_.cell_m), 0, count - 1),
@@ -111,7 +101,7 @@ class Tracker {
     };
     const auto [i0, i1] = bound(p.x(), raster_.corner.x(), raster_.columns);
     const auto [j0, j1] = bound(p.y(), raster_.corner.y(), raster_.rows);
-    const double sigma_m = kSigmaShare * reach_m();
+    const double sigma_m = options_.sigma * reach_m();
     double s = 0.0, sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
     Fit result;
     for (int j = j0; j <= j1; ++j) {
@@ -120,7 +110,7 @@ class Tracker {
         if (weight <= 0.0) continue;
         const Vector2d d = raster_.middle_of(i, j) - p;
         const double x = d.dot(u), y = d.dot(n);
-        if (std::abs(x) > kAlong_m || std::abs(y) > reach_m()) continue;
+        if (std::abs(x) > along_m || std::abs(y) > reach_m()) continue;
         const double w = weight * std::exp(-0.5 * y * y / (sigma_m * sigma_m));
         if (std::abs(x) < 0.5 * kTrackStep_m) result.weight += weight;
         s += w, sx += w * x, sy += w * y, sxx += w * x * x, sxy += w * x * y;
@@ -128,7 +118,7 @@ class Tracker {
     }
     // The 2 x 2 normal equations by Cramer's rule.
     const double hold = std::max(full_weight, kMinHold);
-    const double a = s + kCentreHold * hold, c = sxx + kAlong_m * kAlong_m * hold;
+    const double a = s + options_.centre_hold * hold, c = sxx + along_m * along_m * hold;
     const double det = a * c - sx * sx;
     result.across_m = (sy * c - sxy * sx) / det;
     result.slope = (a * sxy - sx * sy) / det;
@@ -137,28 +127,23 @@ class Tracker {
 
   /// Steps from `p` until the row ends. @returns points up to the last one on canopy, without `p`
   RowTrack walk(Vector2d p, Vector2d u, double full_weight) const {
-    constexpr double kSupport = 0.2;  // canopy of a step over that of a full row; chosen
-    // Chosen: a step sideways, of the step's length.
-    constexpr double kMaxSideStep = 0.2;
-    // Chosen: share of a gap beside which a neighbouring row goes on.
-    constexpr double kBesideShare = 0.5;
+    const double side_m = options_.max_side_step * kTrackStep_m;
     RowTrack track;
     std::size_t supported = 0;
     double gap_m = 0.0;
     double beside_m = 0.0;  // part of the gap beside which a neighbouring row goes on
     while (gap_m <= options_.open_gap_m ||
-           (gap_m <= options_.longest_gap_m && beside_m >= kBesideShare * gap_m)) {
+           (gap_m <= options_.longest_gap_m && beside_m >= options_.beside * gap_m)) {
       const Vector2d ahead = p + kTrackStep_m * u;
       if (raster_.cell_of(ahead.x(), ahead.y()) < 0) break;
       const Fit here = fit(ahead, u, full_weight);
-      const double off_m =
-          std::clamp(here.across_m, -kMaxSideStep * kTrackStep_m, kMaxSideStep * kTrackStep_m);
-      const double slope = std::clamp(here.slope, -kMaxTurn, kMaxTurn);
+      const double off_m = std::clamp(here.across_m, -side_m, side_m);
+      const double slope = std::clamp(here.slope, -options_.max_turn, options_.max_turn);
       p = ahead + off_m * left_of(u);
       u = (u + slope * left_of(u)).normalized();
       if (is_taken(p)) break;
       track.push_back(p);
-      if (here.weight >= kSupport * full_weight) {
+      if (here.weight >= options_.support * full_weight) {
         supported = track.size();
         gap_m = beside_m = 0.0;
       } else {
@@ -166,7 +151,7 @@ class Tracker {
         gap_m += kTrackStep_m;
         for (const double side : {-1.0, 1.0}) {
           const Vector2d neighbour = p + side * options_.spacing_m * left_of(u);
-          if (fit(neighbour, u, full_weight).weight < kSupport * full_weight) continue;
+          if (fit(neighbour, u, full_weight).weight < options_.support * full_weight) continue;
           beside_m += kTrackStep_m;
           break;
         }
@@ -179,7 +164,6 @@ class Tracker {
   /// Track through a seed, both ways; null without canopy, on another row, or if too short.
   std::optional<RowTrack> from_seed(Vector2d p, Vector2d u) const {
     constexpr int kSteps = 4;              // chosen: to each side, a window of 9 m
-    constexpr double kFartherLoss = 0.05;  // chosen: for each step, so that ties go to the seed
     constexpr std::size_t kMinPoints = 3;  // chosen: shorter tracks have no direction
     // Mean canopy of a step, over the steps around the seed.
     double full_weight = 0.0;
@@ -193,7 +177,7 @@ class Tracker {
       full_weight += weight;
       ++places;
       // The seed moves to the place with the most canopy, discounted by its distance.
-      const double nearness = 1.0 - kFartherLoss * std::abs(k);
+      const double nearness = 1.0 - options_.farther_loss * std::abs(k);
       if (weight * nearness > best_weight && !is_taken(at)) {
         best_weight = weight * nearness;
         best = at;
@@ -204,7 +188,8 @@ class Tracker {
     const Fit here = fit(best, u, full_weight);
     const Vector2d start = best + here.across_m * left_of(u);
     if (is_taken(start)) return std::nullopt;
-    u = (u + std::clamp(here.slope, -kMaxTurn, kMaxTurn) * left_of(u)).normalized();
+    const double turn = options_.max_turn;
+    u = (u + std::clamp(here.slope, -turn, turn) * left_of(u)).normalized();
     RowTrack track = walk(start, -u, full_weight);
     std::reverse(track.begin(), track.end());
     track.push_back(start);
@@ -230,13 +215,12 @@ class Tracker {
   TakenSquares taken_;
 };
 
-/// True if a track passes abreast of a place, at up to the distance of a neighbouring row. A track
+/// True if a track passes abreast of a place, less than `far_m` away. A track
 /// that ends before or behind the place does not count: there all rows may end.
-bool passes(const RowTrack& track, const Vector2d& p, const Vector2d& u, double spacing_m) {
-  constexpr double kBeside = 1.6;  // of the spacing; chosen between one row's distance and two
+bool passes(const RowTrack& track, const Vector2d& p, const Vector2d& u, double far_m) {
   return std::any_of(track.begin(), track.end(), [&](const Vector2d& q) {
     const Vector2d d = q - p;
-    return std::abs(d.dot(u)) <= kTrackStep_m && std::abs(d.dot(left_of(u))) < kBeside * spacing_m;
+    return std::abs(d.dot(u)) <= kTrackStep_m && std::abs(d.dot(left_of(u))) < far_m;
   });
 }
 
@@ -251,20 +235,18 @@ Vector2d end_direction(const RowTrack& track) {
 /// in one line with it and parallel, and a third track passes beside the gap.
 bool goes_on(const RowTrack& first, const RowTrack& second, const std::vector<RowTrack>& all,
              const RowTrackingOptions& options) {
-  // Chosen: less than half a spacing, so that a neighbouring row does not match, plus about one
-  // degree of error in the direction over the gap.
-  constexpr double kOffLine = 0.3, kOffPerLength = 0.02;
-  constexpr double kMaxBend_rad = 0.17;  // 10 degrees, chosen
   const Vector2d u = end_direction(first);
   const Vector2d d = second.front() - first.back();
   const double along_m = d.dot(u), across_m = d.dot(left_of(u));
   if (along_m <= 0.0 || along_m > options.longest_join_m) return false;
-  if (std::abs(across_m) > kOffLine * options.spacing_m + kOffPerLength * along_m) return false;
+  const double off_m = options.off_line * options.spacing_m + options.off_per_length * along_m;
+  if (std::abs(across_m) > off_m) return false;
   RowTrack reversed(second.rbegin(), second.rend());
-  if (-end_direction(reversed).dot(u) < std::cos(kMaxBend_rad)) return false;
+  if (-end_direction(reversed).dot(u) < std::cos(options.max_bend_rad)) return false;
   const Vector2d middle = 0.5 * (first.back() + second.front());
+  const double far_m = options.neighbour * options.spacing_m;
   return std::any_of(all.begin(), all.end(), [&](const RowTrack& other) {
-    return &other != &first && &other != &second && passes(other, middle, u, options.spacing_m);
+    return &other != &first && &other != &second && passes(other, middle, u, far_m);
   });
 }
 
@@ -318,12 +300,12 @@ std::vector<RowTrack> track_rows(const CanopyRaster& raster, const std::vector<R
   return join_tracks(Tracker(raster, options, taken).run(patches), options);
 }
 
-void take_rows(const CanopyRaster& raster, const std::vector<RowCurve>& rows, double spacing_m,
-               TakenSquares& taken) {
+void take_rows(const CanopyRaster& raster, const std::vector<RowCurve>& rows,
+               const RowTrackingOptions& options, TakenSquares& taken) {
   taken.resize(raster.weights.size(), 0);
   for (const RowCurve& row : rows) {
     for (double s_m = 0.0; s_m <= row.length_m(); s_m += 0.5 * kTrackStep_m) {
-      take_around(raster, row.point_W(s_m), kRowReach * spacing_m, taken);
+      take_around(raster, row.point_W(s_m), options.row_reach * options.spacing_m, taken);
     }
   }
 }

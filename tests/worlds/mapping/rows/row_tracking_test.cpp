@@ -129,7 +129,7 @@ TEST(RowTracking, RowsThatAreTakenAreNotTrackedAgain) {
   const std::vector<RowPatch> windows = {window_at(20.0, {4.0, 6.5}), window_at(40.0, {4.0, 6.5})};
   EXPECT_EQ(track_rows(raster, windows, {}).size(), 2u);
   TakenSquares taken;
-  take_rows(raster, {RowCurve({Vector2d(10.0, 4.0), Vector2d(50.0, 4.0)})}, 2.5, taken);
+  take_rows(raster, {RowCurve({Vector2d(10.0, 4.0), Vector2d(50.0, 4.0)})}, {}, taken);
   const std::vector<RowTrack> left = track_rows(raster, windows, {}, taken);
   ASSERT_EQ(left.size(), 1u);
   EXPECT_NEAR(left[0].front().y(), 6.5, 0.05);
@@ -139,7 +139,7 @@ TEST(RowTracking, ARowTakesTheSquaresWithinItsReach) {
   const CanopyRaster raster = test::empty_raster(60.0, 12.0);
   TakenSquares taken;
   const RowCurve row({Vector2d(20.0, 6.0), Vector2d(40.0, 6.0)});
-  take_rows(raster, {row}, 2.5, taken);
+  take_rows(raster, {row}, {}, taken);
   ASSERT_EQ(taken.size(), raster.weights.size());
   for (int j = 0; j < raster.rows; ++j) {
     for (int i = 0; i < raster.columns; ++i) {

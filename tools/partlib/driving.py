@@ -27,10 +27,10 @@ def draw_planners(runs: Runs) -> None:
         ("rrt_star", "steered", "{type: rrt_star, alleys: [0, 1, 2]}", ""),
         ("rrt_quartile", "steered", "{type: rrt_quartile, alleys: [0, 1, 2], smooth: false}", ""),
         ("row_flight", "drone", "{type: row_flight}", "guidance: {type: trajectory}"),
-        ("survey", "plane", "{type: survey, height_m: 60, margin_m: 30}", "guidance: {type: waypoint_guidance}"),
+        ("survey", "plane", "{type: survey, height_m: 120, margin_m: 30}", "guidance: {type: waypoint_guidance}"),
     ]
     controllers = {"rover": "path_follower", "steered": "four_wheel_steering", "drone": "quadrotor_pid", "plane": "fixed_wing_pid"}
-    figure, axes = panels(2, 4, width=9.6, height=2.35)
+    figure, axes = panels(2, 4, width=9.6, height=1.7)
     for ax, (name, vehicle, planner, extra) in zip(axes, cases):
         start = "{alley: 0, offset_m: 3}" if name not in ("waypoints", "mission_file", "survey", "go_to") else \
             "{x_m: 0, y_m: 0, yaw_deg: 90}" if name == "survey" else "{alley: 0, offset_m: 3}"
@@ -128,14 +128,14 @@ vehicles:
         follower = runs.arrays(run, "/v/follower")
         ground.plot(follower["distance"], 1000 * follower["lateral_error"], color=colour, lw=1.0, label=name)
     ground.set(title="Rovers: three alleys and two turns on a slope", xlabel="distance along the plan, m", ylabel="lateral error, mm", xlim=(0, None),
-               ylim=(-160, 160))
+               ylim=(-500, 500))
     for name, colour in zip(("quadrotor_pid", "quadrotor_lqr", "quadrotor_mpc"), COLOURS):
         rate = {"quadrotor_pid": 250, "quadrotor_lqr": 50, "quadrotor_mpc": 20}[name]
         run = runs.run(f"controller_{name}", "vineyard_quadrotor_two_rows", f"drone.controller={{type: {name}, rate_Hz: {rate}}}", "pictures=null",
                        "criteria=[]")
         follower = runs.arrays(run, "/drone/follower")
         rotors.plot(follower["time_s"], 1000 * follower["lateral_error"], color=colour, lw=0.8, label=name)
-    rotors.set(title="Quadrotor: two rows and home in gusty wind", xlabel="time, s", ylabel="lateral error, mm", xlim=(0, 160), ylim=(-80, 80))
+    rotors.set(title="Quadrotor: two rows and home in gusty wind", xlabel="time, s", ylabel="lateral error, mm", xlim=(0, 110), ylim=(-80, 80))
     for name, colour in zip(("fixed_wing_pid", "fixed_wing_lqr", "mpc_nominal", "trmpc"), COLOURS):
         extra = ", horizon: 60" if name in ("trmpc", "mpc_nominal") else ""
         run = runs.run(f"controller_{name}", "trmpc_stress", f"plane.controller={{type: {name}, rate_Hz: 20{extra}}}", "pictures=null", "criteria=[]")
@@ -143,5 +143,5 @@ vehicles:
         wings.plot(times, place[:, 2] - 153.86, color=colour, lw=1.0, label=name)
     wings.set(title="Fixed wing: start 14 m too low and 24° off, in wind", xlabel="time, s", ylabel="height error, m", xlim=(0, 30))
     for ax in (ground, rotors, wings):
-        ax.legend(loc="upper right", ncols=4)
+        ax.legend(loc="lower right" if ax is wings else "upper right", ncols=4)
     runs.save(figure, "controllers")

@@ -57,7 +57,7 @@ pictures: {{width: 960, height: 540, shares: [1.0], cameras: {{view: {camera}, k
 def draw_vehicles(runs: Runs) -> None:
     robot = LISTING.search((ROOT / "docs/tutorial/3_your_robot.md").read_text()).group(1)
     cases = {
-        "diff_drive_rover": (f"include: {ASSETS}/vehicles/rover_paper_b.yaml", 3.2, 1.2, 0.0),
+        "diff_drive_rover": (f"include: {ASSETS}/vehicles/rover_paper_b.yaml", 4.4, 1.8, 0.0),
         "four_wheel_steering_rover": (f"include: {ASSETS}/vehicles/rover_paper_a.yaml", 4.6, 1.9, 0.0),
         "urdf_rover": ("type: urdf_rover\n    urdf: scout.urdf", 2.6, 1.0, 0.0),
         "quadrotor": (f"include: {ASSETS}/vehicles/quadrotor_q4t.yaml", 1.9, 0.8, 0.0),

@@ -36,8 +36,8 @@ class SteeringReader {
         if (now.names[i] == "axle_rear_steer_rad") rear_ = static_cast<int>(i);
       }
     }
-    const int most = static_cast<int>(now.values.size());
-    if (front_ < 0 || rear_ < 0 || front_ >= most || rear_ >= most) return false;
+    const int count = static_cast<int>(now.values.size());
+    if (front_ < 0 || rear_ < 0 || front_ >= count || rear_ >= count) return false;
     *steering = {now.values[front_], now.values[rear_]};
     return true;
   }
@@ -54,8 +54,7 @@ class Dwa final : public Guidance {
       : source_(context.part),
         known_(context.map != nullptr ? DistanceField(context.map->occupancy) : DistanceField()),
         rangers_(find_rangers(context)),
-        memory_(params.memory, rangers_, known_,
-                context.vehicle_description->outline_B(),
+        memory_(params.memory, rangers_, known_, context.vehicle_description->outline_B(),
                 context.vehicle_description->height_above_ground_m),
         guide_(params.guide, make_dwa_outline(params, context),
                context.vehicle_description->outline_B(), known_) {}
@@ -108,22 +107,22 @@ class Dwa final : public Guidance {
 
   /// Reports the oldest pending event; allocates only if there is one.
   void tell(Time now) {
-    DwaEvent news;
-    if (!guide_.take_event(&news)) return;
+    DwaEvent pending;
+    if (!guide_.take_event(&pending)) return;
     Event event;
     event.source = source_;
-    const double x = news.p_W.x(), y = news.p_W.y();
+    const double x = pending.p_W.x(), y = pending.p_W.y();
     const std::string what =
-        std::isfinite(news.distance_m)
+        std::isfinite(pending.distance_m)
             ? fmt::format("by an obstacle that the map does not have, {:.2f} m ahead",
-                          news.distance_m)
+                          pending.distance_m)
             : "by obstacles of the map: no motion from here leads on along the plan";
-    switch (news.kind) {
+    switch (pending.kind) {
       case DwaEvent::Kind::kSeen:
         event.text = fmt::format(
             "sees an obstacle that the map does not have at ({:.2f}, {:.2f}), {:.2f} m from the "
             "vehicle's centre",
-            x, y, news.distance_m);
+            x, y, pending.distance_m);
         break;
       case DwaEvent::Kind::kReverse:
         event.text = fmt::format("held up at ({:.2f}, {:.2f}) {}; drives back", x, y, what);

@@ -42,9 +42,9 @@ void DwaGuide::set_plan(const PlannedPath& plan, Time now) {
   free_since_ = now;
 }
 
-bool DwaGuide::take_event(DwaEvent* news) {
+bool DwaGuide::take_event(DwaEvent* event) {
   if (event_count_ == 0) return false;
-  *news = news_[0];
+  *event = news_[0];
   std::move(news_.begin() + 1, news_.begin() + event_count_, news_.begin());
   --event_count_;
   return true;
@@ -214,7 +214,7 @@ LocalCommand DwaGuide::make_drive(const DwaChoice& choice) const {
   command.v_mps = choice.v_mps;
   command.front_axle_rad = choice.steering.front_rad;
   command.rear_axle_rad = choice.steering.rear_rad;
-  command.clearance_m = std::min(choice.room.min_m(), kMaxClearance_m);
+  command.clearance_m = std::min(choice.clearance.min_m(), kMaxClearance_m);
   return command;
 }
 

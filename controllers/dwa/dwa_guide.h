@@ -60,7 +60,7 @@ class DwaGuide {
   /// One cycle. No heap. @pre has_plan()
   LocalCommand step(Time now, const DwaState& state, const ObstacleMemory& memory);
   /// The oldest event not yet reported. @returns false if there is no further event
-  bool take_event(DwaEvent* news);
+  bool take_event(DwaEvent* event);
 
   int reversals() const { return recovery_.reversals(); }
   double distance_m() const { return plan_.distance_m(); }

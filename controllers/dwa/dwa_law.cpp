@@ -38,10 +38,10 @@ double spread(double low, double high, int i, int count) {
   return count > 1 ? low + (high - low) * i / (count - 1) : 0.5 * (low + high);
 }
 
-/// Mean over a step in which an angle moves from one value to another, at a rate of `most` per
+/// Mean over a step in which an angle moves from one value to another, at a rate of `max_step` per
 /// step.
-double mean_angle(double from, double to, double most) {
-  return to - 0.5 * (to - from) * std::abs(to - from) / most;
+double mean_angle(double from, double to, double max_step) {
+  return to - 0.5 * (to - from) * std::abs(to - from) / max_step;
 }
 
 }  // namespace
@@ -195,12 +195,12 @@ DwaChoice DwaLaw::choose(const DwaState& state, const DwaTask& task) const {
   // Smallest clearance along the chosen rollout, for the report.
   roll_out(state.pose, best.v_mps, state.steering, best.steering, params_.geometry,
            params_.horizon_s, params_.step_s, &rollout);
-  best.room = free_space_.measure(outline_, state.pose);
+  best.clearance = free_space_.measure(outline_, state.pose);
   for (int i = 0; best.is_admissible && i < rollout.count; ++i) {
-    const FreeSpace room =
+    const FreeSpace clearance =
         free_space_.measure(outline_, rollout.nodes[i].p, rollout.nodes[i].ahead);
-    best.room = {std::min(best.room.known_m, room.known_m),
-                 std::min(best.room.unknown_m, room.unknown_m)};
+    best.clearance = {std::min(best.clearance.known_m, clearance.known_m),
+                      std::min(best.clearance.unknown_m, clearance.unknown_m)};
   }
   return best;
 }

@@ -90,7 +90,7 @@ struct DwaChoice {
   AxleAngles steering;
   bool is_admissible = false;
   double score = 0.0;
-  FreeSpace room;         ///< smallest along the rollout
+  FreeSpace clearance;    ///< smallest along the rollout
   double travel_m = 0.0;  ///< along the rollout
 };
 

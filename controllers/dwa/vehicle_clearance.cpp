@@ -106,16 +106,18 @@ double DiscOutline::uncovered_m(const std::vector<Eigen::Vector2d>& outline_B) c
 FreeSpace FreeSpaceFinder::measure_discs(const std::vector<DiscOutline::Disc>& discs,
                                          const Eigen::Vector2d& p_W,
                                          const Eigen::Vector2d& ahead) const {
-  FreeSpace room{kInfinity, kInfinity};
+  FreeSpace clearance{kInfinity, kInfinity};
   const Eigen::Vector2d left = left_of(ahead);
   for (const DiscOutline::Disc& disc : discs) {
     const Eigen::Vector2d at = p_W + disc.centre_B.x() * ahead + disc.centre_B.y() * left;
     const double known_m = known_->at(at) - disc.radius_m;
     const double unknown_m = unknown_->empty() ? kInfinity : unknown_->at(at) - disc.radius_m;
-    if (!disc.only_overlap || known_m < 0.0) room.known_m = std::min(room.known_m, known_m);
-    if (!disc.only_overlap || unknown_m < 0.0) room.unknown_m = std::min(room.unknown_m, unknown_m);
+    if (!disc.only_overlap || known_m < 0.0)
+      clearance.known_m = std::min(clearance.known_m, known_m);
+    if (!disc.only_overlap || unknown_m < 0.0)
+      clearance.unknown_m = std::min(clearance.unknown_m, unknown_m);
   }
-  return room;
+  return clearance;
 }
 
 FreeSpace FreeSpaceFinder::measure(const DiscOutline& outline, const Eigen::Vector2d& p_W,

@@ -71,8 +71,8 @@ class FixedWingPid final : public Controller {
       law_.reset();
       return;
     }
-    const AircraftControls asked = law_.step(ports_.deviation(), climb_beyond_reference());
-    law_.learn(asked, ports_.write(now, asked));
+    const AircraftControls requested = law_.step(ports_.deviation(), climb_beyond_reference());
+    law_.learn(requested, ports_.write(now, requested));
   }
 
   bool finished() const override { return ports_.has_ended(); }

@@ -16,8 +16,8 @@ double within(double value, double limit) {
 }
 
 /// Integrates an error unless that would push a saturated actuator further.
-void learn_from(double& learnt, double step, double most, bool is_stopped) {
-  if (!is_stopped) learnt = within(learnt + step, most);
+void learn_from(double& learnt, double step, double max_learnt, bool is_stopped) {
+  if (!is_stopped) learnt = within(learnt + step, max_learnt);
 }
 
 }  // namespace
@@ -47,7 +47,7 @@ AircraftControls FixedWingPidLaw::step(const AircraftDeviation& x, double climb_
               gains_.yaw_rate_s * r};
 }
 
-void FixedWingPidLaw::learn(const AircraftControls& asked, const AircraftControls& left) {
+void FixedWingPidLaw::learn(const AircraftControls& requested, const AircraftControls& left) {
   const auto stops = [](double wanted, double reached, double push) {
     const double cut = wanted - reached;
     return std::abs(cut) > kRounding && cut * push > 0.0;
@@ -55,11 +55,13 @@ void FixedWingPidLaw::learn(const AircraftControls& asked, const AircraftControl
   const double climb = gains_.climb_integral_rad_per_m * period_s_ * climb_error_mps_;
   const double speed = gains_.airspeed_integral_per_m * period_s_ * airspeed_error_mps_;
   const double bank = gains_.bank_integral_per_s * period_s_ * bank_error_rad_;
-  learn_from(pitch_learnt_rad_, climb, kMaxPitch_rad,
-             stops(asked.elevator_rad, left.elevator_rad, -climb) || (is_near_stall_ && climb > 0));
-  learn_from(throttle_learnt_, speed, kMaxThrottle, stops(asked.throttle, left.throttle, speed));
+  learn_from(
+      pitch_learnt_rad_, climb, kMaxPitch_rad,
+      stops(requested.elevator_rad, left.elevator_rad, -climb) || (is_near_stall_ && climb > 0));
+  learn_from(throttle_learnt_, speed, kMaxThrottle,
+             stops(requested.throttle, left.throttle, speed));
   learn_from(aileron_learnt_rad_, bank, kMaxAileron_rad,
-             stops(asked.aileron_rad, left.aileron_rad, bank));
+             stops(requested.aileron_rad, left.aileron_rad, bank));
 }
 
 }  // namespace vinerow::controllers

@@ -43,8 +43,8 @@ class FixedWingPidLaw {
   /// @returns deviations of the controls from the trim's
   AircraftControls step(const AircraftDeviation& x, double climb_mps);
   /// Updates the integrators. They stop while an actuator is at its limit or the propeller is off.
-  /// @param asked  the last step()  @param left  its part that the actuators reach
-  void learn(const AircraftControls& asked, const AircraftControls& left);
+  /// @param requested  the last step()  @param left  its part that the actuators reach
+  void learn(const AircraftControls& requested, const AircraftControls& left);
 
  private:
   FixedWingGains gains_;

@@ -50,10 +50,9 @@ SteeredDrive read_steered_vehicle(const VehicleDescription& description, const s
   const auto positive = [&](double value, const char* name) {
     return description.need_positive(value, name, who);
   };
-  vehicle.geometry = {positive(vehicle.front_axle_m, "front_axle_m"),
-                      positive(vehicle.rear_axle_m, "rear_axle_m"),
-                      positive(wheeled.track_m, "track_m"),
-                      positive(wheeled.wheel_radius_m, "wheel_radius_m")};
+  vehicle.geometry = {
+      positive(vehicle.front_axle_m, "front_axle_m"), positive(vehicle.rear_axle_m, "rear_axle_m"),
+      positive(wheeled.track_m, "track_m"), positive(wheeled.wheel_radius_m, "wheel_radius_m")};
   positive(vehicle.steer_rate_radps, "steer_rate_radps");
   vehicle.steer_lag_s = std::max(vehicle.steer_lag_s, 0.0);
   positive(vehicle.max_axle_steer_rad, "max_axle_steer_rad");
@@ -101,9 +100,9 @@ void AxleState::measure(const NamedValues& encoders) {
 
 AxleAngles AxleState::predict(double dt_s) const {
   const double share = lag_s_ > 0.0 ? 1.0 - std::exp(-dt_s / lag_s_) : 1.0;
-  const double most = rate_radps_ * dt_s;
+  const double max_step_rad = rate_radps_ * dt_s;
   const auto turn = [&](double from_rad, double to_rad) {
-    return from_rad + std::clamp(share * (to_rad - from_rad), -most, most);
+    return from_rad + std::clamp(share * (to_rad - from_rad), -max_step_rad, max_step_rad);
   };
   return {turn(actual_.front_rad, wanted_.front_rad), turn(actual_.rear_rad, wanted_.rear_rad)};
 }

@@ -86,9 +86,9 @@ double PathFollowerLaw::calc_speed(const Path::Nearest& at, double heading_error
 
 double PathFollowerLaw::calc_yaw_rate(const Path::Nearest& at, double heading_error_rad,
                                       const Sideslip& slide, double speed_mps) {
-  const double way_m = std::max(speed_mps * params_.cycle_s, kMinCycle_m);
+  const double travel_m = std::max(speed_mps * params_.cycle_s, kMinCycle_m);
   const double from_m = at.distance_m + speed_mps * params_.response_s;
-  double feed_forward = path_.turn_between_rad(from_m, from_m + way_m, at.segment) / way_m;
+  double feed_forward = path_.turn_between_rad(from_m, from_m + travel_m, at.segment) / travel_m;
   double course_error = heading_error_rad;
   if (slide.arm_m != 0.0 || slide.drift_rad != 0.0) {
     // The wanted lead of the heading, and its derivative along the path.
@@ -108,7 +108,7 @@ double PathFollowerLaw::calc_yaw_rate(const Path::Nearest& at, double heading_er
   if (params_.integral > 0.0) {
     // Integrate only near the path: the return from a large error contains no information on drift.
     if (std::abs(e) < kIntegralZone * params_.integral_max_m) {
-      integral_m_ += params_.integral * e * way_m / lookahead;
+      integral_m_ += params_.integral * e * travel_m / lookahead;
     }
     integral_m_ = std::clamp(integral_m_, -params_.integral_max_m, params_.integral_max_m);
   }

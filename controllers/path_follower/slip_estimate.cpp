@@ -36,15 +36,15 @@ void SlipEstimate::update(double commanded_radps, double measured_radps, const E
   const double learn = dt_s / params_.learn_time_s;
   constexpr double kNoTurn_radps = 1e-3;
   if (std::abs(commanded_radps_) > kNoTurn_radps) {
-    const double seen = std::clamp(measured_radps_ / commanded_radps_, 0.0, 2.0);
-    effectiveness_ += learn * weight_of(commanded_radps_) * (seen - effectiveness_);
+    const double measured = std::clamp(measured_radps_ / commanded_radps_, 0.0, 2.0);
+    effectiveness_ += learn * weight_of(commanded_radps_) * (measured - effectiveness_);
     effectiveness_ = std::clamp(effectiveness_, kMinEffectiveness, kMaxEffectiveness);
   }
   if (v_B_.x() < kCrawl_mps) return;
   const double turning = weight_of(measured_radps_);
   if (params_.learns_arm && std::abs(measured_radps_) > kNoTurn_radps) {
-    const double seen = (v_B_.x() * slide_.drift_rad - v_B_.y()) / measured_radps_;
-    slide_.arm_m += learn * turning * (std::clamp(seen, -1.0, 1.0) - slide_.arm_m);
+    const double measured = (v_B_.x() * slide_.drift_rad - v_B_.y()) / measured_radps_;
+    slide_.arm_m += learn * turning * (std::clamp(measured, -1.0, 1.0) - slide_.arm_m);
     slide_.arm_m = std::clamp(slide_.arm_m, -kLargestArm_m, kLargestArm_m);
   }
   const double drift = (v_B_.y() + slide_.arm_m * measured_radps_) / v_B_.x();

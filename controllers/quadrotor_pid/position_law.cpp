@@ -50,8 +50,8 @@ Eigen::Vector3d PositionLaw::limit(const Eigen::Vector3d& F_W) const {
   const double by_tilt = F.z() * std::tan(params_.tilt_limit_rad);
   const double by_thrust =
       std::sqrt(std::max(params_.max_thrust_N * params_.max_thrust_N - F.z() * F.z(), 0.0));
-  const double most = std::min(by_tilt, by_thrust), wanted = F.head<2>().norm();
-  if (wanted > most) F.head<2>() *= most / wanted;
+  const double max_lateral_N = std::min(by_tilt, by_thrust), wanted = F.head<2>().norm();
+  if (wanted > max_lateral_N) F.head<2>() *= max_lateral_N / wanted;
   return F;
 }
 

@@ -32,8 +32,7 @@ const ParameterTable<QuadrotorPidParams>& quadrotor_pid_table() {
                    "wanted speed per position error: horizontal, vertical")
           .numbers("velocity_p", "1/s", position(&PositionParams::velocity_p_per_s), kNotNegative,
                    "acceleration per speed error: horizontal, vertical")
-          .numbers("velocity_i", "1/s2", position(&PositionParams::velocity_i_per_s2),
-                   kNotNegative,
+          .numbers("velocity_i", "1/s2", position(&PositionParams::velocity_i_per_s2), kNotNegative,
                    "acceleration per integrated speed error: horizontal, vertical")
           .numbers("velocity_d", "", position(&PositionParams::velocity_d), kNotNegative,
                    "acceleration per measured acceleration: horizontal, vertical")
@@ -116,8 +115,8 @@ class QuadrotorPid final : public Controller {
  private:
   /// Thrust that keeps the vertical part of the force at the present tilt.
   double thrust_for(const Eigen::Vector3d& F_W, double upright) const {
-    const double least = std::cos(limits_.tilt_rad);
-    return std::clamp(F_W.z() / std::max(upright, least), limits_.min_thrust_N,
+    const double min_upright = std::cos(limits_.tilt_rad);
+    return std::clamp(F_W.z() / std::max(upright, min_upright), limits_.min_thrust_N,
                       limits_.max_thrust_N);
   }
 

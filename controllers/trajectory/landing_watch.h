@@ -14,21 +14,21 @@ class LandingWatch {
   LandingWatch() = default;
   explicit LandingWatch(const Params& params) : params_(params) {}
 
-  struct Seen {
+  struct Observation {
     double wanted_mps = 0.0;    ///< vertical speed of the reference
     double vertical_mps = 0.0;  ///< of the vehicle
     double above_end_m = 0.0;   ///< of the vehicle above the plan's end
     bool is_over = false;       ///< the reference has ended
   };
   /// @returns true once the vehicle has landed
-  bool has_landed(const Seen& seen, double dt_s) {
+  bool has_landed(const Observation& observation, double dt_s) {
     constexpr double kStationaryShare = 0.25;  // of the landing speed
-    const bool stands = seen.vertical_mps > -kStationaryShare * params_.landing_speed_mps &&
-                        seen.vertical_mps < params_.landing_speed_mps;
-    const bool should_sink = seen.wanted_mps < -0.5 * params_.landing_speed_mps;
-    const bool counts = stands && should_sink && seen.above_end_m < params_.zone_m;
+    const bool stands = observation.vertical_mps > -kStationaryShare * params_.landing_speed_mps &&
+                        observation.vertical_mps < params_.landing_speed_mps;
+    const bool should_sink = observation.wanted_mps < -0.5 * params_.landing_speed_mps;
+    const bool counts = stands && should_sink && observation.above_end_m < params_.zone_m;
     stood_s_ = counts ? stood_s_ + dt_s : 0.0;
-    over_s_ = stands && seen.is_over ? over_s_ + dt_s : 0.0;
+    over_s_ = stands && observation.is_over ? over_s_ + dt_s : 0.0;
     return stood_s_ >= params_.stationary_s || over_s_ >= params_.give_up_s;
   }
 

@@ -54,8 +54,8 @@ double wanted_speed_mps(PathKind kind, const TrajectoryLimits& limits) {
 /// Largest ds/dt that every limit allows, at the knots.
 std::vector<double> limit_speeds(const SmoothRun& run, const TrajectoryLimits& limits,
                                  double slow_from_m) {
-  std::vector<double> most;
-  most.reserve(run.knots());
+  std::vector<double> max_speeds;
+  max_speeds.reserve(run.knots());
   for (int i = 0; i < run.knots(); ++i) {
     const double at_m = i * run.step_m();
     const SmoothRun::Sample on = run.at(at_m);
@@ -82,9 +82,9 @@ std::vector<double> limit_speeds(const SmoothRun& run, const TrajectoryLimits& l
       speed = std::min(speed, std::sqrt(kReserve * limits.yaw_acceleration_radps2 / change));
     }
     if (at_m >= slow_from_m) speed = std::min(speed, limits.landing_speed_mps / stretch);
-    most.push_back(speed);
+    max_speeds.push_back(speed);
   }
-  return most;
+  return max_speeds;
 }
 
 /// Forwards, then backwards: v dv/ds is at most the acceleration; from rest to rest.
@@ -102,14 +102,14 @@ std::vector<double> limit_acceleration(std::vector<double> speeds, double step_m
 }
 
 /// Extends every limit around its knot as far as the average over ease_s mixes speeds.
-std::vector<double> widen(const std::vector<double>& most, const std::vector<double>& flown,
+std::vector<double> widen(const std::vector<double>& max_speeds, const std::vector<double>& flown,
                           double step_m, double ease_s) {
-  std::vector<double> widened = most;
-  const int last = static_cast<int>(most.size()) - 1;
+  std::vector<double> widened = max_speeds;
+  const int last = static_cast<int>(max_speeds.size()) - 1;
   for (int i = 0; i <= last; ++i) {
     const int reach = static_cast<int>(std::ceil(0.5 * ease_s * flown[i] / step_m)) + 1;
     for (int k = std::max(0, i - reach); k <= std::min(last, i + reach); ++k) {
-      widened[i] = std::min(widened[i], most[k]);
+      widened[i] = std::min(widened[i], max_speeds[k]);
     }
   }
   return widened;
@@ -159,10 +159,10 @@ std::vector<double> sample_distances(const std::vector<double>& speeds, double s
 }  // namespace
 
 TimeLaw::TimeLaw(const SmoothRun& run, const TrajectoryLimits& limits, double slow_from_m) {
-  const std::vector<double> most = limit_speeds(run, limits, slow_from_m);
+  const std::vector<double> max_speeds = limit_speeds(run, limits, slow_from_m);
   const double step_m = run.step_m();
-  std::vector<double> speeds = limit_acceleration(most, step_m, limits.acceleration_mps2);
-  speeds = limit_acceleration(widen(most, speeds, step_m, limits.ease_s), step_m,
+  std::vector<double> speeds = limit_acceleration(max_speeds, step_m, limits.acceleration_mps2);
+  speeds = limit_acceleration(widen(max_speeds, speeds, step_m, limits.ease_s), step_m,
                               limits.acceleration_mps2);
   check_duration(speeds, step_m);
   const int half = calc_half_window(limits.ease_s, kStep_s);

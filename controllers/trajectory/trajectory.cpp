@@ -98,18 +98,18 @@ class Trajectory final : public Guidance {
     wanted_rate_ = lands ? 1.0 : calc_clock_rate(away_m, params_.wait_m);
     describe_waiting(now, away_m, present.distance_m);
     if (!lands) return;
-    LandingWatch::Seen seen;
-    seen.wanted_mps = present.point.v_W.z() * clock_.rate();
-    seen.vertical_mps = (estimate.X_WB.q * estimate.v_WB_B).z();
-    seen.above_end_m = estimate.X_WB.p.z() - flight_.end_height_m();
-    seen.is_over = clock_.time_s() >= flight_.duration_s();
-    if (!watch_.has_landed(seen, dt_s)) return;
+    LandingWatch::Observation observation;
+    observation.wanted_mps = present.point.v_W.z() * clock_.rate();
+    observation.vertical_mps = (estimate.X_WB.q * estimate.v_WB_B).z();
+    observation.above_end_m = estimate.X_WB.p.z() - flight_.end_height_m();
+    observation.is_over = clock_.time_s() >= flight_.duration_s();
+    if (!watch_.has_landed(observation, dt_s)) return;
     has_landed_ = true;
     rest_.p_W = estimate.X_WB.p;
     rest_.yaw_rad = present.point.yaw_rad;
     tell(now, Event::Level::kInfo,
          fmt::format("landed at ({:.2f}, {:.2f}), {:.2f} m above the end of its plan",
-                     rest_.p_W.x(), rest_.p_W.y(), seen.above_end_m));
+                     rest_.p_W.x(), rest_.p_W.y(), observation.above_end_m));
   }
 
   void write(Time now) {

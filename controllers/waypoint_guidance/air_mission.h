@@ -51,7 +51,7 @@ class AirMission {
   double distance_m(const GuidanceState& state) const;
   double length_m() const { return length_m_; }
   /// Event of the last call, "" if none; and whether it is a warning.
-  const std::string& news() const { return news_; }
+  const std::string& event_text() const { return news_; }
   bool is_warning() const { return is_warning_; }
   /// Place of the touchdown, once the vehicle is on its way there.
   std::optional<Eigen::Vector2d> touchdown() const;

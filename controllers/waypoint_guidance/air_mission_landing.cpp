@@ -107,7 +107,7 @@ void AirMission::lay_landing(const GuidanceState& state) {
   circle_ = approach.circle;
   stage_ = Stage::kDescend;
   const LegFrame& frame = final_.front().frame;
-  std::string news = fmt::format(
+  std::string text = fmt::format(
       "lands at ({:.1f}, {:.1f}) on bearing {:.0f} deg: circles down to {:.0f} m above it",
       place.x(), place.y(), bearing_deg(approach.course_rad),
       frame.from_W().z() - frame.to_W().z());
@@ -117,19 +117,19 @@ void AirMission::lay_landing(const GuidanceState& state) {
   const bool is_guess =
       !landing_.knows_ground() && !params_.land_height_m && away_m > kSameGround_m;
   if (is_guess) {
-    news += fmt::format(
+    text += fmt::format(
         "; assumes the ground there to be at z = {:.1f} m as at the start, {:.0f} m away: "
         "land_height_m sets it",
         frame.to_W().z() - params_.belly_m, away_m);
   }
   const bool is_low = approach.clearance_m < kClear_m - 1e-6;
   if (is_low) {
-    news += fmt::format(
+    text += fmt::format(
         "; its circles come within {:.1f} m of the ground: change approach_height_m, "
         "land_bearing_deg or loiter_side",
         approach.clearance_m);
   }
-  tell(is_guess || is_low, std::move(news));
+  tell(is_guess || is_low, std::move(text));
 }
 
 AirMission::Wanted AirMission::fly_descend(const GuidanceState& state) {

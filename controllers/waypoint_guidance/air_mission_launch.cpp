@@ -59,10 +59,10 @@ AirMission::Wanted AirMission::fly_launch(const GuidanceState& state) {
   if (is_launched_) {
     // Straight ahead until the path to the plan can be flown: circles that it would not leave, or
     // that enclose the waypoint, are not started.
-    const Eigen::Vector2d way = goal_W_.head<2>() - state.position;
+    const Eigen::Vector2d offset = goal_W_.head<2>() - state.position;
     const double course_rad = state.course_rad();
     const bool climbs = is_too_steep(state, 1.0);
-    const double left_m = -std::sin(course_rad) * way.x() + std::cos(course_rad) * way.y();
+    const double left_m = -std::sin(course_rad) * offset.x() + std::cos(course_rad) * offset.y();
     const double side = climbs ? params_.loiter_side : (left_m >= 0.0 ? 1.0 : -1.0);
     const double radius_m =
         climbs ? params_.loiter_radius_m : params_.legs.turn.radius_m(airspeed_mps_);
@@ -95,9 +95,9 @@ AirMission::Wanted AirMission::fly_launch(const GuidanceState& state) {
 }
 
 bool AirMission::is_too_steep(const GuidanceState& state, double share) const {
-  const double way_m = (goal_W_.head<2>() - state.position).norm();
+  const double distance_m = (goal_W_.head<2>() - state.position).norm();
   const double rise_m = goal_W_.z() - height_.height_m();
-  return rise_m > share * way_m * std::tan(params_.legs.climb_max_rad);
+  return rise_m > share * distance_m * std::tan(params_.legs.climb_max_rad);
 }
 
 AirMission::Wanted AirMission::fly_climb(const GuidanceState& state) {
@@ -105,8 +105,8 @@ AirMission::Wanted AirMission::fly_climb(const GuidanceState& state) {
   wanted.course = circle_.course(state, params_.pilot.cross_track_length_m, course_.course_rad);
   wanted.height_m = goal_W_.z();
   constexpr double kReserve = 0.9, kAhead_rad = 8.0 * kPi / 180.0;
-  const Eigen::Vector2d way = goal_W_.head<2>() - state.position;
-  const double off_rad = wrap_angle(std::atan2(way.y(), way.x()) - state.course_rad());
+  const Eigen::Vector2d offset = goal_W_.head<2>() - state.position;
+  const double off_rad = wrap_angle(std::atan2(offset.y(), offset.x()) - state.course_rad());
   if (!is_too_steep(state, kReserve) && std::abs(off_rad) < kAhead_rad) start_transit(state);
   return wanted;
 }
@@ -114,10 +114,10 @@ AirMission::Wanted AirMission::fly_climb(const GuidanceState& state) {
 void AirMission::start_transit(const GuidanceState& state) {
   stage_ = Stage::kTransit;
   if (!has_own_first_leg_) {
-    FlightLeg way;
-    way.waypoint = 0;
-    way.airspeed_mps = params_.legs.airspeed_mps;
-    legs_.insert(legs_.begin(), way);  // within the capacity reserved by take_plan()
+    FlightLeg first;
+    first.waypoint = 0;
+    first.airspeed_mps = params_.legs.airspeed_mps;
+    legs_.insert(legs_.begin(), first);  // within the capacity reserved by take_plan()
   }
   lay_transit(state);
   pilot_.start(legs_, 0, state, course_.course_rad, true);

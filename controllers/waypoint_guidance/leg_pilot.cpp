@@ -100,9 +100,9 @@ void LegPilot::take_next(const std::vector<FlightLeg>& legs, const GuidanceState
     const PredictedTurn other = predict_turn(generator, state.position, wanted_rad + round_rad,
                                              options_.turn_end_rad, state.wind, leg.airspeed_mps);
     const double radius_m = generator.limits().radius_m(leg.airspeed_mps);
-    const auto cost_m = [&](const PredictedTurn& way, double heading_rad) {
+    const auto cost_m = [&](const PredictedTurn& predicted, double heading_rad) {
       constexpr double kTurningShare = 0.3;
-      return std::abs(leg.frame.left_m(way.at_rest)) +
+      return std::abs(leg.frame.left_m(predicted.at_rest)) +
              kTurningShare * radius_m * std::abs(heading_rad - generator.heading_rad());
     };
     if (cost_m(other, wanted_rad + round_rad) < cost_m(turn, wanted_rad)) {
@@ -151,8 +151,8 @@ WantedCourse LegPilot::query_law(const LegFrame& frame, const GuidanceState& sta
       calc_cross_track_tolerance_m(share, options_.tolerance_max_m, options_.tolerance_min_m)) {
     return {course_rad_, 0.0};
   }
-  const Eigen::Vector2d way = frame.to_W().head<2>() - state.position;
-  return {course_rad_ + wrap_angle(std::atan2(way.y(), way.x()) - frame.course_rad()), 0.0};
+  const Eigen::Vector2d offset = frame.to_W().head<2>() - state.position;
+  return {course_rad_ + wrap_angle(std::atan2(offset.y(), offset.x()) - frame.course_rad()), 0.0};
 }
 
 }  // namespace vinerow::controllers

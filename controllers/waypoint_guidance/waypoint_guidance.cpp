@@ -120,11 +120,11 @@ class WaypointGuidance final : public Guidance, public MayFail, public SeesGroun
 
   /// At most one event per tick: a signal holds the last event written.
   void report_events(Time now) {
-    const std::string& news = mission_.news();
-    if (news.empty() && warnings_.empty()) return;
+    const std::string& event_text = mission_.event_text();
+    if (event_text.empty() && warnings_.empty()) return;
     const bool is_bad = !warnings_.empty() || mission_.is_warning();
     tell(now, is_bad ? Event::Level::kWarning : Event::Level::kInfo,
-         news + (news.empty() || warnings_.empty() ? "" : "; ") + warnings_);
+         event_text + (event_text.empty() || warnings_.empty() ? "" : "; ") + warnings_);
     warnings_.clear();
   }
 

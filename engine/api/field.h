@@ -33,7 +33,7 @@ struct FieldInfo {
   std::string_view words = {};  ///< for people, if name and unit do not explain the field
   /// For a Pose in W that is fixed to the vehicle: logs contain the pose of the body and this pose
   /// relative to it.
-  bool beside_body = false;
+  bool relative_to_body = false;
 };
 
 /// One value of an enumeration. `std::span<const EnumName> enum_names(E)` next to the enumeration

@@ -63,16 +63,17 @@ int PlanStretch::lane(const Eigen::Vector3d& p_W, const Eigen::Vector3d& v_W) {
   if (!is_leg(place.segment)) return -1;
   const Eigen::Vector2d along =
       (points_[place.segment + 1].p_W - points_[place.segment].p_W).head<2>();
-  const Eigen::Vector2d way = v_W.head<2>();
-  if (way.norm() > kMinSpeed_mps && way.dot(along) < kMinCosine * way.norm() * along.norm()) {
+  const Eigen::Vector2d motion = v_W.head<2>();
+  if (motion.norm() > kMinSpeed_mps &&
+      motion.dot(along) < kMinCosine * motion.norm() * along.norm()) {
     return -1;
   }
   return std::max(0, points_[place.segment].alley);
 }
 
 bool PlanStretch::is_steep(int segment) const {
-  const Eigen::Vector3d way = points_[segment + 1].p_W - points_[segment].p_W;
-  return std::abs(way.z()) > way.head<2>().norm();
+  const Eigen::Vector3d motion = points_[segment + 1].p_W - points_[segment].p_W;
+  return std::abs(motion.z()) > motion.head<2>().norm();
 }
 
 double PlanStretch::curve_distance_m(const Place& at, const Eigen::Vector2d& p) const {

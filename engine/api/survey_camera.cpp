@@ -69,7 +69,8 @@ const ParameterTable<SurveyCameraParams>& survey_camera_table() {
                 "camera that looks straight down, with the longer side of its picture across the "
                 "track; the keys below replace its data")
           .one_of({"rededge", "rededge_5p5", "rx100"})
-          .number("focal_length_mm", "mm", &P::focal_length_mm, between(0.1, 10'000.0), "focal length")
+          .number("focal_length_mm", "mm", &P::focal_length_mm, between(0.1, 10'000.0),
+                  "focal length")
           .number("sensor_width_mm", "mm", &P::sensor_width_mm, between(0.1, 1'000.0),
                   "sensor size across the track")
           .number("sensor_height_mm", "mm", &P::sensor_height_mm, between(0.1, 1'000.0),
@@ -83,18 +84,18 @@ const ParameterTable<SurveyCameraParams>& survey_camera_table() {
 }
 
 SurveyCamera SurveyCameraParams::resolve() const {
-  SurveyCamera made = make_preset(camera);
-  made.focal_length_mm = focal_length_mm.value_or(made.focal_length_mm);
-  made.sensor_width_mm = sensor_width_mm.value_or(made.sensor_width_mm);
-  made.sensor_height_mm = sensor_height_mm.value_or(made.sensor_height_mm);
-  made.columns = columns.value_or(made.columns);
-  made.rows = rows.value_or(made.rows);
-  made.max_rate_Hz = max_rate_Hz.value_or(made.max_rate_Hz);
+  SurveyCamera resolved = make_preset(camera);
+  resolved.focal_length_mm = focal_length_mm.value_or(resolved.focal_length_mm);
+  resolved.sensor_width_mm = sensor_width_mm.value_or(resolved.sensor_width_mm);
+  resolved.sensor_height_mm = sensor_height_mm.value_or(resolved.sensor_height_mm);
+  resolved.columns = columns.value_or(resolved.columns);
+  resolved.rows = rows.value_or(resolved.rows);
+  resolved.max_rate_Hz = max_rate_Hz.value_or(resolved.max_rate_Hz);
   // With other optics it is no longer the named camera.
   if (focal_length_mm || sensor_width_mm || sensor_height_mm || columns || rows) {
-    made.name = "own";
+    resolved.name = "own";
   }
-  return made;
+  return resolved;
 }
 
 std::vector<ParameterSpec> survey_camera_parameters() {

@@ -78,10 +78,10 @@ class Check {
       demand(!actuator.name.empty(), "an actuator has no name");
       demand(names.insert(actuator.name).second,
              fmt::format("two actuators are called '{}'", actuator.name));
-      demand(std::isfinite(actuator.min) && std::isfinite(actuator.max) &&
-                 actuator.min < actuator.max,
-             fmt::format("actuator '{}' has min = {:g}, must be finite and < max = {:g}",
-                         actuator.name, actuator.min, actuator.max));
+      demand(
+          std::isfinite(actuator.min) && std::isfinite(actuator.max) && actuator.min < actuator.max,
+          fmt::format("actuator '{}' has min = {:g}, must be finite and < max = {:g}",
+                      actuator.name, actuator.min, actuator.max));
     }
   }
 
@@ -100,12 +100,12 @@ class Check {
     positive("wheeled.wheel_speed_limit_radps", wheeled.wheel_speed_limit_radps);
     not_negative("wheeled.effective_track_m", wheeled.effective_track_m);
     const std::vector<Eigen::Vector2d> outline_B = vehicle_.outline_B();
-    Eigen::Vector2d least = outline_B.front(), most = outline_B.front();
+    Eigen::Vector2d min_corner = outline_B.front(), max_corner = outline_B.front();
     for (const Eigen::Vector2d& corner : outline_B) {
-      least = least.cwiseMin(corner);
-      most = most.cwiseMax(corner);
+      min_corner = min_corner.cwiseMin(corner);
+      max_corner = max_corner.cwiseMax(corner);
     }
-    const Eigen::Vector2d size_m = most - least;
+    const Eigen::Vector2d size_m = max_corner - min_corner;
     demand(size_m.x() >= wheeled.wheel_base_m - kSame_m && size_m.y() >= wheeled.track_m - kSame_m,
            fmt::format("the outline of {:g} x {:g} m does not contain the wheels, {:g} m apart "
                        "along and {:g} m across",

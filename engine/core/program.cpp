@@ -29,24 +29,6 @@ ScratchFile open_scratch_file() {
   return {std::tmpfile(), &std::fclose};
 }
 
-std::string read_from_start(std::FILE* file) {
-  std::rewind(file);
-  std::string text;
-  char block[4096];
-  for (std::size_t count; (count = std::fread(block, 1, sizeof block, file)) > 0;) {
-    text.append(block, count);
-  }
-  return text;
-}
-
-std::string last_line(std::string_view text) {
-  const std::size_t end = text.find_last_not_of(" \t\r\n");
-  if (end == std::string_view::npos) return "";
-  text = text.substr(0, end + 1);
-  const std::size_t begin = text.rfind('\n');
-  return std::string(begin == std::string_view::npos ? text : text.substr(begin + 1));
-}
-
 }  // namespace
 
 bool has_program(const char* name) {
@@ -85,7 +67,25 @@ ProgramOutput run_program(std::vector<std::string> words) {
   while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
   }
   return {WIFEXITED(status) && WEXITSTATUS(status) == 0, read_from_start(output.get()),
-          last_line(read_from_start(complaints.get()))};
+          last_line_of(read_from_start(complaints.get()))};
+}
+
+std::string read_from_start(std::FILE* file) {
+  std::rewind(file);
+  std::string text;
+  char block[4096];
+  for (std::size_t count; (count = std::fread(block, 1, sizeof block, file)) > 0;) {
+    text.append(block, count);
+  }
+  return text;
+}
+
+std::string last_line_of(std::string_view text) {
+  const std::size_t end = text.find_last_not_of(" \t\r\n");
+  if (end == std::string_view::npos) return "";
+  text = text.substr(0, end + 1);
+  const std::size_t begin = text.rfind('\n');
+  return std::string(begin == std::string_view::npos ? text : text.substr(begin + 1));
 }
 
 }  // namespace vinerow

@@ -1,7 +1,9 @@
 #pragma once
 /// External programs as child processes.
 
+#include <cstdio>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace vinerow {
@@ -19,5 +21,11 @@ struct ProgramOutput {
 /// @param words  program name and arguments
 /// @throws WriteError if it does not start
 ProgramOutput run_program(std::vector<std::string> words);
+
+/// Content of an open file from its start.
+std::string read_from_start(std::FILE* file);
+
+/// Last line of a text that is not blank; "" if all are.
+std::string last_line_of(std::string_view text);
 
 }  // namespace vinerow

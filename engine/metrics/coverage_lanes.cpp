@@ -28,9 +28,9 @@ Vector2d middle_of_footprint(const PictureFootprint& footprint) {
 Vector2d direction_of(const std::map<int, std::vector<const PictureFootprint*>>& by_lane) {
   Vector2d longest = Vector2d::Zero();
   for (const auto& [lane, footprints] : by_lane) {
-    const Vector2d way =
+    const Vector2d displacement =
         middle_of_footprint(*footprints.back()) - middle_of_footprint(*footprints.front());
-    if (way.norm() > longest.norm()) longest = way;
+    if (displacement.norm() > longest.norm()) longest = displacement;
   }
   return longest.norm() > 0.0 ? Vector2d(longest.normalized()) : Vector2d::Zero();
 }

@@ -117,21 +117,21 @@ double EstimateJudge::consistent() const {
 }
 
 void EstimateJudge::write_results(std::map<std::string, double>& all) const {
-  const auto tell = [&](const std::string& name, double value) {
+  const auto set_result = [&](const std::string& name, double value) {
     all[name] = is_truth_ ? kNotMeasured : value;
   };
-  tell(prefixes_.error + "lateral_std_m", lateral_.std());
-  tell(prefixes_.error + "lateral_rms_m", lateral_.rms());
-  tell(prefixes_.error + "lateral_max_m", lateral_.max_or_nan());
-  tell(prefixes_.error + "longitudinal_std_m", longitudinal_.std());
-  tell(prefixes_.error + "longitudinal_rms_m", longitudinal_.rms());
-  tell(prefixes_.error + "longitudinal_max_m", longitudinal_.max_or_nan());
-  tell(prefixes_.error + "vertical_rms_m", vertical_.rms());
-  tell(prefixes_.error + "yaw_rms_deg", deg_from_rad(yaw_.rms()));
-  tell(prefixes_.error + "consistent", consistent());
-  tell(prefixes_.other + "nees_mean", nees_.mean());
-  tell(prefixes_.other + "nees_in_95_share", inside_.value());
-  tell(prefixes_.other + "ellipsoid_containment_share", contained_.value());
+  set_result(prefixes_.error + "lateral_std_m", lateral_.std());
+  set_result(prefixes_.error + "lateral_rms_m", lateral_.rms());
+  set_result(prefixes_.error + "lateral_max_m", lateral_.max_or_nan());
+  set_result(prefixes_.error + "longitudinal_std_m", longitudinal_.std());
+  set_result(prefixes_.error + "longitudinal_rms_m", longitudinal_.rms());
+  set_result(prefixes_.error + "longitudinal_max_m", longitudinal_.max_or_nan());
+  set_result(prefixes_.error + "vertical_rms_m", vertical_.rms());
+  set_result(prefixes_.error + "yaw_rms_deg", deg_from_rad(yaw_.rms()));
+  set_result(prefixes_.error + "consistent", consistent());
+  set_result(prefixes_.other + "nees_mean", nees_.mean());
+  set_result(prefixes_.other + "nees_in_95_share", inside_.value());
+  set_result(prefixes_.other + "ellipsoid_containment_share", contained_.value());
   for (const Nis& nis : nis_) {
     all[prefixes_.other + nis.name + "_mean"] =
         nis.count ? nis.sum / static_cast<double>(nis.count) : kNotMeasured;

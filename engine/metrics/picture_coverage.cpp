@@ -272,22 +272,22 @@ CoverageMap map_coverage(const std::vector<LaneShot>& shots, const CoverageOptio
   std::vector<PictureFootprint> footprints;
   Summary gsd, error;
   double error_size = 0.0;
-  for (const LaneShot& taken : shots) {
+  for (const LaneShot& lane_shot : shots) {
     PictureFootprint footprint;
-    footprint.polygon_W = footprint_W(taken.shot);
+    footprint.polygon_W = footprint_W(lane_shot.shot);
     footprint.area_m2 = signed_area_m2(footprint.polygon_W);
     if (footprint.area_m2 <= 0.0) continue;
-    footprint.index = taken.shot.index;
-    footprint.lane = taken.lane;
+    footprint.index = lane_shot.shot.index;
+    footprint.lane = lane_shot.lane;
     footprint.touches_parcel =
         std::abs(signed_area_m2(clip(options.parcel_W, footprint.polygon_W))) > 0.0;
     for_each_cell_in(footprint.polygon_W, map, [&map](std::size_t cell) {
       if (map.pictures[cell] >= 0) ++map.pictures[cell];
     });
     if (footprint.touches_parcel) {
-      gsd.add(taken.shot.gsd_m);
+      gsd.add(lane_shot.shot.gsd_m);
       // d / h - 1 = 1 / down - 1
-      const double down = -(taken.shot.X_WS.q * Eigen::Vector3d::UnitX()).z();
+      const double down = -(lane_shot.shot.X_WS.q * Eigen::Vector3d::UnitX()).z();
       error.add(1.0 / down - 1.0);
       error_size = std::max(error_size, std::abs(1.0 / down - 1.0));
     }

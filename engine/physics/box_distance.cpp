@@ -13,18 +13,19 @@ namespace {
 double edges_distance2(const Pose& X_BA, const Eigen::Vector3d& half_A,
                        const Eigen::Vector3d& half_B) {
   const Eigen::Matrix3d half_axes_B = X_BA.q.toRotationMatrix() * half_A.asDiagonal();
-  double least = std::numeric_limits<double>::infinity();
+  double min_distance2 = std::numeric_limits<double>::infinity();
   for (int axis = 0; axis < 3; ++axis) {
     const Eigen::Vector3d along = half_axes_B.col(axis);
     const Eigen::Vector3d u = half_axes_B.col((axis + 1) % 3), v = half_axes_B.col((axis + 2) % 3);
     for (const double side : {-1.0, 1.0}) {
       for (const double other : {-1.0, 1.0}) {
         const Eigen::Vector3d middle = X_BA.p + side * u + other * v;
-        least = std::min(least, segment_box_distance2(middle - along, middle + along, half_B));
+        min_distance2 =
+            std::min(min_distance2, segment_box_distance2(middle - along, middle + along, half_B));
       }
     }
   }
-  return least;
+  return min_distance2;
 }
 
 }  // namespace

@@ -86,42 +86,43 @@ struct MeshRays::Impl {
     unsigned best_triangle = 0;
   };
 
-  static void find_box(const RTCBoundsFunctionArguments* asked) {
-    const auto& boxes = *static_cast<const Boxes*>(asked->geometryUserPtr);
+  static void find_box(const RTCBoundsFunctionArguments* arguments) {
+    const auto& boxes = *static_cast<const Boxes*>(arguments->geometryUserPtr);
     Eigen::AlignedBox3d box;
-    for (const Vector3d& corner : corners(*boxes.mesh, asked->primID)) box.extend(boxes.X * corner);
+    for (const Vector3d& corner : corners(*boxes.mesh, arguments->primID))
+      box.extend(boxes.X * corner);
     const auto low = [&](int axis) { return static_cast<float>(box.min()[axis] - boxes.margin_m); };
     const auto high = [&](int axis) {
       return static_cast<float>(box.max()[axis] + boxes.margin_m);
     };
-    *asked->bounds_o = {low(0), low(1), low(2), 0.0f, high(0), high(1), high(2), 0.0f};
+    *arguments->bounds_o = {low(0), low(1), low(2), 0.0f, high(0), high(1), high(2), 0.0f};
   }
 
   /// Called if a ray meets the box of a triangle.
-  static void look_at_triangle(const RTCIntersectFunctionNArguments* asked) {
-    if (asked->N != 1 || asked->valid[0] == 0) return;
-    auto& cast = *static_cast<Cast*>(asked->context);
-    const unsigned instance = asked->context->instID[0];
-    const unsigned entry = instance != RTC_INVALID_GEOMETRY_ID ? instance : asked->geomID;
+  static void look_at_triangle(const RTCIntersectFunctionNArguments* arguments) {
+    if (arguments->N != 1 || arguments->valid[0] == 0) return;
+    auto& cast = *static_cast<Cast*>(arguments->context);
+    const unsigned instance = arguments->context->instID[0];
+    const unsigned entry = instance != RTC_INVALID_GEOMETRY_ID ? instance : arguments->geomID;
     const Placed& placed = (*cast.placed)[entry];
     if (entry != cast.entry) {
       cast.ray_M = TriangleRay(placed.R_MW * cast.p_W + placed.p_MW, placed.R_MW * cast.dir_W);
       cast.entry = entry;
     }
-    const auto [a, b, c] = corners(*placed.instance->mesh, asked->primID);
+    const auto [a, b, c] = corners(*placed.instance->mesh, arguments->primID);
     const std::optional<double> found_m = cast.ray_M.distance_m(a, b, c);
     if (!found_m || *found_m > cast.best_m) return;
     if (*found_m == cast.best_m && cast.best_entry != RTC_INVALID_GEOMETRY_ID &&
-        std::pair(cast.best_entry, cast.best_triangle) < std::pair(entry, asked->primID)) {
+        std::pair(cast.best_entry, cast.best_triangle) < std::pair(entry, arguments->primID)) {
       return;
     }
     cast.best_m = *found_m;
     cast.best_entry = entry;
-    cast.best_triangle = asked->primID;
+    cast.best_triangle = arguments->primID;
     // Skip boxes that start farther away; test those at the same distance.
-    auto& ray = *reinterpret_cast<RTCRayHit*>(asked->rayhit);
+    auto& ray = *reinterpret_cast<RTCRayHit*>(arguments->rayhit);
     ray.ray.tfar = static_cast<float>(cast.best_m - cast.tree_start_m + cast.margin_m);
-    ray.hit.geomID = asked->geomID;
+    ray.hit.geomID = arguments->geomID;
   }
 
   RTCDevice device = nullptr;

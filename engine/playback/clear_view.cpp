@@ -64,10 +64,10 @@ ViewQuality judge_view(const render::Camera& camera, double aspect, const Subjec
   const Vector3d& eye = camera.X_WC.p;
   int seen = 0;
   for (const Vector3d& p : subject.points_W) {
-    const Vector3d way = p - eye;
-    const double reach_m = way.norm() - kBefore_m;
+    const Vector3d line_of_sight = p - eye;
+    const double reach_m = line_of_sight.norm() - kBefore_m;
     if (!is_in_picture(camera, aspect, p)) continue;
-    if (reach_m <= 0.0 || !scene.cast_ray(eye, way.normalized(), reach_m)) ++seen;
+    if (reach_m <= 0.0 || !scene.cast_ray(eye, line_of_sight.normalized(), reach_m)) ++seen;
   }
   if (!subject.points_W.empty()) quality.seen = double{1} * seen / subject.points_W.size();
   const AlignedBox2d own = seen_box(camera, subject.points_W);
@@ -89,9 +89,9 @@ ViewQuality judge_view(const render::Camera& camera, double aspect, const Subjec
   return quality;
 }
 
-std::vector<render::ChaseOptions> chase_candidates(const render::ChaseOptions& asked) {
+std::vector<render::ChaseOptions> chase_candidates(const render::ChaseOptions& requested) {
   // A camera that was requested behind the vehicle moves a little to either side.
-  const double side_rad = asked.side_rad;
+  const double side_rad = requested.side_rad;
   constexpr double kSmall_rad = rad_from_deg(1.0);
   const std::vector<double> sides_rad =
       std::abs(side_rad) > kSmall_rad
@@ -104,9 +104,9 @@ std::vector<render::ChaseOptions> chase_candidates(const render::ChaseOptions& a
     for (std::size_t rise = 0; rise <= change; ++rise) {
       const std::size_t side = change - rise;
       if (rise >= std::size(kRises) || side >= sides_rad.size()) continue;
-      candidates.push_back(asked);
+      candidates.push_back(requested);
       candidates.back().side_rad = sides_rad[side];
-      candidates.back().height_m += kRises[rise] * asked.distance_m;
+      candidates.back().height_m += kRises[rise] * requested.distance_m;
     }
   }
   return candidates;

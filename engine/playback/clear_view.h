@@ -34,7 +34,7 @@ ViewQuality judge_view(const render::Camera& camera, double aspect, const Subjec
 
 /// Chase cameras to try: first the requested one, then from small to large changes of the orbit
 /// angle (smaller, then to the other side) and of the height.
-std::vector<render::ChaseOptions> chase_candidates(const render::ChaseOptions& asked);
+std::vector<render::ChaseOptions> chase_candidates(const render::ChaseOptions& requested);
 
 /// The first candidate with a good view of the subject, else the best one.
 /// @param candidates  @pre not empty  @param aspect  width / height of the picture

@@ -40,12 +40,12 @@ std::vector<metrics::LaneShot> read_shots(const record::LogReader& log, const st
     while (plans_seen < trace.plan.times.size() && trace.plan.times[plans_seen] <= t) {
       plan.take_over(trace.plan.values[plans_seen++]);
     }
-    metrics::LaneShot taken{shot, 0};
+    metrics::LaneShot lane_shot{shot, 0};
     if (plan.has_plan() && !trace.truth.empty()) {
       const Odometry truth = trace.truth_at(t);
-      taken.lane = plan.lane(truth.X_WB.p, truth.X_WB.q * truth.v_WB_B);
+      lane_shot.lane = plan.lane(truth.X_WB.p, truth.X_WB.q * truth.v_WB_B);
     }
-    shots.push_back(std::move(taken));
+    shots.push_back(std::move(lane_shot));
   });
   return shots;
 }
@@ -62,8 +62,8 @@ std::vector<Eigen::Vector2d> track_of(const VehicleTrace& trace) {
 /// Convex hull of all footprints.
 Polygon hull_of(const std::vector<metrics::LaneShot>& shots) {
   Polygon corners;
-  for (const metrics::LaneShot& taken : shots) {
-    const Polygon footprint = metrics::footprint_W(taken.shot);
+  for (const metrics::LaneShot& lane_shot : shots) {
+    const Polygon footprint = metrics::footprint_W(lane_shot.shot);
     corners.insert(corners.end(), footprint.begin(), footprint.end());
   }
   return convex_hull(std::move(corners));
@@ -135,8 +135,8 @@ std::string coverage_json(const SurveyCoverage& coverage) {
     numbers[number.name] = json_of(coverage.map.numbers.at(number.name));
   }
   for (const Eigen::Vector2d& p : coverage.options.parcel_W) parcel.push_back({p.x(), p.y()});
-  for (const metrics::LaneShot& taken : coverage.shots) {
-    const CameraShot& shot = taken.shot;
+  for (const metrics::LaneShot& lane_shot : coverage.shots) {
+    const CameraShot& shot = lane_shot.shot;
     const Eigen::Quaterniond& q = shot.X_WS.q;
     ordered_json corners = nullptr;
     if (shot.on_ground) {
@@ -144,7 +144,7 @@ std::string coverage_json(const SurveyCoverage& coverage) {
       for (const Eigen::Vector3d& corner : shot.corners_W) corners.push_back(json_of(corner));
     }
     pictures.push_back({{"index", shot.index},
-                        {"lane", taken.lane},
+                        {"lane", lane_shot.lane},
                         {"position_m", json_of(shot.X_WS.p)},
                         {"attitude_wxyz", {q.w(), q.x(), q.y(), q.z()}},
                         {"distance_m", shot.distance_m},

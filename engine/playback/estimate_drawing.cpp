@@ -103,10 +103,10 @@ void add_marker(const Odometry& now, const EstimateLook& look, const Ground& gro
   }
   render::Polyline cross = line_of(look, 2.0f, 1.0f);
   cross.pairs = true;
-  for (const Eigen::Vector3d& way : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0),
-                                     Eigen::Vector3d(-1, 0, 0), Eigen::Vector3d(0, -1, 0)}) {
-    cross.points_W.push_back(now.X_WB * Eigen::Vector3d(kMarkerGap * look.marker_m * way));
-    cross.points_W.push_back(now.X_WB * Eigen::Vector3d(look.marker_m * way));
+  for (const Eigen::Vector3d& direction : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0),
+                                           Eigen::Vector3d(-1, 0, 0), Eigen::Vector3d(0, -1, 0)}) {
+    cross.points_W.push_back(now.X_WB * Eigen::Vector3d(kMarkerGap * look.marker_m * direction));
+    cross.points_W.push_back(now.X_WB * Eigen::Vector3d(look.marker_m * direction));
   }
   add_with_rim(std::move(cross), lines);
 }

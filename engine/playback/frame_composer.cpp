@@ -167,12 +167,12 @@ render::Camera FrameComposer::place_chase(const scenario::CameraConfig& camera, 
                                           double aspect) const {
   const Trace<Odometry>& truth = trace_of(camera.vehicle).truth;
   const Pose X_WB = truth.empty() ? Pose{} : odometry_at(truth, t).X_WB;
-  render::ChaseOptions asked;
-  asked.distance_m = camera.distance_m;
-  asked.height_m = camera.height_m;
-  asked.side_rad = camera.yaw_rad;
-  asked.fov_rad = camera.fov_rad;
-  asked.follows_slope = !flies(camera.vehicle);
+  render::ChaseOptions requested;
+  requested.distance_m = camera.distance_m;
+  requested.height_m = camera.height_m;
+  requested.side_rad = camera.yaw_rad;
+  requested.fov_rad = camera.fov_rad;
+  requested.follows_slope = !flies(camera.vehicle);
   const auto above_ground = [&](render::ChaseOptions options) {
     if (options.follows_slope) return render::chase_camera(X_WB, options);
     // Behind a vehicle that flies along a slope, the ground may be higher than the eye.
@@ -183,7 +183,7 @@ render::Camera FrameComposer::place_chase(const scenario::CameraConfig& camera, 
   };
   // Views that compare estimates or a map with the truth keep the requested position.
   if (!options_.seeks_clear_views || camera.show_estimate || camera.show_map) {
-    return above_ground(asked);
+    return above_ground(requested);
   }
   Subject subject;
   for (std::size_t v = 0; v < scenario_.vehicles.size(); ++v) {
@@ -195,7 +195,7 @@ render::Camera FrameComposer::place_chase(const scenario::CameraConfig& camera, 
     }
   }
   std::vector<render::Camera> candidates;
-  for (const render::ChaseOptions& options : chase_candidates(asked)) {
+  for (const render::ChaseOptions& options : chase_candidates(requested)) {
     candidates.push_back(above_ground(options));
   }
   return find_clear_view(candidates, aspect, subject, *scene_);

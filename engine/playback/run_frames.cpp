@@ -226,13 +226,13 @@ PictureReport render_log(const std::filesystem::path& log, const std::filesystem
 
   const auto start = std::chrono::steady_clock::now();
   if (options.progress) options.progress(0, total);
-  int taken = 0;
+  int finished_frames = 0;
   const auto draw = [&](const scenario::CameraConfig& camera, Time t) {
     const render::Frame frame = composer.compose(camera, t);
     const render::Image image = (*renderer)->draw(frame);
     if (options.take_frame) {
       options.take_frame(image);
-      if (options.progress) options.progress(++taken, total);
+      if (options.progress) options.progress(++finished_frames, total);
       return;
     }
     const std::vector<double> shares = (*renderer)->statistics().vehicle_shares;

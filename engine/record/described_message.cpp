@@ -65,7 +65,7 @@ class WriteField final : public FieldVisitor {
 
  private:
   void write(const FieldInfo& info, const Pose& pose) {
-    if (info.beside_body) {
+    if (info.relative_to_body) {
       write_pose_in_body(out_, to_, pose);
     } else {
       write_pose(out_, pose);
@@ -109,9 +109,8 @@ void visit_in(LogOrder order, const MessageFields& message, FieldVisitor& visito
 }
 
 const char* ros_name(FieldKind kind) {
-  constexpr const char* kNames[] = {"bool",    "int8",    "int16",  "int32",
-                                    "int64",   "uint8",   "uint16", "uint32",
-                                    "uint64",  "float32", "float64", "string"};
+  constexpr const char* kNames[] = {"bool",   "int8",   "int16",  "int32",   "int64",   "uint8",
+                                    "uint16", "uint32", "uint64", "float32", "float64", "string"};
   return kNames[static_cast<int>(kind)];
 }
 
@@ -127,7 +126,7 @@ class DefineField final : public FieldVisitor {
       text_.append(ros_name(view.kind)).append(" ").append(name.name);
       text_.append("=").append(std::to_string(name.value)).append("\n");
     }
-    if (view.info.beside_body) text_ += "geometry_msgs/Pose body\n";
+    if (view.info.relative_to_body) text_ += "geometry_msgs/Pose body\n";
     text_ += type_of(view);
     if (view.shape == FieldShape::kArray) text_ += "[" + std::to_string(view.count) + "]";
     if (view.shape == FieldShape::kSequence) text_ += "[]";

@@ -3,7 +3,7 @@
 /// types and for messages of plug-ins.
 ///
 /// A message starts with a std_msgs/Header, followed by the fields in order. A Pose with
-/// `beside_body` is stored as two: "body", and its pose relative to the body.
+/// `relative_to_body` is stored as two: "body", and its pose relative to the body.
 
 #include <array>
 #include <cstdint>
@@ -91,7 +91,7 @@ struct ReadField {
   template <class T>
   void operator()(const FieldInfo& info, T& value) const {
     if constexpr (std::is_same_v<T, Pose>) {
-      if (info.beside_body) return read_pose_in_body(in, value);
+      if (info.relative_to_body) return read_pose_in_body(in, value);
     }
     read(value);
   }

@@ -11,7 +11,7 @@ namespace {
 // Constants of the ROS 2 definitions.
 constexpr std::int32_t kMarkerLineList = 5;
 constexpr std::int32_t kMarkerAdd = 0;
-constexpr std::uint8_t kTaken = 100;  ///< per cent
+constexpr std::uint8_t kOccupied = 100;  ///< per cent
 
 // Appearance of a search tree in a viewer; chosen for legibility.
 constexpr double kLineWidth_m = 0.03;
@@ -71,7 +71,7 @@ void RosMapping<OccupancyGrid>::write(CdrWriter& out, const WriteContext& to,
   write_pose(out, origin);
   out.add_count(value.cells.size());
   std::transform(value.cells.begin(), value.cells.end(), out.extend_octets(value.cells.size()),
-                 [](std::uint8_t cell) { return cell != 0 ? kTaken : std::uint8_t{0}; });
+                 [](std::uint8_t cell) { return cell != 0 ? kOccupied : std::uint8_t{0}; });
 }
 
 }  // namespace vinerow::record

@@ -11,16 +11,17 @@ constexpr std::size_t kCovarianceSize = 36;
 constexpr std::size_t kCovarianceYaw = 35;
 
 /// Fills the block of x, y, z: diagonal and off-diagonal elements (xy, xz, yz).
-void fill_position(const Eigen::Vector3d& diagonal, const Eigen::Vector3d& beside,
+void fill_position(const Eigen::Vector3d& diagonal, const Eigen::Vector3d& off_diagonal,
                    double* covariance) {
   covariance[0] = diagonal.x(), covariance[7] = diagonal.y(), covariance[14] = diagonal.z();
-  covariance[1] = covariance[6] = beside.x();
-  covariance[2] = covariance[12] = beside.y();
-  covariance[8] = covariance[13] = beside.z();
+  covariance[1] = covariance[6] = off_diagonal.x();
+  covariance[2] = covariance[12] = off_diagonal.y();
+  covariance[8] = covariance[13] = off_diagonal.z();
 }
-void take_position(const double* covariance, Eigen::Vector3d& diagonal, Eigen::Vector3d& beside) {
+void take_position(const double* covariance, Eigen::Vector3d& diagonal,
+                   Eigen::Vector3d& off_diagonal) {
   diagonal = {covariance[0], covariance[7], covariance[14]};
-  beside = {covariance[1], covariance[2], covariance[8]};
+  off_diagonal = {covariance[1], covariance[2], covariance[8]};
 }
 
 // Minimum bytes of one element of a sequence; bounds a damaged count.

@@ -47,7 +47,7 @@ double pixels_per_metre(const Frame& frame, const Eigen::Vector3d& p_W) {
 /// Places a text to the right of an object, to the left, above or below, where no other text is.
 /// @returns the text's box
 AlignedBox2d place_of_text(const AlignedBox2d& there, double away_px, const Vector2d& size_px,
-                           const Frame& frame, const std::vector<AlignedBox2d>& taken) {
+                           const Frame& frame, const std::vector<AlignedBox2d>& occupied) {
   const AlignedBox2d picture(Vector2d(0, 0), Vector2d(frame.width, frame.height));
   const Vector2d half = 0.5 * size_px;
   AlignedBox2d first;
@@ -56,7 +56,7 @@ AlignedBox2d place_of_text(const AlignedBox2d& there, double away_px, const Vect
     const Vector2d centre = there.center() + side.cwiseProduct(half + 0.5 * there.sizes() +
                                                                Vector2d::Constant(away_px));
     const AlignedBox2d box(centre - half, centre + half);
-    if (picture.contains(box) && !overlaps_any(box, taken)) return box;
+    if (picture.contains(box) && !overlaps_any(box, occupied)) return box;
     if (first.isEmpty()) first = box;
   }
   return first;
@@ -74,7 +74,7 @@ AlignedBox2d box_at(const Vector2d& at, const AlignedBox2d& around,
 /// @param vehicles  boxes of the visible vehicles @returns boxes of the drawn markers
 std::vector<AlignedBox2d> draw_markers(const Frame& frame,
                                        const std::vector<AlignedBox2d>& vehicles, Canvas& canvas) {
-  std::vector<AlignedBox2d> taken;
+  std::vector<AlignedBox2d> occupied;
   const int text_px = caption_text_px(frame.height);
   const double radius = 0.75 * text_px, line_px = std::max(1.5, 0.14 * text_px);
   const Vector2d size(frame.width, frame.height), middle = 0.5 * size;
@@ -94,11 +94,11 @@ std::vector<AlignedBox2d> draw_markers(const Frame& frame,
     std::string text = marker.text;
     if (!inside) {
       // Outside the picture: an arrow at the edge, and the distance next to the name.
-      const Vector2d way = at - middle;
-      const Vector2d room = middle - Vector2d::Constant(1.6 * text_px);
-      const double share = std::min(room.x() / std::max(1e-9, std::abs(way.x())),
-                                    room.y() / std::max(1e-9, std::abs(way.y())));
-      const Vector2d edge = middle + share * way;
+      const Vector2d direction = at - middle;
+      const Vector2d half_extent = middle - Vector2d::Constant(1.6 * text_px);
+      const double share = std::min(half_extent.x() / std::max(1e-9, std::abs(direction.x())),
+                                    half_extent.y() / std::max(1e-9, std::abs(direction.y())));
+      const Vector2d edge = middle + share * direction;
       if (frame.camera.orthographic) {
         text += fmt::format(" {:.0f} m",
                             (at - edge).norm() * frame.camera.ortho_height_m / frame.height);
@@ -110,7 +110,7 @@ std::vector<AlignedBox2d> draw_markers(const Frame& frame,
     const bool ringed = away_px <= kRinged * radius;
     const AlignedBox2d around(at - Vector2d::Constant(away_px), at + Vector2d::Constant(away_px));
     const AlignedBox2d there = ringed ? around : box_at(at, around, vehicles);
-    taken.push_back(there);
+    occupied.push_back(there);
     placed.push_back({at, text, rgb_of(marker.colour), inside, ringed, there});
   }
   for (const Placed& one : placed) {
@@ -119,11 +119,13 @@ std::vector<AlignedBox2d> draw_markers(const Frame& frame,
       canvas.outline(circle(one.at, radius, kRingCorners), line_px + 2.0, kDarkInk, 0.55);
       canvas.outline(circle(one.at, radius, kRingCorners), line_px, one.colour);
     } else {
-      const Vector2d way = (one.at - middle).normalized(), side(-way.y(), way.x());
+      const Vector2d direction = (one.at - middle).normalized(),
+                     side(-direction.y(), direction.x());
       const auto arrow = [&](double grow) {
-        return std::vector<Vector2d>{one.at + (radius + grow) * way,
-                                     one.at - (0.6 * radius + grow) * way + (radius + grow) * side,
-                                     one.at - (0.6 * radius + grow) * way - (radius + grow) * side};
+        return std::vector<Vector2d>{
+            one.at + (radius + grow) * direction,
+            one.at - (0.6 * radius + grow) * direction + (radius + grow) * side,
+            one.at - (0.6 * radius + grow) * direction - (radius + grow) * side};
       };
       canvas.fill(arrow(2.0), kDarkInk, 0.55);
       canvas.fill(arrow(0.0), one.colour);
@@ -131,11 +133,11 @@ std::vector<AlignedBox2d> draw_markers(const Frame& frame,
   }
   for (const Placed& one : placed) {
     const Vector2d text_size(text_width(one.text, text_px), 1.2 * text_px);
-    const AlignedBox2d box = place_of_text(one.there, 0.4 * radius, text_size, frame, taken);
+    const AlignedBox2d box = place_of_text(one.there, 0.4 * radius, text_size, frame, occupied);
     write(canvas, one.text, text_px, {box.min().x(), box.max().y() - 0.28 * text_px});
-    taken.push_back(box);
+    occupied.push_back(box);
   }
-  return taken;
+  return occupied;
 }
 
 /// Draws the scale bar in the lower right. @returns its box

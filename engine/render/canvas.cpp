@@ -70,11 +70,11 @@ void Canvas::fill(const std::vector<Vector2d>& polygon, const Rgb& colour, doubl
       }
       std::sort(crossings.begin(), crossings.end());
       for (std::size_t k = 0; k + 1 < crossings.size(); k += 2) {
-        const double most = kSamples * static_cast<double>(image_.width);
+        const double max_sample = kSamples * static_cast<double>(image_.width);
         const int first =
-            static_cast<int>(std::ceil(std::clamp(kSamples * crossings[k] - 0.5, 0.0, most)));
-        const int end =
-            static_cast<int>(std::ceil(std::clamp(kSamples * crossings[k + 1] - 0.5, 0.0, most)));
+            static_cast<int>(std::ceil(std::clamp(kSamples * crossings[k] - 0.5, 0.0, max_sample)));
+        const int end = static_cast<int>(
+            std::ceil(std::clamp(kSamples * crossings[k + 1] - 0.5, 0.0, max_sample)));
         for (int i = first; i < end; ++i) ++cover[static_cast<std::size_t>(i / kSamples)];
       }
     }

@@ -29,46 +29,47 @@ struct BytePlane {
 };
 
 /// 1 occupied, 0 free.
-BytePlane taken_of(const OccupancyGrid& grid, int cells_a_texel) {
+BytePlane occupancy_of(const OccupancyGrid& grid, int cells_a_texel) {
   const auto texels = [&](int cells) { return (cells - 1) / cells_a_texel + 1; };
   const int width = texels(grid.columns), height = texels(grid.rows);
-  BytePlane taken(padded(width), padded(height));
+  BytePlane occupancy(padded(width), padded(height));
   for (int j = 0; j < grid.rows; ++j) {
     const std::uint8_t* in = &grid.cells[static_cast<std::size_t>(j) * grid.columns];
-    std::uint8_t* out = taken.row(j / cells_a_texel);
+    std::uint8_t* out = occupancy.row(j / cells_a_texel);
     for (int i = 0; i < grid.columns; ++i) {
       if (in[i] != 0) out[i / cells_a_texel] = 1;
     }
   }
   for (int y = 0; y < height; ++y) {
-    std::fill(taken.row(y) + width, taken.row(y) + taken.width, taken.row(y)[width - 1]);
+    std::fill(occupancy.row(y) + width, occupancy.row(y) + occupancy.width,
+              occupancy.row(y)[width - 1]);
   }
-  for (int y = height; y < taken.height; ++y) {
-    std::copy_n(taken.row(height - 1), taken.width, taken.row(y));
+  for (int y = height; y < occupancy.height; ++y) {
+    std::copy_n(occupancy.row(height - 1), occupancy.width, occupancy.row(y));
   }
-  return taken;
+  return occupancy;
 }
 
 /// Blur with weights 1 2 1 along each side; 255: fully occupied.
-BytePlane soften(const BytePlane& taken) {
-  BytePlane along(taken.width, taken.height), soft(taken.width, taken.height);
+BytePlane soften(const BytePlane& occupancy) {
+  BytePlane along(occupancy.width, occupancy.height), soft(occupancy.width, occupancy.height);
   const auto blend = [](int before, int here, int after) {
     return static_cast<std::uint8_t>(before + 2 * here + after);
   };
-  for (int y = 0; y < taken.height; ++y) {
-    const std::uint8_t* in = taken.row(y);
+  for (int y = 0; y < occupancy.height; ++y) {
+    const std::uint8_t* in = occupancy.row(y);
     std::uint8_t* out = along.row(y);
-    const int last = taken.width - 1;
+    const int last = occupancy.width - 1;
     out[0] = blend(in[0], in[0], in[1]);
     for (int x = 1; x < last; ++x) out[x] = blend(in[x - 1], in[x], in[x + 1]);
     out[last] = blend(in[last - 1], in[last], in[last]);
   }
-  for (int y = 0; y < taken.height; ++y) {
+  for (int y = 0; y < occupancy.height; ++y) {
     const std::uint8_t* below = along.row(std::max(y - 1, 0));
     const std::uint8_t* here = along.row(y);
-    const std::uint8_t* above = along.row(std::min(y + 1, taken.height - 1));
+    const std::uint8_t* above = along.row(std::min(y + 1, occupancy.height - 1));
     std::uint8_t* out = soft.row(y);
-    for (int x = 0; x < taken.width; ++x) {
+    for (int x = 0; x < occupancy.width; ++x) {
       out[x] = static_cast<std::uint8_t>(blend(below[x], here[x], above[x]) * 255 / 16);
     }
   }
@@ -78,9 +79,9 @@ BytePlane soften(const BytePlane& taken) {
 /// Distance of occupied texels to free ones, from centre to edge; 255: kGridDepth_m or more.
 /// Chamfer distances in two sweeps (G. Borgefors, "Distance transformations in digital images",
 /// 1986): 3 for a side, 4 for a diagonal.
-BytePlane depths_of(const BytePlane& taken, double texel_m) {
+BytePlane depths_of(const BytePlane& occupancy, double texel_m) {
   constexpr int kFar = 1 << 14;
-  const int width = taken.width, height = taken.height;
+  const int width = occupancy.width, height = occupancy.height;
   const double scale = 255.0 * texel_m / (3.0 * kGridDepth_m);
   const int stride = width + 2;  // a border of far texels avoids bounds checks
   std::vector<std::uint16_t> depth(static_cast<std::size_t>(stride) * (height + 2), kFar);
@@ -88,7 +89,7 @@ BytePlane depths_of(const BytePlane& taken, double texel_m) {
     return &depth[static_cast<std::size_t>(y + 1) * stride + x + 1];
   };
   for (int y = 0; y < height; ++y) {
-    const std::uint8_t* in = taken.row(y);
+    const std::uint8_t* in = occupancy.row(y);
     for (int x = 0; x < width; ++x) *at(x, y) = in[x] ? kFar : 0;
   }
   const auto sweep = [&](int x, int y, int step) {
@@ -134,13 +135,13 @@ std::vector<GridLevel> make_grid_levels(const OccupancyGrid& grid, int& cells_a_
   cells_a_texel = 1;
   const int longest = std::max(grid.columns, grid.rows);
   while ((longest - 1) / cells_a_texel >= kLargestSide) cells_a_texel *= 2;
-  const BytePlane taken = taken_of(grid, cells_a_texel);
-  const BytePlane soft = soften(taken);
-  const BytePlane depth = depths_of(taken, grid.cell_m * cells_a_texel);
+  const BytePlane occupancy = occupancy_of(grid, cells_a_texel);
+  const BytePlane soft = soften(occupancy);
+  const BytePlane depth = depths_of(occupancy, grid.cell_m * cells_a_texel);
 
-  GridLevel first{taken.width, taken.height, {}};
-  first.texels.resize(2 * taken.bytes.size());
-  for (std::size_t i = 0; i < taken.bytes.size(); ++i) {
+  GridLevel first{occupancy.width, occupancy.height, {}};
+  first.texels.resize(2 * occupancy.bytes.size());
+  for (std::size_t i = 0; i < occupancy.bytes.size(); ++i) {
     first.texels[2 * i] = soft.bytes[i];
     first.texels[2 * i + 1] = depth.bytes[i];
   }

@@ -95,7 +95,7 @@ void shade(LandUse& land, const SceneryTree& tree, const Eigen::Vector3d& sun_W)
   const Eigen::Vector2d away = -sun_W.head<2>() / std::max(sun_W.z(), 0.1);
   const double base = scenery_crown_base_m(size);
   const double r = 0.5 * size.crown_width_m, h = 0.5 * (size.height_m - base);
-  const Eigen::Vector2d way = (base + h) * away, middle = tree.p_W + way;
+  const Eigen::Vector2d offset = (base + h) * away, middle = tree.p_W + offset;
   const double reach = std::hypot(r, h * away.norm());
   const Eigen::Vector2d along =
       away.norm() > 1e-6 ? Eigen::Vector2d(away.normalized()) : Eigen::Vector2d::UnitX();
@@ -114,8 +114,8 @@ void shade(LandUse& land, const SceneryTree& tree, const Eigen::Vector3d& sun_W)
                Eigen::Vector2d(tree.p_W.cwiseMax(middle) + border)},
               [&](const Eigen::Vector2d& p) {
                 const double t = std::clamp(
-                    (p - tree.p_W).dot(way) / std::max(way.squaredNorm(), 1e-12), 0.0, 1.0);
-                return 2.0 * (kHalfTrunk_m - (p - tree.p_W - t * way).norm());
+                    (p - tree.p_W).dot(offset) / std::max(offset.squaredNorm(), 1e-12), 0.0, 1.0);
+                return 2.0 * (kHalfTrunk_m - (p - tree.p_W - t * offset).norm());
               });
 }
 

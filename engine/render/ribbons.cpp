@@ -44,8 +44,9 @@ void drape(std::span<const Eigen::Vector3d> line, std::span<const float> fade,
       const Eigen::Vector3d step = line[i] - line[i - 1];
       const int pieces = std::min(2000, static_cast<int>(step.norm() / spacing) + 1);
       for (int k = 1; k < pieces; ++k) {
-        const double way = double{1} * k / pieces;
-        add(line[i - 1] + step * way, fade_at(i - 1) + way * (fade_at(i) - fade_at(i - 1)));
+        const double fraction = double{1} * k / pieces;
+        add(line[i - 1] + step * fraction,
+            fade_at(i - 1) + fraction * (fade_at(i) - fade_at(i - 1)));
       }
     }
     add(line[i], fade_at(i));
@@ -143,9 +144,9 @@ class Builder {
 template <class ClipOf>
 void draw_piece(const std::vector<Draped>& points, ClipOf&& clip_of, Builder& builder) {
   const auto cut = [](Clipped& hidden, const Clipped& seen) {
-    const double way = (kNearW - hidden.p.w()) / (seen.p.w() - hidden.p.w());
-    hidden.p += (seen.p - hidden.p) * way;
-    hidden.fade += (seen.fade - hidden.fade) * way;
+    const double fraction = (kNearW - hidden.p.w()) / (seen.p.w() - hidden.p.w());
+    hidden.p += (seen.p - hidden.p) * fraction;
+    hidden.fade += (seen.fade - hidden.fade) * fraction;
   };
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
     Clipped a{clip_of(points[i].p_W), points[i].fade};

@@ -6,10 +6,10 @@
 
 namespace vinerow::scenario {
 
-std::string list_known(std::span<const std::string> names, std::size_t most) {
+std::string list_known(std::span<const std::string> names, std::size_t max_count) {
   if (names.empty()) return "none";
-  if (names.size() <= most) return join(names);
-  return fmt::format("{} and {} more", join(names.first(most)), names.size() - most);
+  if (names.size() <= max_count) return join(names);
+  return fmt::format("{} and {} more", join(names.first(max_count)), names.size() - max_count);
 }
 
 }  // namespace vinerow::scenario

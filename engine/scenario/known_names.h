@@ -7,7 +7,8 @@
 
 namespace vinerow::scenario {
 
-/// "a, b, c", "a, b and 9 more" if there are more than `most` names, "none" if there are no names.
-std::string list_known(std::span<const std::string> names, std::size_t most);
+/// "a, b, c", "a, b and 9 more" if there are more than `max_count` names, "none" if there are no
+/// names.
+std::string list_known(std::span<const std::string> names, std::size_t max_count);
 
 }  // namespace vinerow::scenario

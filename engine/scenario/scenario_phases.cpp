@@ -221,64 +221,66 @@ void check_product(const PhaseConfig& phase, const ProductSource& source,
                    const std::vector<PhaseConfig>& phases,
                    const std::vector<VehicleConfig>& vehicles, const Registry& registry) {
   const std::string path = fmt::format("phases.{}.{}", phase.name, source.key);
-  const PhaseConfig* giver = find_phase(phases, source.phase);
-  if (!giver) {
+  const PhaseConfig* source_phase = find_phase(phases, source.phase);
+  if (!source_phase) {
     io::fail_at(source.where, fmt::format("{}: {}", path, unknown_phase(source.phase, phases)));
   }
   std::optional<ProductKind> gives;
   std::vector<std::string> items;
-  if (giver->job) {
-    gives = registry.spec(PartKind::kJob, giver->job->type).gives;
+  if (source_phase->job) {
+    gives = registry.spec(PartKind::kJob, source_phase->job->type).gives;
   } else {
-    items = picture_sources(*giver, vehicles, registry);
+    items = picture_sources(*source_phase, vehicles, registry);
     if (!items.empty()) gives = ProductKind::kPictures;
   }
   if (gives != source.kind) {
     io::fail_at(source.where,
-                fmt::format("{}: phase '{}' gives {}{}, must give {}{}", path, giver->name,
+                fmt::format("{}: phase '{}' gives {}{}, must give {}{}", path, source_phase->name,
                             gives ? article(*gives) : "", gives ? to_string(*gives) : "nothing",
                             article(source.kind), to_string(source.kind)));
   }
-  const std::string planned_for = vehicle_of(*giver, registry);
+  const std::string planned_for = vehicle_of(*source_phase, registry);
   if (source.kind == ProductKind::kPlan && !planned_for.empty() && phase.vehicles.size() == 1 &&
       phase.vehicles.front() != planned_for) {
-    io::fail_at(source.where, fmt::format("{}: phase '{}' plans for '{}', but this phase uses '{}'",
-                                          path, giver->name, planned_for, phase.vehicles.front()));
+    io::fail_at(source.where,
+                fmt::format("{}: phase '{}' plans for '{}', but this phase uses '{}'", path,
+                            source_phase->name, planned_for, phase.vehicles.front()));
   }
   if (source.item.empty() ? items.size() > 1 : !holds(items, source.item)) {
-    io::fail_at(source.where,
-                fmt::format("{}: phase '{}' gives pictures of {}; write 'from {}/{}'", path,
-                            giver->name, items.empty() ? "no camera" : join(items), giver->name,
-                            items.empty() ? "<vehicle>/<camera>" : items.front()));
+    io::fail_at(
+        source.where,
+        fmt::format("{}: phase '{}' gives pictures of {}; write 'from {}/{}'", path,
+                    source_phase->name, items.empty() ? "no camera" : join(items),
+                    source_phase->name, items.empty() ? "<vehicle>/<camera>" : items.front()));
   }
 }
 
 /// Cycle of phases from `phase` back to itself, or empty, by depth-first search. `done` holds
 /// phases without a cycle.
 std::vector<std::string> find_circle(const std::vector<PhaseConfig>& phases,
-                                     const std::string& phase, std::vector<std::string>& way,
+                                     const std::string& phase, std::vector<std::string>& stack,
                                      std::vector<std::string>& done) {
-  const auto on_path = std::find(way.begin(), way.end(), phase);
-  if (on_path != way.end()) {
-    std::vector<std::string> circle(on_path, way.end());
+  const auto on_path = std::find(stack.begin(), stack.end(), phase);
+  if (on_path != stack.end()) {
+    std::vector<std::string> circle(on_path, stack.end());
     circle.push_back(phase);
     return circle;
   }
   if (holds(done, phase)) return {};
-  way.push_back(phase);
+  stack.push_back(phase);
   for (const std::string& before : find_phase(phases, phase)->after) {
-    std::vector<std::string> circle = find_circle(phases, before, way, done);
+    std::vector<std::string> circle = find_circle(phases, before, stack, done);
     if (!circle.empty()) return circle;
   }
-  way.pop_back();
+  stack.pop_back();
   done.push_back(phase);
   return {};
 }
 
 void check_no_circle(const std::vector<PhaseConfig>& phases) {
-  std::vector<std::string> way, done;
+  std::vector<std::string> stack, done;
   for (const PhaseConfig& phase : phases) {
-    const std::vector<std::string> circle = find_circle(phases, phase.name, way, done);
+    const std::vector<std::string> circle = find_circle(phases, phase.name, stack, done);
     if (circle.empty()) continue;
     io::fail_at(find_phase(phases, circle.front())->where,
                 fmt::format("phases.{}: waits for itself: {}", circle.front(),

@@ -97,10 +97,10 @@ class Includer {
     const fs::path identity = canonical(wanted);
     // Shown relative to the including file's folder, so that the path in an error is valid from the
     // user's current folder.
-    const fs::path beside = fs::path(name.mark.file).parent_path();
+    const fs::path parent_folder = fs::path(name.mark.file).parent_path();
     const std::string shown_name = fs::path(name.text).is_absolute() || open_.empty()
                                        ? wanted.string()
-                                       : (beside / name.text).lexically_normal().string();
+                                       : (parent_folder / name.text).lexically_normal().string();
     refuse_circle(name, place, identity, shown_name);
     if (++include_count_ > kMaxIncludes) {
       io::fail_at(name.mark, fmt::format("{} = '{}': more than {} files are included", place,

@@ -40,27 +40,27 @@ double calc_allan_deviation(const AllanFigures& figures, double process_std, dou
                    figures.walk_u_per_rts * figures.walk_u_per_rts * t_s / 3.0);
 }
 
-double calc_least_allan_deviation(const AllanFigures& figures, double process_std) {
+double calc_min_allan_deviation(const AllanFigures& figures, double process_std) {
   constexpr int kSteps = 100;
-  double least = calc_allan_deviation(figures, process_std, kLongestAveraging_s);
+  double min_deviation = calc_allan_deviation(figures, process_std, kLongestAveraging_s);
   for (int i = 0; i < kSteps; ++i) {
     const double t_s =
         kFlatFrom_s * std::pow(kLongestAveraging_s / kFlatFrom_s, static_cast<double>(i) / kSteps);
-    least = std::min(least, calc_allan_deviation(figures, process_std, t_s));
+    min_deviation = std::min(min_deviation, calc_allan_deviation(figures, process_std, t_s));
   }
-  return least;
+  return min_deviation;
 }
 
 double calc_instability_std(const AllanFigures& figures) {
   if (figures.instability_u == 0.0) return 0.0;
   const double wanted = kInstabilityFactor * figures.instability_u;
-  if (calc_least_allan_deviation(figures, 0.0) > wanted) return -1.0;
+  if (calc_min_allan_deviation(figures, 0.0) > wanted) return -1.0;
   // The minimum grows with the processes' standard deviation; without white noise and random walk
   // it is 0.84 times it.
   double low = 0.0, high = 2.0 * wanted;
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (low + high);
-    (calc_least_allan_deviation(figures, middle) < wanted ? low : high) = middle;
+    (calc_min_allan_deviation(figures, middle) < wanted ? low : high) = middle;
   }
   return 0.5 * (low + high);
 }

@@ -50,7 +50,7 @@ class BiasInstability {
 double calc_allan_deviation(const AllanFigures& figures, double process_std, double t_s);
 
 /// Minimum Allan deviation for averaging times from kFlatFrom_s to kLongestAveraging_s.
-double calc_least_allan_deviation(const AllanFigures& figures, double process_std);
+double calc_min_allan_deviation(const AllanFigures& figures, double process_std);
 
 /// Standard deviation of each process that gives the specified minimum of the Allan deviation; 0 if
 /// the bias instability is 0.

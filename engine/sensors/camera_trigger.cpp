@@ -150,8 +150,8 @@ class CameraTrigger final : public MountedSensor<CameraShot> {
     if (shot_.index >= 0) {
       const Duration since = now - shot_at_;
       if (since.ns < (begins ? fastest_ : interval_).ns) return false;
-      const double way_m = (known.X_WB.p.head<2>() - shot_from_W_).norm();
-      if (!begins && way_m < distance_m_) return false;
+      const double distance_flown_m = (known.X_WB.p.head<2>() - shot_from_W_).norm();
+      if (!begins && distance_flown_m < distance_m_) return false;
     }
     return true;
   }

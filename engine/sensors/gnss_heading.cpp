@@ -85,9 +85,9 @@ class GnssHeadingSensor final : public MountedSensor<GnssHeading> {
     const Eigen::Vector3d baseline_W = X_WA.q * Eigen::Vector3d(params_.baseline_m, 0.0, 0.0);
     GnssHeading exact = reading_of(baseline_W, Eigen::Vector3d::Zero());
 
-    const bool deaf = readings_.is_in_outage(now);
-    const GnssView here = first_.look(now.s(), X_WA.p, deaf, 0.0);
-    const GnssView there = second_.look(now.s(), X_WA.p + baseline_W, deaf, 0.0);
+    const bool in_outage = readings_.is_in_outage(now);
+    const GnssView here = first_.look(now.s(), X_WA.p, in_outage, 0.0);
+    const GnssView there = second_.look(now.s(), X_WA.p + baseline_W, in_outage, 0.0);
     const int satellites = std::min(here.carrier.count(), there.carrier.count());
     const double none = std::numeric_limits<double>::infinity();
     Dilution first, second;
@@ -96,7 +96,7 @@ class GnssHeadingSensor final : public MountedSensor<GnssHeading> {
     const bool fixed = modes_.step(pdop, satellites, pdop) == GnssFix::Mode::kFixed;
     exact.satellites = satellites;
 
-    GnssHeading told;
+    GnssHeading reading;
     if (fixed) {
       const Eigen::Vector3d dilution = first.axes.cwiseMax(second.axes);
       Eigen::Vector3d error, std;
@@ -109,10 +109,10 @@ class GnssHeadingSensor final : public MountedSensor<GnssHeading> {
                                params_.walk_std_m[kind] * walks_[axis].value());
         std[axis] = scale * std::hypot(params_.white_std_m[kind], params_.walk_std_m[kind]);
       }
-      told = reading_of(baseline_W + error, std);
+      reading = reading_of(baseline_W + error, std);
     }
-    told.satellites = satellites;
-    readings_.push(now, told, exact);
+    reading.satellites = satellites;
+    readings_.push(now, reading, exact);
   }
 
  private:

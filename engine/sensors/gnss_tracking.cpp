@@ -133,7 +133,7 @@ double GnssTracking::weight(double cn0_dBHz, double noise_share) const {
   return std::min(1.0, 1.0 / (1.0 - noise_share + noise_share * noise));
 }
 
-GnssView GnssTracking::look(double time_s, const Vector3d& p_W, bool deaf, double jamming_dB) {
+GnssView GnssTracking::look(double time_s, const Vector3d& p_W, bool in_outage, double jamming_dB) {
   GnssView view;
   for (std::size_t i = 0; i < satellites_.size(); ++i) {
     Satellite& satellite = satellites_[i];
@@ -141,7 +141,7 @@ GnssView GnssTracking::look(double time_s, const Vector3d& p_W, bool deaf, doubl
     const Vector3d direction_W = sky_.direction_W(i, time_s);
     const double sin_elevation = direction_W.z();
     double cn0_dBHz = kNoSignal_dBHz;
-    if (!deaf && sin_elevation >= std::sin(signals_.mask_rad)) {
+    if (!in_outage && sin_elevation >= std::sin(signals_.mask_rad)) {
       const double leaves = leaves_m(p_W, direction_W);
       if (leaves >= 0.0) {
         const double open_dBHz =

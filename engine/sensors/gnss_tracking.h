@@ -69,15 +69,14 @@ class GnssTracking {
   /// Advances by one tick. Draws one number per satellite, visible or not.
   /// @param deaf  no satellite is received
   /// @param jamming_dB  loss of C/N0 of every satellite
-  GnssView look(double time_s, const Eigen::Vector3d& p_W, bool deaf, double jamming_dB);
-
+  GnssView look(double time_s, const Eigen::Vector3d& p_W, bool in_outage, double jamming_dB);
 
  private:
   struct Satellite {
-    double received_s = 0.0;    ///< C/N0 sufficient for code, gaps bridged
-    double gap_s = 0.0;      ///< not sufficient
-    double carrier_s = 0.0;  ///< sufficient for carrier phase
-    GaussMarkov fading;      ///< unit variance
+    double received_s = 0.0;  ///< C/N0 sufficient for code, gaps bridged
+    double gap_s = 0.0;       ///< not sufficient
+    double carrier_s = 0.0;   ///< sufficient for carrier phase
+    GaussMarkov fading;       ///< unit variance
   };
 
   /// @returns metres of leaves along the ray to the sky; negative if it is blocked

@@ -77,12 +77,12 @@ class Magnetometer final : public MountedSensor<MagneticSample> {
     for (int i = 0; i < 3; ++i) {
       hard_iron_T_[i] = 1e-6 * params.hard_iron_uT[i] + hard_std_T * device.normal();
     }
-    Eigen::Vector3d diagonal, beside;
+    Eigen::Vector3d diagonal, off_diagonal;
     for (int i = 0; i < 3; ++i) {
       diagonal[i] = 1.0 + soft[i] + soft_std * device.normal();
-      beside[i] = soft[3 + i] + soft_std * device.normal();
+      off_diagonal[i] = soft[3 + i] + soft_std * device.normal();
     }
-    soft_iron_ = symmetric_matrix(diagonal, beside);
+    soft_iron_ = symmetric_matrix(diagonal, off_diagonal);
   }
 
   void step(Time now) override {

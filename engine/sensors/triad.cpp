@@ -60,7 +60,7 @@ Triad::Triad(const TriadNames& names, const TriadFigures& figures, const PartCon
         "but white noise and random walk alone are {5:.6g} {3} or more up to {6:g} s",
         names.name, names.instability_key, allan.instability_u * to_unit, names.instability_unit,
         kInstabilityFactor * allan.instability_u * to_unit,
-        calc_least_allan_deviation(allan, 0.0) * to_unit, kLongestAveraging_s));
+        calc_min_allan_deviation(allan, 0.0) * to_unit, kLongestAveraging_s));
   }
   wanders_ = process_std > 0.0 || walk_std_u_ > 0.0;
   RandomStream device = context.random(names.name + "_device");

@@ -211,9 +211,9 @@ std::vector<double> measure_plan(const PlannedPath& plan, bool flies) {
   for (std::size_t i = 0; i < plan.points.size(); ++i) {
     if (i > 0) {
       const PathPoint& from = plan.points[i - 1];
-      const Eigen::Vector3d way = plan.points[i].p_W - from.p_W;
-      const double arc_m = calc_arc_m(way.head<2>().norm(), from.curvature_per_m);
-      sum_m += flies ? std::hypot(arc_m, way.z()) : arc_m;
+      const Eigen::Vector3d displacement = plan.points[i].p_W - from.p_W;
+      const double arc_m = calc_arc_m(displacement.head<2>().norm(), from.curvature_per_m);
+      sum_m += flies ? std::hypot(arc_m, displacement.z()) : arc_m;
     }
     at_m.push_back(sum_m);
   }

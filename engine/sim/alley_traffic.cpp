@@ -293,9 +293,9 @@ std::string AlleyTraffic::describe_cycle(int vehicle) const {
       for (const int alley : wanted(lanes_[i])) {
         const int other = holder_[alley];
         if (other < 0 || other == i) continue;
-        const int way = other == vehicle ? 1 : steps[other] + 1;
-        if (way >= steps[i]) continue;
-        steps[i] = way;
+        const int step_count = other == vehicle ? 1 : steps[other] + 1;
+        if (step_count >= steps[i]) continue;
+        steps[i] = step_count;
         by[i] = alley;
       }
     }

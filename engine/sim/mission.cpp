@@ -256,9 +256,9 @@ void Mission::begin(std::size_t i, Time now) {
 std::map<std::string, Product> Mission::inputs_of(std::size_t i) const {
   std::map<std::string, Product> inputs;
   for (const scenario::ProductSource& source : phases_[i].config->takes) {
-    const std::size_t giver = index_of(source.phase);
-    if (reports_[giver].product) inputs[source.key] = *reports_[giver].product;
-    for (const PictureCollector& camera : phases_[giver].cameras) {
+    const std::size_t source_index = index_of(source.phase);
+    if (reports_[source_index].product) inputs[source.key] = *reports_[source_index].product;
+    for (const PictureCollector& camera : phases_[source_index].cameras) {
       const bool is_meant = source.item.empty() || source.item == camera.source();
       if (source.kind == ProductKind::kPictures && is_meant) inputs[source.key] = camera.product();
     }

@@ -19,10 +19,10 @@ std::optional<double> PlacementGround::height_m(double x, double y) const {
   return terrain ? terrain : scene_.ground_height_m(x, y, kFromAbove_m);
 }
 
-std::optional<double> PlacementGround::beside_m(double x, double y, double here_m, bool obstacles,
-                                                double beside_m) const {
+std::optional<double> PlacementGround::height_near_m(double x, double y, double here_m,
+                                                     bool obstacles, double distance_m) const {
   constexpr double kSteepest = 1.0;  // tan 45 deg; steeper ground is no place for a wheel
-  const double rise_m = kSteepest * beside_m;
+  const double rise_m = kSteepest * distance_m;
   const auto height =
       obstacles ? scene_.ground_height_m(x, y, here_m + rise_m) : terrain_m(x, y, here_m + rise_m);
   return height && *height >= here_m - rise_m ? height : std::nullopt;

@@ -22,9 +22,9 @@ class PlacementGround {
   /// crowns and roofs, which differ in height by more than 45 deg, do not count.
   /// @param here_m  height of the ground at the vehicle
   /// @param obstacles  true if obstacles are ground at the vehicle
-  /// @param beside_m  horizontal distance of (x, y) from the vehicle
-  std::optional<double> beside_m(double x, double y, double here_m, bool obstacles,
-                                 double beside_m) const;
+  /// @param distance_m  horizontal distance of (x, y) from the vehicle
+  std::optional<double> height_near_m(double x, double y, double here_m, bool obstacles,
+                                      double distance_m) const;
 
  private:
   static constexpr double kFromAbove_m = 2e4;  ///< higher than any ground

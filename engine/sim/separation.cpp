@@ -7,7 +7,7 @@ namespace vinerow {
 
 Separation::Separation(int vehicles)
     : boxes_(static_cast<std::size_t>(vehicles)),
-      least_(boxes_.size()),
+      closest_(boxes_.size()),
       pairs_(boxes_.size() * boxes_.size()) {
   VINEROW_DEMAND(vehicles > 0);
 }
@@ -33,13 +33,13 @@ void Separation::update(Time now) {
       if (distance_m >= there.distance_m) continue;
       there = {distance_m, b, now, A.X_WC.p};
       pairs_[pair(b, a)] = {distance_m, a, now, B.X_WC.p};
-      if (distance_m < least_[a].distance_m) least_[a] = there;
-      if (distance_m < least_[b].distance_m) least_[b] = pairs_[pair(b, a)];
+      if (distance_m < closest_[a].distance_m) closest_[a] = there;
+      if (distance_m < closest_[b].distance_m) closest_[b] = pairs_[pair(b, a)];
     }
   }
 }
 
-Separation::MinDistance Separation::least(int a, int b) const {
+Separation::MinDistance Separation::closest(int a, int b) const {
   VINEROW_DEMAND(a != b);
   return pairs_[pair(a, b)];
 }

@@ -37,9 +37,9 @@ class Separation {
   void update(Time now);
 
   /// Closest approach to any other vehicle; distance +infinity if there never was one.
-  const MinDistance& least(int vehicle) const { return least_[vehicle]; }
+  const MinDistance& closest(int vehicle) const { return closest_[vehicle]; }
   /// Closest approach of two vehicles, in any order; `other` is the second. @pre a != b
-  MinDistance least(int a, int b) const;
+  MinDistance closest(int a, int b) const;
 
  private:
   struct Box {
@@ -51,8 +51,8 @@ class Separation {
   int pair(int a, int b) const { return a * vehicles() + b; }
 
   std::vector<Box> boxes_;
-  std::vector<MinDistance> least_;  ///< by vehicle
-  std::vector<MinDistance> pairs_;  ///< by pair, both ways
+  std::vector<MinDistance> closest_;  ///< by vehicle
+  std::vector<MinDistance> pairs_;    ///< by pair, both ways
 };
 
 /// Declaration of the result `min_vehicle_distance_m` of every vehicle in runs with several ones.

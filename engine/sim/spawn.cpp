@@ -126,7 +126,7 @@ Pose find_spawn_pose(const scenario::SpawnConfig& spawn, const WorldModel& world
   }
   const bool obstacles = surface.takes_obstacles(x, y);
   const auto height_at = [&](double dx, double dy) {
-    return surface.beside_m(x + dx, y + dy, *ground, obstacles, kReach_m);
+    return surface.height_near_m(x + dx, y + dy, *ground, obstacles, kReach_m);
   };
   const Eigen::Vector3d normal(
       -calc_slope(*ground, height_at(kReach_m, 0), height_at(-kReach_m, 0)),
@@ -183,10 +183,11 @@ void refuse_start_in_contact(const scenario::SpawnConfig& spawn, const StartBox&
         SurfaceClass::kTerrain}) {
     const bool is_ground =
         surface == SurfaceClass::kTerrain || (surface == SurfaceClass::kObstacle && on_obstacles);
-    const StartBox& room = is_ground ? upper : box;
+    const StartBox& clearance_box = is_ground ? upper : box;
     const SurfaceMask mask = mask_of(surface);
-    if (scene.distance_to_box_m(room.X_WC, room.half_m, kSearch_m, mask) > 0.0) continue;
-    const MeshInstance* touched = find_touched(world, room, mask);
+    if (scene.distance_to_box_m(clearance_box.X_WC, clearance_box.half_m, kSearch_m, mask) > 0.0)
+      continue;
+    const MeshInstance* touched = find_touched(world, clearance_box, mask);
     const bool is_deck = surface == SurfaceClass::kObstacle;
     refuse(touched ? fmt::format("the {} '{}'", to_string(surface), touched->name) : "the ground",
            name_free_places(world) +

@@ -47,7 +47,7 @@ RowMap make_alley_map() {
 }
 
 /// @param footprint  0 circles, 1 polygon  @param seen  something stands 1.2 m ahead of the nose
-void dwa_tick(benchmark::State& state, bool pure, bool polygon, bool seen) {
+void dwa_tick(benchmark::State& state, bool pure, bool polygon, bool with_obstacle) {
   const VehicleDescription vehicle = make_vehicle();
   const RowMap map = make_alley_map();
   ControllerContext context;
@@ -92,7 +92,7 @@ void dwa_tick(benchmark::State& state, bool pure, bool polygon, bool seen) {
     estimate.write(now, odometry);
     for (auto& range : ranges) {
       RangeSample sample;
-      sample.range_m = seen ? 1.2 : std::numeric_limits<double>::infinity();
+      sample.range_m = with_obstacle ? 1.2 : std::numeric_limits<double>::infinity();
       sample.max_range_m = 4.0;
       sample.half_angle_rad = rad_from_deg(15);
       range.write(now, sample);

@@ -46,10 +46,10 @@ Size measure_parcel_f() {
     _exit(write(channel[1], &size, sizeof size) == sizeof size ? 0 : 1);
   }
   Size size;
-  const bool told = read(channel[0], &size, sizeof size) == sizeof size;
+  const bool complete = read(channel[0], &size, sizeof size) == sizeof size;
   waitpid(child, nullptr, 0);
   close(channel[0]), close(channel[1]);
-  return told ? size : Size{};
+  return complete ? size : Size{};
 }
 
 void memory_of_parcel_f(benchmark::State& state) {

@@ -56,18 +56,19 @@ void payload_tick(benchmark::State& state, const char* type, double height_m) {
   payload->connect(ports);
 
   const auto& line = v.model->rows->alleys[7].line_W;
-  const Eigen::Vector3d way = line.back() - line.front();
-  const double length_m = way.head<2>().norm();
+  const Eigen::Vector3d displacement = line.back() - line.front();
+  const double length_m = displacement.head<2>().norm();
   Odometry odometry;
   Time now;
   double s_m = 0.0, speed_mps = 1.0;
   for (auto _ : state) {
     s_m += speed_mps * context.period.s();
     if (s_m <= 0.0 || s_m >= length_m) speed_mps = -speed_mps;
-    odometry.X_WB.p = line.front() + s_m / length_m * way;
+    odometry.X_WB.p = line.front() + s_m / length_m * displacement;
     odometry.X_WB.p.z() =
         v.model->terrain->height_m(odometry.X_WB.p.x(), odometry.X_WB.p.y()) + height_m;
-    odometry.X_WB.q = quaternion_from_rpy({0.0, 0.0, std::atan2(way.y(), way.x())});
+    odometry.X_WB.q =
+        quaternion_from_rpy({0.0, 0.0, std::atan2(displacement.y(), displacement.x())});
     odometry.v_WB_B = {speed_mps, 0.0, 0.0};
     truth.write(now, odometry);
     estimate.write(now, odometry);

@@ -97,7 +97,7 @@ Files& files() {
   return all;
 }
 
-void tell(benchmark::State& state, const fs::path& file) {
+void set_counters(benchmark::State& state, const fs::path& file) {
   const auto rounds = static_cast<std::int64_t>(state.iterations());
   state.SetItemsProcessed(rounds * state.range(0));
   state.SetBytesProcessed(rounds * static_cast<std::int64_t>(fs::file_size(file)));
@@ -110,7 +110,7 @@ void read_points(benchmark::State& state, const std::string& kind) {
     const auto reader = io::open_point_cloud(file);
     while (reader->read(block) == block.size()) benchmark::DoNotOptimize(block.data());
   }
-  tell(state, file);
+  set_counters(state, file);
 }
 
 void read_parcel(benchmark::State& state, const std::string& kind) {
@@ -119,7 +119,7 @@ void read_parcel(benchmark::State& state, const std::string& kind) {
     mapping::CloudReadReport report;
     benchmark::DoNotOptimize(mapping::read_parcel_cloud(file, {}, report));
   }
-  tell(state, file);
+  set_counters(state, file);
 }
 
 constexpr std::int64_t kSmall = 700'000, kParcelF = 7'000'000, kFourHectares = 60'000'000;

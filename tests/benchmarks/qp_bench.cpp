@@ -169,7 +169,7 @@ void closed_loop(benchmark::State& state, const Plant& plant, double jump, doubl
   const Eigen::VectorXd u_low = -qp.u_limit;
   std::vector<double> times_us, unchanged_us, cold_us;
   double error = 0.0, iterations = 0.0, active = 0.0;
-  int most_iterations = 0;
+  int max_iterations = 0;
   std::int64_t step = 0, unsolved = 0;
   for (auto _ : state) {
     if (step % 100 == 0) {
@@ -187,7 +187,7 @@ void closed_loop(benchmark::State& state, const Plant& plant, double jump, doubl
     if (warm.iterations() == 0) unchanged_us.push_back(times_us.back());
     unsolved += status != controllers::QpStatus::kSolved;
     iterations += warm.iterations();
-    most_iterations = std::max(most_iterations, warm.iterations());
+    max_iterations = std::max(max_iterations, warm.iterations());
     active += static_cast<double>(warm.active_set().size());
     if (step % 10 == 0) {
       cold.cold_start();
@@ -207,7 +207,7 @@ void closed_loop(benchmark::State& state, const Plant& plant, double jump, doubl
   state.counters["unchanged_us"] = unchanged_us.empty() ? 0.0 : percentile(unchanged_us, 0.5);
   state.counters["cold_us"] = percentile(cold_us, 0.5);
   state.counters["changes"] = iterations / solves;
-  state.counters["most_changes"] = most_iterations;
+  state.counters["most_changes"] = max_iterations;
   state.counters["active"] = active / solves;
   state.counters["input_error"] = error;
   state.counters["unsolved"] = static_cast<double>(unsolved);

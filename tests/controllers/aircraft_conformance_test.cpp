@@ -157,12 +157,12 @@ TEST_P(EveryAircraftController, FliesLanesInGusts) {
   setup.reference = fly_lanes(4);
   setup.wind = markov_wind({0, 0, 0}, 1.0, 0.6, 150.0, 1);
   AircraftLoop loop(setup);
-  double height_m2 = 0.0, heading_rad2 = 0.0, most_share = 0.0;
+  double height_m2 = 0.0, heading_rad2 = 0.0, max_share = 0.0;
   int ticks = 0;
   loop.run_until(120.0, [&] {
     height_m2 += std::pow(loop.deviation("h_m"), 2);
     heading_rad2 += std::pow(loop.deviation("psi_rad"), 2);
-    most_share = std::max(most_share, loop.deviation("limit_share"));
+    max_share = std::max(max_share, loop.deviation("limit_share"));
     ++ticks;
   });
   const double height_m = std::sqrt(height_m2 / ticks);
@@ -172,7 +172,7 @@ TEST_P(EveryAircraftController, FliesLanesInGusts) {
   EXPECT_LT(heading_deg, 4.06);
   record("height_rms_m", height_m);
   record("heading_rms_deg", heading_deg);
-  record("limit_share", most_share);
+  record("limit_share", max_share);
 }
 
 TEST_P(EveryAircraftController, HoldsHeightAndHeadingInASteadyWindItIsToldOf) {

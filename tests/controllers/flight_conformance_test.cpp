@@ -58,10 +58,10 @@ TEST_P(EveryFlightController, HoversWithinAMillimetre) {
 
 TEST_P(EveryFlightController, StepsAMetreToAnySideWithoutLeavingLimits) {
   for (const QuadrotorNumbers& numbers : all_vehicles()) {
-    for (const Eigen::Vector3d& way : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0),
-                                       Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 0, -1)}) {
+    for (const Eigen::Vector3d& step : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0),
+                                        Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 0, -1)}) {
       QuadrotorSetup setup = make_setup(numbers);
-      const Eigen::Vector3d goal = setup.start.p + way;
+      const Eigen::Vector3d goal = setup.start.p + step;
       setup.path = hover_at(goal);
       QuadrotorLoop loop(setup);
       double tilt = 0.0, beyond = 0.0, aside = 0.0;
@@ -69,13 +69,13 @@ TEST_P(EveryFlightController, StepsAMetreToAnySideWithoutLeavingLimits) {
         expect_within_limits(loop);
         const Eigen::Vector3d e = loop.sim().state().p_W - goal;
         tilt = std::max(tilt, loop.sim().tilt_rad());
-        beyond = std::max(beyond, e.dot(way));
-        aside = std::max(aside, (e - e.dot(way) * way).norm());
+        beyond = std::max(beyond, e.dot(step));
+        aside = std::max(aside, (e - e.dot(step) * step).norm());
       });
-      EXPECT_LT(tilt, kTiltLimit_rad + kTiltSwing_rad) << way.transpose();
-      EXPECT_LT(beyond, 0.15) << way.transpose();
-      EXPECT_LT(aside, 0.1) << way.transpose();
-      EXPECT_LT((loop.sim().state().p_W - goal).norm(), 0.02) << way.transpose();
+      EXPECT_LT(tilt, kTiltLimit_rad + kTiltSwing_rad) << step.transpose();
+      EXPECT_LT(beyond, 0.15) << step.transpose();
+      EXPECT_LT(aside, 0.1) << step.transpose();
+      EXPECT_LT((loop.sim().state().p_W - goal).norm(), 0.02) << step.transpose();
     }
   }
 }
@@ -222,7 +222,7 @@ TEST_P(EveryFlightController, ComesBackFromFarAndFromALargeTilt) {
 
 TEST_P(EveryFlightController, HoversWithALoadThatItIsNotToldOf) {
   QuadrotorSetup setup = make_setup();
-  setup.told = setup.numbers;
+  setup.assumed = setup.numbers;
   setup.numbers.mass_kg *= 1.1;
   setup.numbers.thrust_coefficient *= 0.95;
   for (SimRotor& rotor : setup.numbers.rotors) rotor.x_m += 0.01;  // centre of mass 10 mm behind
@@ -238,9 +238,9 @@ TEST_P(EveryFlightController, DoesNotCareForDirections) {
     const Eigen::AngleAxisd turn(yaw, Eigen::Vector3d::UnitZ());
     QuadrotorSetup setup = make_setup();
     setup.start = {Eigen::Quaterniond(turn), {10, 20, 2}};
-    const FlightPath way = row_and_turn({0, 0, 0}, 0.0, 2.0, 3.0, 2.5, 1.5);
+    const FlightPath step = row_and_turn({0, 0, 0}, 0.0, 2.0, 3.0, 2.5, 1.5);
     setup.path = [=, origin = setup.start.p](double time_s) {
-      TrajectoryPoint at = way(time_s);
+      TrajectoryPoint at = step(time_s);
       at.p_W = origin + turn * at.p_W;
       at.v_W = turn * at.v_W;
       at.a_W = turn * at.a_W;

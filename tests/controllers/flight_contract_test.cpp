@@ -52,11 +52,11 @@ TEST_P(FlightContract, TakesOffLandsAndIsDone) {
   };
   setup.path = [](double t) {
     TrajectoryPoint at;
-    const auto move = [&](double from_s, double way_m) {
+    const auto move = [&](double from_s, double rise_m) {
       const double s = std::clamp((t - from_s) / 3.0, 0.0, 1.0);
-      at.p_W.z() += way_m * s * s * s * (10.0 + s * (6.0 * s - 15.0));
-      at.v_W.z() += way_m * 30.0 * s * s * (1.0 - s) * (1.0 - s) / 3.0;
-      at.a_W.z() += way_m * 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s) / 9.0;
+      at.p_W.z() += rise_m * s * s * s * (10.0 + s * (6.0 * s - 15.0));
+      at.v_W.z() += rise_m * 30.0 * s * s * (1.0 - s) * (1.0 - s) / 3.0;
+      at.a_W.z() += rise_m * 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s) / 9.0;
     };
     move(1.0, 1.5);
     move(8.0, -2.0);

@@ -131,10 +131,10 @@ TEST_P(EveryGroundGuidance, AllocatesOnlyToTellAnEvent) {
   bench.step_at(0);
   std::size_t allocations = 0;
   for (std::int64_t i = 1; i < 400; ++i) {
-    const std::size_t told = bench.events().size();
+    const std::size_t previous = bench.events().size();
     AllocationCounter counter;
     bench.step_at(i);
-    if (bench.events().size() == told) allocations += counter.count();
+    if (bench.events().size() == previous) allocations += counter.count();
   }
   EXPECT_EQ(allocations, 0u);
 }
@@ -322,10 +322,10 @@ TEST_P(EveryFlightGuidance, AllocatesOnlyToTellAnEvent) {
   bench.step(estimate);
   std::size_t allocations = 0;
   for (int i = 0; i < 800; ++i) {
-    const std::size_t told = bench.events().size();
+    const std::size_t previous = bench.events().size();
     AllocationCounter counter;
     const ReferenceTrajectory& reference = bench.step(estimate);
-    if (bench.events().size() == told) allocations += counter.count();
+    if (bench.events().size() == previous) allocations += counter.count();
     estimate = shaken(reference.points[1], i);
   }
   EXPECT_EQ(allocations, 0u);
@@ -420,10 +420,10 @@ TEST_P(EveryAirGuidance, AllocatesOnlyToTellAnEvent) {
   bench.tick();
   std::size_t allocations = 0;
   for (int i = 0; i < 12000; ++i) {
-    const std::size_t told = bench.events().size();
+    const std::size_t previous = bench.events().size();
     AllocationCounter counter;
     const AirReference& reference = bench.tick();
-    if (bench.events().size() == told) allocations += counter.count();
+    if (bench.events().size() == previous) allocations += counter.count();
     if (reference.phase == AirReference::Phase::kDone) break;
   }
   EXPECT_EQ(allocations, 0u);

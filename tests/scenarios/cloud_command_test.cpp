@@ -33,16 +33,18 @@ TEST(CloudCommand, TakesTheFlownSurveyAndKeepsTheTruth) {
 
   const std::string out = (folder.path() / "new" / "small.las").string();
   const std::string ask = "cloud " + kSmall + " --density 50 --log " + run;
-  const CommandResult made = run_vinerow(ask + " --out " + out);
-  ASSERT_EQ(made.status, 0) << made.output;
-  EXPECT_THAT(made.output, HasSubstr("plane/camera of " + run + "/log.mcap"));
-  EXPECT_THAT(made.output, HasSubstr("truth          4 rows, bearing 80.000 deg, spacing 2.500 m"));
+  const CommandResult result = run_vinerow(ask + " --out " + out);
+  ASSERT_EQ(result.status, 0) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("plane/camera of " + run + "/log.mcap"));
+  EXPECT_THAT(result.output,
+              HasSubstr("truth          4 rows, bearing 80.000 deg, spacing 2.500 m"));
   const mapping::CloudTruth truth =
       mapping::read_cloud_truth(folder.path() / "new/small.truth.json");
   const std::vector<io::CloudPoint> points = read_points(out);
   EXPECT_EQ(points.size(), static_cast<std::size_t>(truth.sampling.points));
-  EXPECT_EQ(value_in("\n" + made.output, "points").substr(0, std::to_string(points.size()).size()),
-            std::to_string(points.size()));
+  EXPECT_EQ(
+      value_in("\n" + result.output, "points").substr(0, std::to_string(points.size()).size()),
+      std::to_string(points.size()));
   EXPECT_EQ(truth.sampling.method, "photogrammetry");
   EXPECT_EQ(truth.sampling.crs, "");
   EXPECT_NEAR(truth.sampling.gsd_m, 0.026, 0.0005);
@@ -90,9 +92,9 @@ TEST(CloudCommand, GeoreferencedPointsLieWhereLocalOnesDo) {
   const std::string local = (folder.path() / "local.ply").string();
   const std::string utm = (folder.path() / "utm.las").string();
   const std::string ask = "cloud " + kSmall + " --density 20 --truth-classes --out ";
-  const CommandResult made = run_vinerow(ask + local);
-  ASSERT_EQ(made.status, 0) << made.output;
-  EXPECT_THAT(made.output, HasSubstr("plan of "));
+  const CommandResult result = run_vinerow(ask + local);
+  ASSERT_EQ(result.status, 0) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("plan of "));
   ASSERT_EQ(run_vinerow(ask + utm + " --crs EPSG:32632").status, 0);
   const std::vector<io::CloudPoint> a = read_points(local), b = read_points(utm);
   ASSERT_EQ(a.size(), b.size());
@@ -116,10 +118,10 @@ TEST(CloudCommand, GeoreferencedPointsLieWhereLocalOnesDo) {
 TEST(CloudCommand, SpreadsPointsEvenlyWithoutPictures) {
   const ScratchFolder folder("cloud_uniform");
   const std::string out = (folder.path() / "even.xyz").string();
-  const CommandResult made = run_vinerow(
+  const CommandResult result = run_vinerow(
       "cloud " + kSmall + " --uniform 20 --noise 0.05 --weeds 0.5 --outliers 0.02 --out " + out +
       " --area 66 34 78 34 78 44 66 44 --margin 1");
-  ASSERT_EQ(made.status, 0) << made.output;
+  ASSERT_EQ(result.status, 0) << result.output;
   const mapping::CloudTruth truth = mapping::read_cloud_truth(folder.path() / "even.truth.json");
   EXPECT_EQ(truth.sampling.method, "uniform");
   EXPECT_EQ(truth.sampling.noise_m, 0.05);

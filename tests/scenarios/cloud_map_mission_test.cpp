@@ -58,10 +58,10 @@ class CloudMapMission : public ::testing::Test {
   static void SetUpTestSuite() {
     folder_ = std::make_unique<ScratchFolder>("cloud_map_mission");
     const std::string cloud = test::small_cloud(*folder_);
-    const auto made = test::run_vinerow(
+    const auto result = test::run_vinerow(
         "map " + cloud + " --no-pictures --headland 10 --scenario " +
         (folder_->path() / "world.yaml").string() + " --out " + map_folder().string());
-    if (made.status != 0) throw std::runtime_error(made.output);
+    if (result.status != 0) throw std::runtime_error(result.output);
   }
   static void TearDownTestSuite() { folder_.reset(); }
   static fs::path map_folder() { return folder_->path() / "map"; }

@@ -30,8 +30,8 @@ Mapped map_of(const std::string& name, const std::string& cloud_arguments) {
   const ScratchFolder folder(name);
   const std::string cloud = (folder.path() / (name + ".las")).string();
   const std::string out = (folder.path() / "map").string();
-  const auto made = run_vinerow("cloud " + cloud_arguments + " --out " + cloud);
-  if (made.status != 0) throw std::runtime_error(made.output);
+  const auto command = run_vinerow("cloud " + cloud_arguments + " --out " + cloud);
+  if (command.status != 0) throw std::runtime_error(command.output);
   const mapping::CloudTruth truth = mapping::read_cloud_truth(mapping::truth_file_of(cloud));
   const auto mapped = run_vinerow("map " + cloud + " --no-pictures --out " + out);
   if (mapped.status != 0) throw std::runtime_error(mapped.output);

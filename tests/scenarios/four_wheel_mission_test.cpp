@@ -16,10 +16,10 @@ using test::scenario_file;
 using test::ScratchFolder;
 using testing::TestRun;
 
-constexpr double kNoWay = -1.0;
+constexpr double kNotReported = -1.0;
 
 /// Keeps what the run tells people.
-struct Told : RunObserver {
+struct EventRecorder : RunObserver {
   std::vector<Event> events;
   void on_event(Time, const Event& event) override { events.push_back(event); }
 
@@ -33,7 +33,7 @@ struct Told : RunObserver {
 double planning_number(TestRun& run, const std::string& name) {
   const auto all = run.simulation().planning();
   const auto found = all.at("rover").find(name);
-  return found == all.at("rover").end() ? kNoWay : found->second;
+  return found == all.at("rover").end() ? kNotReported : found->second;
 }
 
 /// The limits: no contact, 0.02 m rms in rows, 0.05 m rms in turns, with true pose.
@@ -95,15 +95,15 @@ TEST(FourWheelMission, ThePapersOwnPlannerDrivesTwoRows) {
 
 TEST(FourWheelMission, PassesACrateAndStopsBeforeAPallet) {
   TestRun run = TestRun::from_file(scenario_file("vineyard_4ws_obstacle"));
-  Told told;
-  run.simulation().add_observer(&told);
+  EventRecorder recorder;
+  run.simulation().add_observer(&recorder);
   run.run_to_end();
   EXPECT_EQ(run.metric("rover", "contact_count"), 0.0);
   EXPECT_EQ(run.metric("rover", "alleys_driven"), 1.0);
   EXPECT_FALSE(run.finished());
-  EXPECT_EQ(told.count("rover.guidance", "sees an obstacle that the map does not have"), 2);
-  EXPECT_GE(told.count("rover.guidance", "follows the plan again"), 1);
-  EXPECT_EQ(told.count("rover.guidance", "blocked at"), 1);
+  EXPECT_EQ(recorder.count("rover.guidance", "sees an obstacle that the map does not have"), 2);
+  EXPECT_GE(recorder.count("rover.guidance", "follows the plan again"), 1);
+  EXPECT_EQ(recorder.count("rover.guidance", "blocked at"), 1);
   // It waits before the pallet: hull and pallet reach 0.75 m and 0.6 m along the alley.
   for (const MeshInstance& mesh : run.simulation().world().meshes) {
     if (mesh.name != "obstacle/pallet") continue;
@@ -132,10 +132,10 @@ TEST(FourWheelMission, AnInfeasibleQpStopsTheRoverAndIsTold) {
   TestRun run = TestRun::from_file(
       scenario_file("vineyard_4ws_two_rows"),
       {"rover.controller.wheel_acceleration_mps2=0.51", "rover.guidance=null", "duration_s=150"});
-  Told told;
-  run.simulation().add_observer(&told);
+  EventRecorder recorder;
+  run.simulation().add_observer(&recorder);
   run.run_to_end();
-  ASSERT_EQ(told.count("rover.controller", "wheel speed"), 1);
+  ASSERT_EQ(recorder.count("rover.controller", "wheel speed"), 1);
   EXPECT_FALSE(run.finished());
   EXPECT_LT(run.truth("rover").v_WB_B.norm(), 1e-3);
   EXPECT_EQ(run.metric("rover", "contact_count"), 0.0);
@@ -156,8 +156,9 @@ void expect_refused(const std::string& set, const std::vector<std::string>& text
 }
 
 TEST(FourWheelMission, RefusesWhatCannotBePlanned) {
-  expect_refused("rover.spawn={x_m: 60, y_m: 18.5, yaw_deg: 10}",
-                 {"vehicles.rover.spawn", "the vehicle would stand in the canopy", "'alley: 0' to"});
+  expect_refused(
+      "rover.spawn={x_m: 60, y_m: 18.5, yaw_deg: 10}",
+      {"vehicles.rover.spawn", "the vehicle would stand in the canopy", "'alley: 0' to"});
   expect_refused(
       "world.obstacles=[{name: wall, alley: 1, distance_m: 60, size_m: [0.5, 2.4, 1], mapped: "
       "true}]",

@@ -60,8 +60,8 @@ TEST(ReportAxis, MapsValuesStraightBetweenItsEnds) {
 }
 
 TEST(ReportAxis, TakesRoundTicks) {
-  const auto texts = [](double low, double high, int most) {
-    const Axis axis({low, high}, 0.0, 1.0, most);
+  const auto texts = [](double low, double high, int maximum) {
+    const Axis axis({low, high}, 0.0, 1.0, maximum);
     std::vector<std::string> out;
     for (const double tick : axis.ticks()) out.push_back(axis.text(tick));
     return out;
@@ -303,7 +303,7 @@ TEST(ReportPlot, CutsABandThatWouldFlattenTheLine) {
   EXPECT_NEAR(y_range(plot).high, 0.15 + 0.05 * 0.3, 1e-12);
   LinePlot charge;
   charge.lines = {{"charge", {{0, 1}, {100.0, 90.0}}, "s0"}};
-  charge.most = 100.0;
+  charge.maximum = 100.0;
   EXPECT_EQ(y_range(charge).high, 100.0);
 }
 

@@ -36,9 +36,9 @@ TEST(ReportCommand, MakesOnePageOfARun) {
   const ScratchFolder folder("report_run");
   const auto run = folder.path() / "run", again = folder.path() / "again";
   run_vinerow("run " + kShort + " --out " + run.string());
-  const CommandResult made = run_vinerow("report " + run.string());
-  ASSERT_EQ(made.status, 0) << made.output;
-  EXPECT_THAT(made.output, HasSubstr("report.html"));
+  const CommandResult result = run_vinerow("report " + run.string());
+  ASSERT_EQ(result.status, 0) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("report.html"));
   check_page(run);
   const std::string page = read_text(run / "report.html");
   for (const char* part :
@@ -61,8 +61,8 @@ TEST(ReportCommand, SaysThatARunWithoutLogHasNoPlots) {
   const ScratchFolder folder("report_no_log");
   const std::string run = (folder.path() / "run").string();
   run_vinerow("run " + kShort + " --no-log --out " + run);
-  const CommandResult made = run_vinerow("report " + run);
-  ASSERT_EQ(made.status, 0) << made.output;
+  const CommandResult result = run_vinerow("report " + run);
+  ASSERT_EQ(result.status, 0) << result.output;
   check_page(run);
   const std::string page = read_text(folder.path() / "run/report.html");
   EXPECT_THAT(page, HasSubstr("The run wrote no log, so there are no plots."));
@@ -83,8 +83,8 @@ TEST(ReportCommand, TellsThePhasesOfAMission) {
        "criteria": [{"name": "b", "metric": "rows", "kind": "min", "value": 3.0, "limit": 4.0, "met": false}]},
       {"name": "work", "kind": "vehicles", "vehicles": ["rover", "drone"], "after": ["build_map"], "state": "blocked",
        "begin_s": null, "end_s": null, "reason": "waits for build_map, which failed", "criteria": []}]})");
-  const CommandResult made = run_vinerow("report " + folder.path().string());
-  ASSERT_EQ(made.status, 0) << made.output;
+  const CommandResult result = run_vinerow("report " + folder.path().string());
+  ASSERT_EQ(result.status, 0) << result.output;
   check_page(folder.path());
   const std::string page = read_text(folder.path() / "report.html");
   EXPECT_THAT(page, HasSubstr("Failed in phase build_map"));

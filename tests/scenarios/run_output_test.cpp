@@ -155,9 +155,9 @@ TEST(CtrlC, WhilePicturesAreDrawnKeepsWhatIsThere) {
   ASSERT_TRUE(over) << "it went on";
   EXPECT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 0) << "the verdict's";
-  const std::string told = read_text(output);
-  EXPECT_THAT(told, HasSubstr("drawing pictures   0 %  0 of ")) << "a pipe gets lines";
-  EXPECT_THAT(told, HasSubstr("interrupted: verdict, log and the pictures so far are kept"));
+  const std::string printed = read_text(output);
+  EXPECT_THAT(printed, HasSubstr("drawing pictures   0 %  0 of ")) << "a pipe gets lines";
+  EXPECT_THAT(printed, HasSubstr("interrupted: verdict, log and the pictures so far are kept"));
   const nlohmann::json summary = summary_in(out);
   EXPECT_EQ(summary["pictures"].size(), frames());
   EXPECT_THAT(summary["picture_note"].get<std::string>(), HasSubstr("interrupted after "));

@@ -76,16 +76,16 @@ SessionOptions driven() {
 TEST(MeshWorldRun, ARoverDrivesBelowZeroAndItsRunEndsWhereTheMeshEnds) {
   const ScratchFolder folder("mesh_edge");
   folder.file("hill.obj", hillside());
-  const std::string told = drive_off(
+  const std::string message = drive_off(
       open_session_text("vinerow: 1\nname: s\nduration_s: 60\n"
                         "world: {type: mesh, items: [{file: hill.obj}]}\n"
                         "vehicles: {rover: {type: diff_drive_rover, spawn: {x_m: 0, y_m: 0}}}\n",
                         folder.path(), {}, driven()),
       20.0);
-  EXPECT_THAT(told, HasSubstr("rover (diff_drive_rover)"));
-  EXPECT_THAT(told, HasSubstr("it left the terrain at x = 2"));
-  EXPECT_THAT(told, HasSubstr("the ground of world 'mesh' extends from x = -20.0 to 20.0 m, "
-                              "y = -20.0 to 20.0 m"));
+  EXPECT_THAT(message, HasSubstr("rover (diff_drive_rover)"));
+  EXPECT_THAT(message, HasSubstr("it left the terrain at x = 2"));
+  EXPECT_THAT(message, HasSubstr("the ground of world 'mesh' extends from x = -20.0 to 20.0 m, "
+                                 "y = -20.0 to 20.0 m"));
 }
 
 TEST(MeshWorldRun, AWallThatIsPartOfTheTerrainIsTouchedAndHoldsWhoGoesOn) {
@@ -137,9 +137,9 @@ TEST(Contacts, ATouchAfterAPauseIsAnotherOne) {
 TEST(Edges, LeavingAParcelNamesTheKeyThatMakesItLarger) {
   std::string text = test::kFreeRover;
   text.replace(text.find("duration_s: 3"), 13, "duration_s: 60");
-  const std::string told = drive_off(open_session_text(text, ".", {}, driven()), -20.0);
-  EXPECT_THAT(told, HasSubstr("it left the terrain at"));
-  EXPECT_THAT(told, HasSubstr("; increase world.surroundings_m (6 m now) to extend it"));
+  const std::string message = drive_off(open_session_text(text, ".", {}, driven()), -20.0);
+  EXPECT_THAT(message, HasSubstr("it left the terrain at"));
+  EXPECT_THAT(message, HasSubstr("; increase world.surroundings_m (6 m now) to extend it"));
 }
 
 TEST(Starts, BesideTheGroundNamesTheKeyThatMakesItLarger) {
@@ -225,8 +225,8 @@ TEST(Steps, TooLongForTheWheelsAreRefused) {
 
 TEST(Steps, TooLongForRotorsAndWingsAreRefused) {
   const auto said = [](const std::string& name) {
-    const auto result = test::run_vinerow("validate " + test::scenario_file(name) +
-                                          " --set physics.step_s=0.0125");
+    const auto result =
+        test::run_vinerow("validate " + test::scenario_file(name) + " --set physics.step_s=0.0125");
     EXPECT_EQ(result.status, 2) << result.output;
     return result.output;
   };
@@ -244,7 +244,7 @@ TEST(Density, OfAnotherHeightThanTheGroundsIsTold) {
   for (int i = 0; i < 60 * 60; ++i) dem += i % 60 == 59 ? "1620\n" : "1620 ";
   const std::string file = folder.file("high.asc", dem);
   const std::string warning = "the air has the density at the origin's altitude";
-  const auto told = [&](const std::string& more) {
+  const auto message = [&](const std::string& more) {
     run(folder, scenario("{type: vineyard, row_count: 2, row_length_m: 10, surroundings_m: 90, "
                          "crs: EPSG:32632, origin_latitude_deg: 45, origin_longitude_deg: 9, "
                          "dem_file: " +
@@ -252,11 +252,11 @@ TEST(Density, OfAnotherHeightThanTheGroundsIsTold) {
                          "{x_m: 0, y_m: 0}", 5));
     return events(folder);
   };
-  EXPECT_THAT(told(", origin_altitude_m: 0"),
+  EXPECT_THAT(message(", origin_altitude_m: 0"),
               HasSubstr(warning + ", 0 m, but the ground is at z = 1620 m: set wind.atmosphere "
                                   "to us76, or air_density_kgm3, or origin_altitude_m"));
-  EXPECT_THAT(told(", origin_altitude_m: 1500"), Not(HasSubstr(warning)));
-  EXPECT_THAT(told(", origin_altitude_m: 0, wind: {atmosphere: us76}"), Not(HasSubstr(warning)));
+  EXPECT_THAT(message(", origin_altitude_m: 1500"), Not(HasSubstr(warning)));
+  EXPECT_THAT(message(", origin_altitude_m: 0, wind: {atmosphere: us76}"), Not(HasSubstr(warning)));
 }
 
 }  // namespace

@@ -229,7 +229,7 @@ PartSpec statue_spec() {
   return spec("statue", {number_parameter("mass_kg", "kg", 10.0, 0.0, 1e3, "of all of it")});
 }
 
-double alleys_told(const TestRun& run) {
+double reported_alleys(const TestRun& run) {
   return run.signal<NamedValues>("rover/map_alleys").values.at(0);
 }
 
@@ -291,7 +291,7 @@ TEST(TestKit, TakesAMapAndAController) {
                     .build();
   run.run_to_end();
   EXPECT_TRUE(run.finished());
-  EXPECT_EQ(alleys_told(run), 4.0);
+  EXPECT_EQ(reported_alleys(run), 4.0);
 }
 
 TEST(TestKit, TakesAPayloadAndAMetric) {
@@ -330,23 +330,23 @@ TEST(TestKit, RunsAMissionWithAJobOfItsOwn) {
   PartSpec job = spec("surveyor", {integer_parameter("alleys", 1, 0, 100, "of the map")});
   job.default_rate_Hz = 0.0;
   job.gives = ProductKind::kMap;
-  TestRun run = rover()
-                    .vehicle("hermes", statue_spec(), make_statue,
-                             "spawn: {alley: 0, offset_m: -10}")
-                    .controller("rover", spec("map_reader"), make_map_reader)
-                    .controller("hermes", "map_reader")
-                    .phase("wait", {"hermes"})
-                    .job("survey", job, factory<Job, Surveyor, JobContext>(), "alleys: 6",
-                         "after: [wait], duration_s: 2")
-                    .phase("work", {"rover"}, "map: from survey, timeout_s: 30")
-                    .build();
+  TestRun run =
+      rover()
+          .vehicle("hermes", statue_spec(), make_statue, "spawn: {alley: 0, offset_m: -10}")
+          .controller("rover", spec("map_reader"), make_map_reader)
+          .controller("hermes", "map_reader")
+          .phase("wait", {"hermes"})
+          .job("survey", job, factory<Job, Surveyor, JobContext>(), "alleys: 6",
+               "after: [wait], duration_s: 2")
+          .phase("work", {"rover"}, "map: from survey, timeout_s: 30")
+          .build();
   run.run_to_end();
   std::vector<std::string> states;
   for (const SessionPhase& phase : run.session().phases()) {
     states.push_back(phase.name + " " + phase.state);
   }
   EXPECT_THAT(states, ElementsAre("wait succeeded", "survey succeeded", "work succeeded"));
-  EXPECT_EQ(alleys_told(run), 6.0);
+  EXPECT_EQ(reported_alleys(run), 6.0);
   // Ten ticks of 50 ms, the first at once, before and after the 2 s of the job.
   EXPECT_NEAR(run.time_s(), 0.45 + 2.0 + 0.45, 0.01);
 }

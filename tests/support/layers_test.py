@@ -85,7 +85,7 @@ ALLOWED = {
     "tools/pictures": ["engine", "worlds", "controllers"],
     "tools/replay": ["engine", "tools/export"],
     "tools/report": ["engine", MODEL, "tools/parts", "tools/export", "tools/pictures", "tools/replay"],
-    "tools/study/plots": ["tools/export", "tools/pictures", "tools/report"],
+    "tools/study/plots": [CORE, MATH, "tools/export", "tools/pictures", "tools/report"],
     "tools/study": ["engine", "tools/parts", "tools/report", "tools/study/plots"],
     "tests": ["engine", "vehicles", "worlds", "controllers", "tools", "tests", "vinerow"],
 }

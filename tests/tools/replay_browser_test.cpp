@@ -113,8 +113,8 @@ class ReplayBrowser : public ::testing::Test {
         "--set world.row_length_m=30 --out " +
         run);
     EXPECT_EQ(ran.status, 0) << ran.output;
-    const auto made = test::run_vinerow("replay " + run);
-    EXPECT_EQ(made.status, 0) << made.output;
+    const auto result = test::run_vinerow("replay " + run);
+    EXPECT_EQ(result.status, 0) << result.output;
     return page;
   }
 

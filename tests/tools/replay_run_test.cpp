@@ -224,18 +224,18 @@ TEST_F(ReplaySection, TellsWhatItLeavesOut) {
   tight.plan_points = 3;
   const std::string small = replay_section(run.input(), tight), whole = replay_section(run.input());
   const json notes = ReplayPage(small).index["notes"];
-  const auto tells = [&](const std::string& words) {
+  const auto has_note = [&](const std::string& words) {
     for (const json& note : notes) {
       if (note.get<std::string>().find(words) != std::string::npos) return true;
     }
     return false;
   };
-  EXPECT_TRUE(tells("the ground has a point every")) << notes;
-  EXPECT_TRUE(tells("leaves near the camera are fewer")) << notes;
-  EXPECT_TRUE(tells("meshes are simplified: details smaller than")) << notes;
-  EXPECT_TRUE(tells("times a second, with straight motion between")) << notes;
-  EXPECT_TRUE(tells("plans are not shown")) << notes;
-  EXPECT_TRUE(tells("around the parcel are shown in the pictures only")) << notes;
+  EXPECT_TRUE(has_note("the ground has a point every")) << notes;
+  EXPECT_TRUE(has_note("leaves near the camera are fewer")) << notes;
+  EXPECT_TRUE(has_note("meshes are simplified: details smaller than")) << notes;
+  EXPECT_TRUE(has_note("times a second, with straight motion between")) << notes;
+  EXPECT_TRUE(has_note("plans are not shown")) << notes;
+  EXPECT_TRUE(has_note("around the parcel are shown in the pictures only")) << notes;
   const std::size_t small_scene = ReplayPage(small).scene.size(),
                     whole_scene = ReplayPage(whole).scene.size();
   EXPECT_LT(2 * small_scene, whole_scene);

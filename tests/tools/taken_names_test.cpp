@@ -33,7 +33,8 @@ TEST(TakenNames, AreThoseOfTheDocs) {
   const std::string text = page.str();
   const std::size_t begin = text.find("Names that no sensor, observer or payload may have");
   ASSERT_NE(begin, std::string::npos);
-  const std::set<std::string> told = words_in(text.substr(begin, text.find("\n\n", begin) - begin));
+  const std::set<std::string> documented =
+      words_in(text.substr(begin, text.find("\n\n", begin) - begin));
 
   const Registry registry = make_registry({});
   std::set<std::string> taken(scenario::reserved_signal_names().begin(),
@@ -45,7 +46,7 @@ TEST(TakenNames, AreThoseOfTheDocs) {
       taken.insert(signals.begin(), signals.end());
     }
   }
-  EXPECT_EQ(told, taken);
+  EXPECT_EQ(documented, taken);
 }
 
 }  // namespace

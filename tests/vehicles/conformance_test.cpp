@@ -151,9 +151,9 @@ class Rig {
     const double front_lever = base - rear_lever;
     double curvature = 0.0;
     if (steers) {
-      const double most = std::tan(about().actuators[0].max) / front_lever;
+      const double max_curvature = std::tan(about().actuators[0].max) / front_lever;
       const double wanted = (right_mps - left_mps) / track / (v == 0.0 ? 1e-9 : v);
-      curvature = std::clamp(wanted, -most, most);
+      curvature = std::clamp(wanted, -max_curvature, max_curvature);
     }
     for (std::size_t i = 0; i < values_.size(); ++i) {
       const ActuatorSpec& actuator = about().actuators[i];

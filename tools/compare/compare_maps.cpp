@@ -129,15 +129,15 @@ std::vector<ComparedMapRow> match_rows(const std::vector<MapRow>& a, const std::
                    [](const Candidate& x, const Candidate& y) { return x.offset_m < y.offset_m; });
   std::vector<ComparedMapRow> rows;
   for (const MapRow& row : a) rows.push_back({row, std::nullopt, 0.0});
-  std::vector<bool> taken(b.size(), false);
+  std::vector<bool> is_matched(b.size(), false);
   for (const Candidate& candidate : candidates) {
-    if (rows[candidate.a].b || taken[candidate.b]) continue;
-    taken[candidate.b] = true;
+    if (rows[candidate.a].b || is_matched[candidate.b]) continue;
+    is_matched[candidate.b] = true;
     rows[candidate.a].b = b[candidate.b];
     rows[candidate.a].offset_m = candidate.offset_m;
   }
   for (std::size_t j = 0; j < b.size(); ++j) {
-    if (!taken[j]) rows.push_back({std::nullopt, b[j], 0.0});
+    if (!is_matched[j]) rows.push_back({std::nullopt, b[j], 0.0});
   }
   return rows;
 }

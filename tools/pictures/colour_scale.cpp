@@ -31,11 +31,11 @@ Rgb viridis(double share) {
   return colour;
 }
 
-std::vector<double> ticks(double from, double to, int most) {
-  if (!(to > from) || most < 1) return {from};
-  double step = std::pow(10.0, std::floor(std::log10((to - from) / most)));
+std::vector<double> ticks(double from, double to, int max_count) {
+  if (!(to > from) || max_count < 1) return {from};
+  double step = std::pow(10.0, std::floor(std::log10((to - from) / max_count)));
   for (const double factor : {1.0, 2.0, 5.0, 10.0}) {
-    if ((to - from) / (factor * step) <= most) {
+    if ((to - from) / (factor * step) <= max_count) {
       step *= factor;
       break;
     }

@@ -9,7 +9,7 @@ namespace vinerow::tools {
 /// @param share  0 (dark violet) to 1 (yellow); clamped
 Rgb viridis(double share);
 
-/// At most `most` round numbers for ticks over a range.
-std::vector<double> ticks(double from, double to, int most);
+/// At most `max_count` round numbers for ticks over a range.
+std::vector<double> ticks(double from, double to, int max_count);
 
 }  // namespace vinerow::tools

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/api/map.h"
+#include "engine/math/statistics.h"
 #include "engine/playback/frame_words.h"
 #include "engine/render/scale_bar.h"
 #include "tools/pictures/colour_scale.h"
@@ -55,27 +56,27 @@ struct Layout {
 
   explicit Layout(const Eigen::AlignedBox2d& extent_W) {
     const double w = extent_W.sizes().x(), h = extent_W.sizes().y();
-    const bool beside = w < 1.6 * h;
-    const double room = beside ? 0.5 * (kPictureWidth - 2 * kPanelMargin - kPanelGap)
-                               : kPictureWidth - 2 * kPanelMargin;
+    const bool side_by_side = w < 1.6 * h;
+    const double panel_width = side_by_side ? 0.5 * (kPictureWidth - 2 * kPanelMargin - kPanelGap)
+                                            : kPictureWidth - 2 * kPanelMargin;
     Panel panel;
-    panel.px_per_m = std::min(room / w, kTallestPanel / h);
-    panel.width = room;
+    panel.px_per_m = std::min(panel_width / w, kTallestPanel / h);
+    panel.width = panel_width;
     panel.left = kPanelMargin;
     panel.top = kPanelMargin + kTitle;
     const double panel_height = std::ceil(h * panel.px_per_m);
     panel.bottom = panel.top + panel_height;
     // Centre a map that is narrower than its panel.
-    panel.corner_W = extent_W.center() - 0.5 * Vector2d(room, panel_height) / panel.px_per_m;
+    panel.corner_W = extent_W.center() - 0.5 * Vector2d(panel_width, panel_height) / panel.px_per_m;
     panels = {panel, panel};
     const double block = kTitle + panel_height + kScales;
-    if (beside) {
-      panels[1].left += room + kPanelGap;
+    if (side_by_side) {
+      panels[1].left += panel_width + kPanelGap;
     } else {
       panels[1].top += block;
       panels[1].bottom += block;
     }
-    numbers_top = kPanelMargin + (beside ? block : 2 * block);
+    numbers_top = kPanelMargin + (side_by_side ? block : 2 * block);
     height = static_cast<int>(numbers_top) + kNumbers;
   }
 };
@@ -155,11 +156,11 @@ void draw_world(Canvas& canvas, const Panel& panel, const playback::SurveyCovera
     const bool over_parcel = contains(coverage.options.parcel_W, a);
     canvas.line(panel(a), panel(b), 1.6, over_parcel ? kTrack : kFaint, 0.85);
   }
-  for (const metrics::LaneShot& taken : coverage.shots) {
-    if (!panel.contains(taken.shot.X_WS.p.head<2>())) continue;
-    const Vector2d at = panel(Vector2d(taken.shot.X_WS.p.head<2>()));
+  for (const metrics::LaneShot& lane_shot : coverage.shots) {
+    if (!panel.contains(lane_shot.shot.X_WS.p.head<2>())) continue;
+    const Vector2d at = panel(Vector2d(lane_shot.shot.X_WS.p.head<2>()));
     canvas.fill(render::circle(at, 3.6, 12), kTrack, 0.9);
-    canvas.fill(render::circle(at, 2.4, 12), taken.lane >= 0 ? kShot : kNone);
+    canvas.fill(render::circle(at, 2.4, 12), lane_shot.lane >= 0 ? kShot : kNone);
   }
 }
 
@@ -171,10 +172,10 @@ void draw_tick(Canvas& canvas, double x, double top, const std::string& words,
 
 void draw_counts(Canvas& canvas, const Panel& panel, const playback::SurveyCoverage& coverage) {
   const metrics::CoverageMap& map = coverage.map;
-  const int most = std::max(1, *std::max_element(map.pictures.begin(), map.pictures.end()));
+  const int max_pictures = std::max(1, *std::max_element(map.pictures.begin(), map.pictures.end()));
   // One colour per count: each step of the scale is one more picture.
-  const auto colour_of = [most](int count) {
-    return viridis(most > 1 ? (count - 1.0) / (most - 1.0) : 1.0);
+  const auto colour_of = [max_pictures](int count) {
+    return viridis(max_pictures > 1 ? (count - 1.0) / (max_pictures - 1.0) : 1.0);
   };
   draw_cells(canvas, panel, coverage, [&](std::size_t cell) -> std::optional<Rgb> {
     const int count = map.pictures[cell];
@@ -185,11 +186,12 @@ void draw_counts(Canvas& canvas, const Panel& panel, const playback::SurveyCover
   canvas.text("Number of pictures that see each point", 20, {panel.left, panel.top - 12}, kInk);
   const double top = panel.bottom + 14, width = panel.width - 190;
   draw_colour_bar(canvas, panel.left, top, width, 16, [&](double share) {
-    return colour_of(1 + std::min(most - 1, static_cast<int>(share * most)));
+    return colour_of(1 + std::min(max_pictures - 1, static_cast<int>(share * max_pictures)));
   });
-  for (const double value : ticks(1, most, 12)) {
+  for (const double value : ticks(1, max_pictures, 12)) {
     if (value != std::floor(value)) continue;
-    draw_tick(canvas, panel.left + (value - 0.5) / most * width, top, fmt::format("{:g}", value));
+    draw_tick(canvas, panel.left + (value - 0.5) / max_pictures * width, top,
+              fmt::format("{:g}", value));
   }
   draw_legend_patch(canvas, panel.left + panel.width - 150, top, kNone, "no picture");
 }
@@ -197,11 +199,11 @@ void draw_counts(Canvas& canvas, const Panel& panel, const playback::SurveyCover
 void draw_overlaps(Canvas& canvas, const Panel& panel, const playback::SurveyCoverage& coverage) {
   const metrics::CoverageMap& map = coverage.map;
   const double wanted = coverage.options.wanted_overlap;
-  double least = wanted;
+  double min_overlap = wanted;
   for (const float overlap : map.forward_overlap) {
-    if (overlap > 0.0f) least = std::min(least, static_cast<double>(overlap));
+    if (overlap > 0.0f) min_overlap = std::min(min_overlap, static_cast<double>(overlap));
   }
-  const double from = std::max(0.0, std::floor((least - 0.051) * 20.0) / 20.0);
+  const double from = std::max(0.0, std::floor((min_overlap - 0.051) * 20.0) / 20.0);
   draw_cells(canvas, panel, coverage, [&](std::size_t cell) -> std::optional<Rgb> {
     const double overlap = map.forward_overlap[cell];
     if (overlap < 0.0) return std::nullopt;
@@ -231,10 +233,7 @@ double held_on_half(const metrics::CoverageMap& map) {
   std::vector<float> held;
   std::copy_if(map.forward_overlap.begin(), map.forward_overlap.end(), std::back_inserter(held),
                [](float overlap) { return overlap >= 0.0f; });
-  if (held.empty()) return 0.0;
-  const auto middle = held.begin() + static_cast<std::ptrdiff_t>((held.size() - 1) / 2);
-  std::nth_element(held.begin(), middle, held.end());
-  return *middle;
+  return held.empty() ? 0.0 : value_in_order(held, (held.size() - 1) / 2);
 }
 
 void draw_numbers(Canvas& canvas, const Layout& layout, const playback::SurveyCoverage& coverage) {
@@ -277,8 +276,8 @@ void draw_numbers(Canvas& canvas, const Layout& layout, const playback::SurveyCo
     canvas.text(lines[i], 16, {left, top + 34 + 24 * static_cast<double>(i)}, kFaint);
   }
   const auto outside = std::count_if(
-      coverage.shots.begin(), coverage.shots.end(), [&](const metrics::LaneShot& taken) {
-        return !layout.panels[0].contains(taken.shot.X_WS.p.head<2>());
+      coverage.shots.begin(), coverage.shots.end(), [&](const metrics::LaneShot& lane_shot) {
+        return !layout.panels[0].contains(lane_shot.shot.X_WS.p.head<2>());
       });
   std::string key =
       "thin lines: plant rows; white and grey: track; dots: pictures, red if not on a lane";

@@ -19,7 +19,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr Rgb kFree = {240, 233, 217}, kOutside = {92, 98, 100}, kTaken = {52, 50, 48};
+constexpr Rgb kFree = {240, 233, 217}, kOutside = {92, 98, 100}, kOccupied = {52, 50, 48};
 constexpr Rgb kPlants = {74, 134, 62}, kWall = {28, 92, 214}, kTurning = {252, 204, 60};
 constexpr Rgb kObstacle = {214, 84, 26};
 
@@ -38,7 +38,7 @@ void draw_free_ground(Canvas& canvas, const PlanView& view, const OccupancyGrid&
 }
 
 /// Draws the occupied cells, with 3 x 3 samples per pixel.
-void draw_taken_cells(Canvas& canvas, const PlanView& view, const WorldModel& world) {
+void draw_occupied_cells(Canvas& canvas, const PlanView& view, const WorldModel& world) {
   constexpr int kSamples = 3;
   const OccupancyGrid& grid = world.rows->occupancy;
   const std::vector<Vector2d>& boundary = world.rows->boundary_W;
@@ -53,21 +53,21 @@ void draw_taken_cells(Canvas& canvas, const PlanView& view, const WorldModel& wo
   }
   for (int y = 0; y < view.map_height; ++y) {
     for (int x = 0; x < kPictureWidth; ++x) {
-      int taken = 0;
+      int occupied = 0;
       std::array<int, 3> sum = {0, 0, 0};
       for (int s = 0; s < kSamples * kSamples; ++s) {
         const Vector2d p =
             view.world(x + (s % kSamples + 0.5) / kSamples, y + (s / kSamples + 0.5) / kSamples);
         if (state_at(grid, p) != 1) continue;
-        ++taken;
+        ++occupied;
         const bool row = !rows.empty() && state_at(rows, p) == 1;
         const bool inside = boundary.empty() || contains(boundary, p);
-        const Rgb& colour = !inside ? kOutside : row ? kPlants : kTaken;
+        const Rgb& colour = !inside ? kOutside : row ? kPlants : kOccupied;
         for (std::size_t c = 0; c < 3; ++c) sum[c] += colour[c];
       }
-      if (taken == 0) continue;
-      canvas.blend(x, y, {sum[0] / taken, sum[1] / taken, sum[2] / taken},
-                   taken / static_cast<double>(kSamples * kSamples));
+      if (occupied == 0) continue;
+      canvas.blend(x, y, {sum[0] / occupied, sum[1] / occupied, sum[2] / occupied},
+                   occupied / static_cast<double>(kSamples * kSamples));
     }
   }
 }
@@ -87,7 +87,7 @@ int draw_obstacles(Canvas& canvas, const PlanView& view, const WorldModel& world
     const bool known = state_at(world.rows->occupancy, instance.X_WM.p.head<2>()) == 1;
     unknown += !known;
     if (!known) canvas.fill(view(plan), kObstacle, 0.85);
-    canvas.outline(view(plan), 2.0, known ? kTaken : kObstacle);
+    canvas.outline(view(plan), 2.0, known ? kOccupied : kObstacle);
   }
   return unknown;
 }
@@ -118,7 +118,7 @@ render::Image draw_grid(const WorldModel& world, const mapping::OccupancyReport&
     canvas.fill(view(area.polygon_W), kTurning, 0.5);
     canvas.outline(view(area.polygon_W), 1.0, {196, 146, 10}, 0.7);
   }
-  draw_taken_cells(canvas, view, world);
+  draw_occupied_cells(canvas, view, world);
   canvas.outline(view(world.rows->boundary_W), 2.5, kBoundary);
   for (const mapping::VirtualWall& wall : report.walls) {
     canvas.line(view(wall.from_W), view(wall.to_W), 3.5, kWall);

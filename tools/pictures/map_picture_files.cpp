@@ -28,9 +28,9 @@ const PhaseReport* find_phase(const run::RunResult& result, const std::string& n
 /// Point cloud that the phase took as input. @returns nullopt if it was never made
 std::optional<fs::path> cloud_of(const scenario::PhaseConfig& phase, const run::RunResult& result) {
   for (const scenario::ProductSource& source : phase.takes) {
-    const PhaseReport* giver = find_phase(result, source.phase);
-    if (source.kind == ProductKind::kCloud && giver != nullptr && giver->product) {
-      return giver->product->file;
+    const PhaseReport* source_phase = find_phase(result, source.phase);
+    if (source.kind == ProductKind::kCloud && source_phase != nullptr && source_phase->product) {
+      return source_phase->product->file;
     }
   }
   return std::nullopt;

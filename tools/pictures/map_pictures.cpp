@@ -26,9 +26,9 @@ constexpr Rgb kRows[2] = {{46, 122, 52}, {104, 172, 62}};
 constexpr int kStrip = 74;
 constexpr std::size_t kMaxSplats = 6'000'000;
 
-/// Stride n for drawing every n-th point, at most `most` points.
-std::size_t stride_of(const mapping::ParcelCloud& cloud, std::size_t most) {
-  return std::max<std::size_t>(1, (cloud.points.size() + most - 1) / most);
+/// Stride n for drawing every n-th point, at most `max_points` points.
+std::size_t stride_of(const mapping::ParcelCloud& cloud, std::size_t max_points) {
+  return std::max<std::size_t>(1, (cloud.points.size() + max_points - 1) / max_points);
 }
 
 /// Map prepared for drawing: heights above the ground, and rows by position.
@@ -149,9 +149,9 @@ void draw_ground_below_rows(const Scene& scene, CloudView& view) {
   }
 }
 
-void splat_cloud(const Scene& scene, CloudView& view, bool with_canopy, std::size_t most) {
+void splat_cloud(const Scene& scene, CloudView& view, bool with_canopy, std::size_t max_points) {
   const mapping::ParcelCloud& cloud = scene.cloud();
-  const std::size_t stride = stride_of(cloud, most);
+  const std::size_t stride = stride_of(cloud, max_points);
   const float size_m = scene.splat_m(stride);
   for (std::size_t k = 0; k < cloud.points.size(); k += stride) {
     if (!with_canopy && cloud.classes[k] == mapping::PointClass::kCanopy) continue;
@@ -211,8 +211,8 @@ void draw_row_numbers(Canvas& canvas, const CloudView& view, const RowMap& map,
   constexpr double kHeight = 0.75;  // share of the canopy's top
   std::optional<Vector2d> drawn;
   const auto& middle = map.rows[map.rows.size() / 2].line_W;
-  const auto way_m = [&](const Vector3d& p) { return (p - camera.X_WC.p).norm(); };
-  const bool last = way_m(middle.back()) < way_m(middle.front());
+  const auto distance_m = [&](const Vector3d& p) { return (p - camera.X_WC.p).norm(); };
+  const bool last = distance_m(middle.back()) < distance_m(middle.front());
   for (const PlantRow& row : map.rows) {
     const Vector3d& end = last ? row.line_W.back() : row.line_W.front();
     const auto at = view.pixel_of(end + Vector3d(0.0, 0.0, kHeight * row.canopy_top_m));

@@ -26,8 +26,8 @@ RowLookup::RowLookup(const std::vector<PlantRow>& rows, double reach_m) {
       const Eigen::Vector2d a = line_W[k].head<2>(), d = line_W[k + 1].head<2>() - a;
       const Eigen::Vector2d from = a.cwiseMin(a + d) - Eigen::Vector2d::Constant(reach_m);
       const Eigen::Vector2d to = a.cwiseMax(a + d) + Eigen::Vector2d::Constant(reach_m);
-      const auto index = [&](double value, double corner, int most) {
-        return std::clamp(static_cast<int>((value - corner) / cell_m_), 0, most - 1);
+      const auto index = [&](double value, double corner, int cells) {
+        return std::clamp(static_cast<int>((value - corner) / cell_m_), 0, cells - 1);
       };
       const int last_i = index(to.x(), corner_W_.x(), columns_);
       const int last_j = index(to.y(), corner_W_.y(), rows_);

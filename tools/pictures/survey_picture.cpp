@@ -129,9 +129,9 @@ Rgb colour_of(const controllers::SurveyPlan& plan, int lane) {
   return viridis(0.86 * static_cast<double>(at - plan.order.begin()) / count);
 }
 
-void draw_arrow(Canvas& canvas, const Vector2d& tip, const Vector2d& way, double size,
+void draw_arrow(Canvas& canvas, const Vector2d& tip, const Vector2d& direction, double size,
                 const Rgb& colour) {
-  const Vector2d u = way.normalized(), n(-u.y(), u.x());
+  const Vector2d u = direction.normalized(), n(-u.y(), u.x());
   canvas.fill({tip + size * u, tip - 0.7 * size * u + 0.7 * size * n, tip - 0.3 * size * u,
                tip - 0.7 * size * u - 0.7 * size * n},
               colour);
@@ -157,7 +157,7 @@ void draw_path(Canvas& canvas, const PlanView& view, const controllers::SurveyPl
 
 void draw_waypoints(Canvas& canvas, const PlanView& view, const controllers::SurveyPlan& plan) {
   constexpr int kSize_px = 12;
-  std::vector<Vector2d> taken;
+  std::vector<Vector2d> label_positions;
   for (std::size_t i = 0; i < plan.path.points.size(); ++i) {
     const PathPoint& point = plan.path.points[i];
     const Vector2d at = view(point.p_W);
@@ -166,15 +166,17 @@ void draw_waypoints(Canvas& canvas, const PlanView& view, const controllers::Sur
     canvas.fill(diamond, kPaper);
     canvas.outline(diamond, 1.6, colour);
     // Next to the path, where no other number is.
-    const Vector2d way = controllers::direction(point.yaw_rad);
-    const Vector2d beside(-way.y(), -way.x());
+    const Vector2d direction = controllers::direction(point.yaw_rad);
+    const Vector2d lateral(-direction.y(), -direction.x());
     for (const double side : {1.0, -1.0}) {
-      const Vector2d middle = at + side * 13.0 * beside;
-      const bool is_free = std::none_of(taken.begin(), taken.end(), [&](const Vector2d& other) {
-        return std::abs(other.x() - middle.x()) < 22.0 && std::abs(other.y() - middle.y()) < 13.0;
-      });
+      const Vector2d middle = at + side * 13.0 * lateral;
+      const bool is_free =
+          std::none_of(label_positions.begin(), label_positions.end(), [&](const Vector2d& other) {
+            return std::abs(other.x() - middle.x()) < 22.0 &&
+                   std::abs(other.y() - middle.y()) < 13.0;
+          });
       if (!is_free) continue;
-      taken.push_back(middle);
+      label_positions.push_back(middle);
       canvas.text(std::to_string(i), kSize_px, middle + Vector2d(0.0, 0.36 * kSize_px), kInk, 0.5);
       break;
     }

@@ -135,8 +135,8 @@ ReplayTerrain thin_terrain(const HeightField& field, const Eigen::AlignedBox2d& 
   const auto cell_of = [&](const Eigen::Vector2d& p_W, bool up) {
     const Eigen::Array2d share = (p_W - field.corner_W).array() / terrain.coarse.cell_m;
     const Eigen::Array2d whole = up ? Eigen::Array2d(share.ceil()) : Eigen::Array2d(share.floor());
-    const Eigen::Array2d most((field.columns - 1) / stride, (field.rows - 1) / stride);
-    return Eigen::Vector2i(whole.max(0.0).min(most).matrix().cast<int>());
+    const Eigen::Array2d max_index((field.columns - 1) / stride, (field.rows - 1) / stride);
+    return Eigen::Vector2i(whole.max(0.0).min(max_index).matrix().cast<int>());
   };
   terrain.hole = {cell_of(focus_W.min(), false), cell_of(focus_W.max(), true)};
   if ((terrain.hole.last - terrain.hole.first).minCoeff() < 1) {

@@ -65,9 +65,9 @@ ReplayTextures make_replay_textures(const Daylight& daylight) {
   Pixels sky(render::Atmosphere::kAzimuths, render::Atmosphere::kElevations);
   for (std::size_t i = 0; i < light.atmosphere.sky.size(); ++i) {
     for (int c = 0; c < 3; ++c) {
-      const double seen = light.exposure * light.atmosphere.sky[i][c];
+      const double exposed = light.exposure * light.atmosphere.sky[i][c];
       sky.rgba[4 * i + c] = static_cast<std::uint8_t>(
-          std::lround(255.0 * std::sqrt(std::clamp(0.5 * seen, 0.0, 1.0))));
+          std::lround(255.0 * std::sqrt(std::clamp(0.5 * exposed, 0.0, 1.0))));
     }
   }
   add_texture(textures, "sky", {sky}, {0, 1, 2});

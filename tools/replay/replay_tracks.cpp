@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "engine/api/world_model.h"
+#include "engine/math/statistics.h"
 #include "engine/playback/vehicle_colours.h"
 #include "tools/replay/replay_plans.h"
 
@@ -137,9 +138,7 @@ std::optional<Eigen::Vector3d> spin_axis(const playback::Trace<LinkPoses>& links
     last = q;
   }
   if (turns_rad.size() < 4) return std::nullopt;
-  const auto quarter = turns_rad.begin() + static_cast<std::ptrdiff_t>(3 * turns_rad.size() / 4);
-  std::nth_element(turns_rad.begin(), quarter, turns_rad.end());
-  if (*quarter < kSpin_rad) return std::nullopt;
+  if (value_in_order(turns_rad, 3 * turns_rad.size() / 4) < kSpin_rad) return std::nullopt;
   Eigen::Index axis = 0;
   sum.maxCoeff(&axis);
   return Eigen::Vector3d(Eigen::Vector3d::Unit(axis));

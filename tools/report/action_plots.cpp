@@ -192,12 +192,14 @@ LinePlot limit_plot(const VehicleLog& vehicle, const Track& track) {
   plot.lines.push_back({"actuators", std::move(actuators), "s0"});
   if (const Columns* deviation = vehicle.find("deviation")) {
     Samples share = column(*deviation, "limit_share", track);
-    std::size_t told = 0;
+    std::size_t reference_index = 0;
     const auto& times = vehicle.air_reference.times;
     for (std::size_t i = 0; i < share.size(); ++i) {
-      while (told + 1 < times.size() && times[told + 1].s() <= share.x[i]) ++told;
+      while (reference_index + 1 < times.size() && times[reference_index + 1].s() <= share.x[i])
+        ++reference_index;
       // Launch and landing are not judged, as in the metrics.
-      const bool judged = told < times.size() && is_judged(vehicle.air_reference.values[told]);
+      const bool judged = reference_index < times.size() &&
+                          is_judged(vehicle.air_reference.values[reference_index]);
       share.y[i] = judged ? 100.0 * share.y[i] : kNone;
     }
     plot.lines.push_back({"controller's limits", std::move(share), "s1"});
@@ -223,7 +225,7 @@ std::vector<LinePlot> energy_plots(const VehicleLog& vehicle, const Track& track
     drawn.add(t_s, vehicle.battery.values[i].power_W);
   }
   if (left.size() < 2) return {};
-  charge.most = std::max(100.0, *std::max_element(left.y.begin(), left.y.end()));
+  charge.maximum = std::max(100.0, *std::max_element(left.y.begin(), left.y.end()));
   if (*std::min_element(drawn.y.begin(), drawn.y.end()) < 0.0) {
     power.caption += " Negative: the motors brake and charge the battery.";
   }

@@ -41,10 +41,10 @@ std::vector<double> ticks_of_powers(const Range& range, std::initializer_list<in
   return ticks;
 }
 
-std::vector<double> logarithmic_ticks(const Range& range, int most) {
-  if (range.high < kMinRatio * range.low) return tools::ticks(range.low, range.high, most);
+std::vector<double> logarithmic_ticks(const Range& range, int max_ticks) {
+  if (range.high < kMinRatio * range.low) return tools::ticks(range.low, range.high, max_ticks);
   const auto fits = [&](const std::vector<double>& ticks) {
-    return static_cast<int>(ticks.size()) <= most;
+    return static_cast<int>(ticks.size()) <= max_ticks;
   };
   std::vector<double> ticks = ticks_of_powers(range, {1, 2, 5}, 1);
   for (int stride = 1; !fits(ticks) && stride < 1000; ++stride) {
@@ -65,9 +65,9 @@ void Range::include(std::span<const double> values) {
   for (const double value : values) include(value);
 }
 
-Range Range::padded(double share, double least) const {
-  if (empty()) return {-0.5 * least, 0.5 * least};
-  const double more = std::max(share * span(), 0.5 * (least - span()));
+Range Range::padded(double share, double min_span) const {
+  if (empty()) return {-0.5 * min_span, 0.5 * min_span};
+  const double more = std::max(share * span(), 0.5 * (min_span - span()));
   return {low - more, high + more};
 }
 

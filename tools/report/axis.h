@@ -18,8 +18,8 @@ struct Range {
   /// Ignores values that are not finite.
   void include(double value);
   void include(std::span<const double> values);
-  /// Range widened by `share` of its span on either side, and at least `least` wide in total.
-  Range padded(double share, double least) const;
+  /// Range widened by `share` of its span on either side, and at least `min_span` wide in total.
+  Range padded(double share, double min_span) const;
 };
 
 /// Tick label with as many decimals as its step: steps of 0.05 give "0.10". Uses the minus sign

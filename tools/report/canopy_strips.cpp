@@ -250,13 +250,13 @@ std::string canopy_section(const RunFolder& run, const std::vector<CanopyFile>& 
 
 std::string canopy_remark(const RunFolder& run, const std::vector<CanopyFile>& canopies,
                           const std::vector<VehicleLog>& vehicles) {
-  std::string out, told;
+  std::string out, previous;
   for (const CanopyFile& canopy : canopies) {
     const std::vector<RowFace> faces = faces_of(canopy, run, vehicles);
     const std::string why = face_sentence(faces);
     if (why.empty()) continue;
-    if (why != told) out += (out.empty() ? "" : " ") + why + ".";
-    told = why;
+    if (why != previous) out += (out.empty() ? "" : " ") + why + ".";
+    previous = why;
     out += fmt::format(" {}: {} {}, {} on the sides passed.", sentence_case(canopy.payload),
                        percent(canopy.covered_share()), words_for(canopy).reached,
                        percent(passed_share(canopy, faces)));

@@ -34,7 +34,7 @@ void add_stretch(const Samples& line, std::size_t begin, std::size_t end, std::s
 
 }  // namespace
 
-Samples decimate(const Samples& line, std::size_t most) {
+Samples decimate(const Samples& line, std::size_t max_points) {
   const std::size_t count = line.size();
   Samples out;
   for (std::size_t begin = 0; begin < count;) {
@@ -43,7 +43,7 @@ Samples decimate(const Samples& line, std::size_t most) {
     while (end < count && std::isfinite(line.y[end])) ++end;
     if (begin == end) break;
     if (out.size() > 0) out.add(line.x[begin], std::numeric_limits<double>::quiet_NaN());
-    const std::size_t buckets = std::max<std::size_t>(1, most * (end - begin) / (2 * count));
+    const std::size_t buckets = std::max<std::size_t>(1, max_points * (end - begin) / (2 * count));
     add_stretch(line, begin, end, buckets, out);
     begin = end;
   }

@@ -17,9 +17,9 @@ struct Samples {
   }
 };
 
-/// Line with at most about `most` points. Keeps the lowest and the highest point of each of most /
-/// 2 equal buckets, in their order; the first and the last point; and each gap between points as
-/// one point that is not finite.
-Samples decimate(const Samples& line, std::size_t most = 1500);
+/// Line with at most about `max_points` points. Keeps the lowest and the highest point of each of
+/// most / 2 equal buckets, in their order; the first and the last point; and each gap between
+/// points as one point that is not finite.
+Samples decimate(const Samples& line, std::size_t max_points = 1500);
 
 }  // namespace vinerow::tools::report

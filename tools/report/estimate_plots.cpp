@@ -8,6 +8,7 @@
 #include "engine/api/map.h"
 #include "engine/api/world_model.h"
 #include "engine/math/polyline.h"
+#include "engine/math/statistics.h"
 #include "tools/report/html.h"
 
 namespace vinerow::tools::report {
@@ -87,17 +88,12 @@ double largest_error_m(const LinePlot& plot) {
   return largest_m;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Moves bands that would fill the plot into its caption.
 void put_far_bands_in_words(LinePlot& plot) {
   const double widest_m = kWidestBand * largest_error_m(plot);
   std::erase_if(plot.bands, [&](const PlotBand& band) {
-    const double half_width_m = median(band.high);
+    std::vector<double> half_widths_m = band.high;
+    const double half_width_m = upper_median(half_widths_m);
     if (half_width_m <= widest_m) return false;
     plot.caption += fmt::format(" Not drawn because it would fill the plot: {} (±{:.2g} m).",
                                 escaped(band.label), half_width_m);

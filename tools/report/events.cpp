@@ -63,10 +63,10 @@ std::string badge(const std::string& level) {
 }
 
 /// Text cut after a whole word if possible, and never inside a multi-byte character.
-std::string shortened(const std::string& text, std::size_t most) {
-  if (text.size() <= most) return text;
-  std::size_t end = text.rfind(' ', most);
-  if (end == std::string::npos || end == 0) end = most;
+std::string shortened(const std::string& text, std::size_t max_bytes) {
+  if (text.size() <= max_bytes) return text;
+  std::size_t end = text.rfind(' ', max_bytes);
+  if (end == std::string::npos || end == 0) end = max_bytes;
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
   return text.substr(0, end) + " …";
 }

@@ -27,11 +27,11 @@ double sum_of(const RunFolder& run, const std::string& metric) {
 }
 
 double min_of(const RunFolder& run, const std::string& metric) {
-  double least = kNone;
+  double minimum = kNone;
   for (const std::string& vehicle : run.vehicles) {
-    least = std::fmin(least, run.metric(vehicle, metric));
+    minimum = std::fmin(minimum, run.metric(vehicle, metric));
   }
-  return least;
+  return minimum;
 }
 
 /// Distance between two vehicles at the first one's time stamps.

@@ -99,10 +99,10 @@ std::string legend(const LinePlot& plot) {
   for (const PlotBand& band : plot.bands) keys += legend_key("area " + band.style, band.label);
   if (!plot.spans.empty()) keys += legend_key("area span", plot.spans_label);
   const Range lines = line_range(plot);
-  std::string told;
+  std::string previous_label;
   for (const PlotLimit& limit : plot.limits) {
-    if (limit.label == told || !is_near(limit, lines, plot.min_span)) continue;
-    told = limit.label;
+    if (limit.label == previous_label || !is_near(limit, lines, plot.min_span)) continue;
+    previous_label = limit.label;
     keys += legend_key("limit", limit.label);
   }
   return legend_line(keys);
@@ -133,8 +133,8 @@ Range y_range(const LinePlot& plot) {
   }
   range = range.padded(0.05, plot.min_span);
   // No padding beyond the largest possible value, such as a charge of 100 %.
-  const double most = std::max(plot.most, lines.empty() ? plot.most : lines.high);
-  if (range.high > most) range = {std::min(range.low, most - plot.min_span), most};
+  const double maximum = std::max(plot.maximum, lines.empty() ? plot.maximum : lines.high);
+  if (range.high > maximum) range = {std::min(range.low, maximum - plot.min_span), maximum};
   return range;
 }
 

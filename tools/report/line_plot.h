@@ -48,7 +48,7 @@ struct LinePlot {
   std::string spans_label;  ///< legend text of the shaded spans
   std::vector<PlotLimit> limits;
   double min_span = 1e-3;  ///< smallest span of the y axis, in y's unit
-  double most = std::numeric_limits<double>::infinity();  ///< upper end of y: 100 for per cent
+  double maximum = std::numeric_limits<double>::infinity();  ///< upper end of y: 100 for per cent
 
   /// Whether there is nothing to draw.
   bool empty() const;

@@ -28,18 +28,19 @@ constexpr double kTickSpace_px = 40.0;
 class Projection {
  public:
   Projection(const MapView& view, const MapStyle& style) {
-    const double room = style.with_axes ? kTickSpace_px : 0.0;
-    const double width = style.width - room;
+    const double axis_space_px = style.with_axes ? kTickSpace_px : 0.0;
+    const double width = style.width - axis_space_px;
     const double wanted = width / view.x.span() * view.y.span();
-    const double height = std::clamp(wanted, style.min_height - room, style.max_height - room);
+    const double height =
+        std::clamp(wanted, style.min_height - axis_space_px, style.max_height - axis_space_px);
     scale_ = std::min(width / view.x.span(), height / view.y.span());
     const double x_m = width / scale_, y_m = height / scale_;
     const double x0 = 0.5 * (view.x.low + view.x.high), y0 = 0.5 * (view.y.low + view.y.high);
     shown_.x = {x0 - 0.5 * x_m, x0 + 0.5 * x_m};
     shown_.y = {y0 - 0.5 * y_m, y0 + 0.5 * y_m};
-    left_ = room;
+    left_ = axis_space_px;
     bottom_ = height;
-    full_height_ = height + room;
+    full_height_ = height + axis_space_px;
   }
   Eigen::Vector2d operator()(const Eigen::Vector2d& p) const {
     return {left_ + scale_ * (p.x() - shown_.x.low), bottom_ - scale_ * (p.y() - shown_.y.low)};

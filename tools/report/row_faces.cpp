@@ -62,8 +62,8 @@ std::vector<RowFace> row_faces(const RunFolder& run, const VehicleLog& vehicle) 
         const Eigen::Vector3d middle = alley.line_W[alley.line_W.size() / 2];
         const Eigen::Vector3d before = alley.line_W[(alley.line_W.size() - 1) / 2];
         const auto at = line.nearest((0.5 * (middle + before)).head<2>());
-        const bool beside = at.distance_m < reach_m && side * at.signed_distance_m > 0.0;
-        face.has_alley = face.has_alley || beside;
+        const bool is_adjacent = at.distance_m < reach_m && side * at.signed_distance_m > 0.0;
+        face.has_alley = face.has_alley || is_adjacent;
       }
       faces.push_back(face);
     }

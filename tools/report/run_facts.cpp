@@ -41,11 +41,11 @@ std::string state_source(const Json& estimation) {
     return "the true state (no estimator)";
   }
   if (*estimator == "truth") return "the true state (estimator 'truth')";
-  std::string told = "its estimator " + estimator->get<std::string>();
+  std::string source = "its estimator " + estimator->get<std::string>();
   for (const Json& of_truth : list_in(estimation, "truth")) {
-    told += ", with the true " + plain(of_truth);
+    source += ", with the true " + plain(of_truth);
   }
-  return told;
+  return source;
 }
 
 }  // namespace
@@ -64,8 +64,8 @@ std::string facts(const RunFolder& run) {
   }
   const auto estimation = run.summary.find("estimation");
   if (estimation != run.summary.end() && estimation->is_object()) {
-    for (const auto& [vehicle, told] : estimation->items()) {
-      add(escaped(vehicle) + " acts on", state_source(told));
+    for (const auto& [vehicle, source] : estimation->items()) {
+      add(escaped(vehicle) + " acts on", state_source(source));
     }
   }
   const auto versions = run.summary.find("versions");

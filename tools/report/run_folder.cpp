@@ -39,10 +39,10 @@ void open_log(RunFolder& run) {
   const fs::path file = run.path / "log.mcap";
   if (!fs::is_regular_file(file)) return;
   auto log = std::make_unique<record::LogReader>(file);
-  const auto& told = log->info().metadata;
+  const auto& log_metadata = log->info().metadata;
   const auto of = [&](const char* key) {
-    const auto found = told.find(key);
-    return found == told.end() ? std::string() : found->second;
+    const auto found = log_metadata.find(key);
+    return found == log_metadata.end() ? std::string() : found->second;
   };
   const std::string seed = run.summary.contains("seed") ? run.summary["seed"].dump() : "";
   if (of("scenario") != run.text("scenario") || of("seed") != seed) {

@@ -216,13 +216,14 @@ std::string activity_legend(const std::vector<TimeRow>& rows) {
       auto of_style = std::find_if(labels.begin(), labels.end(),
                                    [&](const auto& entry) { return entry.first == bar.style; });
       if (of_style == labels.end()) of_style = labels.insert(labels.end(), {bar.style, {}});
-      auto& told = of_style->second;
-      if (std::find(told.begin(), told.end(), bar.tip) == told.end()) told.push_back(bar.tip);
+      auto& entries = of_style->second;
+      if (std::find(entries.begin(), entries.end(), bar.tip) == entries.end())
+        entries.push_back(bar.tip);
     }
   }
   std::string keys;
-  for (const auto& [style, told] : labels) {
-    keys += legend_key("area " + style, fmt::format("{}", fmt::join(told, " / ")));
+  for (const auto& [style, entries] : labels) {
+    keys += legend_key("area " + style, fmt::format("{}", fmt::join(entries, " / ")));
   }
   return legend_line(keys);
 }
@@ -239,8 +240,9 @@ std::string phase_table(const RunFolder& run) {
       product = given->value("kind", "");
     }
     std::string numbers;
-    if (const auto told = phase.find("numbers"); told != phase.end() && told->is_object()) {
-      for (const auto& [name, value] : told->items()) {
+    if (const auto entries = phase.find("numbers");
+        entries != phase.end() && entries->is_object()) {
+      for (const auto& [name, value] : entries->items()) {
         numbers += fmt::format("<tr><td>{}</td>{}<td>{}</td></tr>", escaped(words_of(name)),
                                number_cell(number_of(value)), escaped(unit_of(name)));
       }

@@ -82,9 +82,9 @@ Track make_track(const VehicleLog& vehicle) {
     if (waits) continue;
     PlaceValues values;
     if (plan.has_plan()) values = values_at(plan, truth, vehicle);
-    if (const AirReference* told = last_reported(vehicle.air_reference, t, air_at)) {
-      values.in_turn = told->phase == AirReference::Phase::kTurn;
-      const bool straight = told->phase == AirReference::Phase::kStraight;
+    if (const AirReference* reference = last_reported(vehicle.air_reference, t, air_at)) {
+      values.in_turn = reference->phase == AirReference::Phase::kTurn;
+      const bool straight = reference->phase == AirReference::Phase::kStraight;
       if (!straight) values.lateral_m = values.height_error_m = kNone;
     }
     heading_rad = next_to(yaw_from_quaternion(truth.X_WB.q), heading_rad);

@@ -93,14 +93,15 @@ std::string failure(const Judged& judged) {
   const std::string metric = c.value("metric", ""), name = metric_part(metric);
   const double value = number_of(c.value("value", Json()));
   const double limit = number_of(c.value("limit", Json()));
-  const bool most = c.value("kind", "") == "max";
-  const bool flag = limit == 1.0 && !most && (name == "finished" || name == "estimate_consistent");
+  const bool is_max = c.value("kind", "") == "max";
+  const bool flag =
+      limit == 1.0 && !is_max && (name == "finished" || name == "estimate_consistent");
   const std::string where = judged.phase.empty() ? "" : " (phase " + judged.phase + ")";
   if (flag && value == 0.0) return criterion_title(metric) + ": no" + where;
   if (!std::isfinite(value)) return criterion_title(metric) + " was not measured" + where;
   return fmt::format("{} is {}, {} {} is {}{}", criterion_title(metric), value_text(name, value),
-                     most ? "at most" : "at least", value_text(name, limit),
-                     most ? "allowed" : "required", where);
+                     is_max ? "at most" : "at least", value_text(name, limit),
+                     is_max ? "allowed" : "required", where);
 }
 
 /// Failed phases as text: "phases scout, spray"; "" if none failed.
@@ -115,15 +116,15 @@ std::string failed_phases(const RunFolder& run) {
 
 /// One sentence for each phase that did not succeed, in the order of the summary.
 std::vector<std::string> phase_failures(const RunFolder& run) {
-  std::vector<std::string> told;
+  std::vector<std::string> phase_fault;
   for (const Json& phase : list_in(run.summary, "phases")) {
     const std::string state = phase.value("state", ""), reason = phase.value("reason", "");
     if (state != "failed" && state != "blocked" && state != "stopped") continue;
-    told.push_back(fmt::format("phase {} {}{}", phase.value("name", ""),
-                               state == "blocked" ? "could not start" : state,
-                               reason.empty() ? "" : ": " + reason));
+    phase_fault.push_back(fmt::format("phase {} {}{}", phase.value("name", ""),
+                                      state == "blocked" ? "could not start" : state,
+                                      reason.empty() ? "" : ": " + reason));
   }
-  return told;
+  return phase_fault;
 }
 
 std::string sentence_of(const std::vector<std::string>& parts) {
@@ -153,7 +154,7 @@ Verdict make_verdict(const RunFolder& run) {
         "{} {} after {}: {}", crash.value("vehicle", ""), crash.value("kind", "crashed"),
         duration_text(number_of(crash.value("time_s", Json()))), crash.value("text", "")));
   }
-  for (std::string& told : phase_failures(run)) faults.push_back(std::move(told));
+  for (std::string& phase_fault : phase_failures(run)) faults.push_back(std::move(phase_fault));
   std::size_t missed = 0;
   for (const Judged& judged : criteria) {
     if (judged.is_met()) continue;

@@ -22,6 +22,9 @@ struct EndedCell {
   double wall_s = 0.0;  ///< time since it was given
 };
 
+/// Longest line of a program's output in a reason, bytes.
+inline constexpr std::size_t kLongestLine = 300;
+
 /// Runs cells. The destructor ends running cells.
 class CellRunner {
  public:

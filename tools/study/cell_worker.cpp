@@ -116,7 +116,7 @@ void serve(const OpenStudy& open, const StudyFolder& folder) {
 }
 
 void run_cells(const OpenStudy& open, const StudyFolder& folder,
-               const std::vector<std::size_t>& cells, int jobs, const DescribeCell& tell) {
+               const std::vector<std::size_t>& cells, int jobs, const DescribeCell& report) {
   const CellFiles files(folder.cells);
   WorkerPool pool(worker_command(open, folder), jobs, open.study.budget);
   auto next = cells.begin();
@@ -125,7 +125,7 @@ void run_cells(const OpenStudy& open, const StudyFolder& folder,
       const std::size_t cell = *next++;
       const std::string identity = open.identity.of(cell);
       if (const auto found = files.find(identity)) {
-        tell(cell, *found);
+        report(cell, *found);
       } else {
         pool.give(cell, identity);
       }
@@ -137,7 +137,7 @@ void run_cells(const OpenStudy& open, const StudyFolder& folder,
       if (ended.how == EndedCell::How::kNotStored) throw WriteError(ended.words);
       const std::string identity = open.identity.of(ended.cell);
       if (ended.how != EndedCell::How::kStored) files.put(identity, result_of_end(ended));
-      tell(ended.cell, files.find(identity).value());
+      report(ended.cell, files.find(identity).value());
     }
   }
 }

@@ -31,10 +31,10 @@ using DescribeCell = std::function<void(std::size_t cell, const CellResult& resu
 
 /// Runs cells in separate processes, under the budget, and stores their results. Stored cells do
 /// not run again.
-/// @param jobs  number of parallel processes, >= 1 @param `tell`  called after each cell
+/// @param jobs  number of parallel processes, >= 1 @param `report`  called after each cell
 /// @throws WriteError if results cannot be stored
 void run_cells(const OpenStudy& open, const StudyFolder& folder,
-               const std::vector<std::size_t>& cells, int jobs, const DescribeCell& tell);
+               const std::vector<std::size_t>& cells, int jobs, const DescribeCell& report);
 
 /// Removes unfinished runs of killed processes of this machine from the folder of kept runs.
 void remove_leftovers(const StudyFolder& folder);

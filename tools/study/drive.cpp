@@ -45,7 +45,7 @@ class Driver {
     take_over();
     const std::unique_ptr<CellRunner> runner = make_runner();
     Clock::time_point committed = start_;
-    tell(*runner);
+    report_progress(*runner);
     while (give_all(*runner)) {
       constexpr double kLook_s = 0.2;  // time until Ctrl-C is noticed
       const std::vector<EndedCell> ended = runner->wait(kLook_s);
@@ -63,12 +63,13 @@ class Driver {
         index_.commit();
         committed = Clock::now();
       }
-      tell(*runner);
+      report_progress(*runner);
     }
     if (!interrupted_ && !detached_) remove_unneeded();
     index_.commit();
-    tell(*runner);
-    return {std::move(results_), run_, taken_, interrupted_, detached_, wall_s(), runner->status()};
+    report_progress(*runner);
+    return {std::move(results_), run_,     finished_before_, interrupted_,
+            detached_,           wall_s(), runner->status()};
   }
 
  private:
@@ -100,7 +101,7 @@ class Driver {
         }
       }
       if (is_complete(cell)) {
-        ++taken_;
+        ++finished_before_;
         count_failure(cell);
       } else if (is_finished(results_.state(cell))) {
         cells_.remove(open_.identity.of(cell));
@@ -178,9 +179,10 @@ class Driver {
     if (!has_numbers(results_.state(cell))) ++failed_;
   }
 
-  void tell(const CellRunner& runner) const {
+  void report_progress(const CellRunner& runner) const {
     if (options_.progress) {
-      options_.progress({taken_ + run_, failed_, wanted_, run_, wall_s(), runner.status()});
+      options_.progress(
+          {finished_before_ + run_, failed_, wanted_, run_, wall_s(), runner.status()});
     }
   }
 
@@ -193,7 +195,7 @@ class Driver {
   std::vector<std::size_t> issued_;  ///< by setting: number of its seeds already considered
   std::deque<std::size_t> ready_;
   Clock::time_point start_ = Clock::now();
-  std::size_t run_ = 0, taken_ = 0, failed_ = 0, wanted_ = 0;
+  std::size_t run_ = 0, finished_before_ = 0, failed_ = 0, wanted_ = 0;
   bool interrupted_ = false, detached_ = false;
 };
 

@@ -34,8 +34,8 @@ struct DriveOptions {
 
 struct DriveResult {
   Results results;
-  std::size_t run = 0;    ///< cells run by this call
-  std::size_t taken = 0;  ///< cells finished before
+  std::size_t run = 0;              ///< cells run by this call
+  std::size_t finished_before = 0;  ///< cells finished before
   bool interrupted = false;
   bool detached = false;  ///< the cells continue without this process
   double wall_s = 0.0;

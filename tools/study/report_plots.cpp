@@ -73,7 +73,7 @@ Quantity quantity_of(const std::string& name) {
   quantity.label = tools::report::words_of(last);
   if (dot != std::string::npos) quantity.label += ", " + name.substr(0, dot);
   quantity.unit = tools::report::unit_of(last);
-  if (name == "run.met" || last.ends_with("_share")) quantity.least = 0.0, quantity.most = 1.0;
+  if (name == "run.met" || last.ends_with("_share")) quantity.minimum = 0.0, quantity.maximum = 1.0;
   return quantity;
 }
 

@@ -8,8 +8,8 @@
 
 #include "engine/core/error.h"
 #include "engine/core/files.h"
+#include "engine/core/program.h"
 #include "engine/core/whole_file.h"
-#include "tools/study/last_line.h"
 
 namespace vinerow::study {
 namespace {
@@ -195,11 +195,11 @@ void SlurmRunner::collect(LiveTask& task, std::vector<EndedCell>& ended) {
   });
 }
 
-void SlurmRunner::note_end(const TaskName& name, LiveTask& task, const slurm::Task* told) {
-  if (told && !told->has_ended()) return;
-  if (told) {
-    task.state = told->state;
-    task.reason = told->reason;
+void SlurmRunner::note_end(const TaskName& name, LiveTask& task, const slurm::Task* reported) {
+  if (reported && !reported->has_ended()) return;
+  if (reported) {
+    task.state = reported->state;
+    task.reason = reported->reason;
   } else {
     task.state = slurm::state_in_accounting(task.job, name.second);
     if (!task.state.empty() && !slurm::is_end(task.state)) return;
@@ -214,24 +214,24 @@ void SlurmRunner::poll(std::vector<EndedCell>& ended) {
     check_patience();
     return;
   }
-  std::map<TaskName, const slurm::Task*> told;
-  for (const slurm::Task& task : queue.tasks) told[{task.name, task.index}] = &task;
+  std::map<TaskName, const slurm::Task*> reported;
+  for (const slurm::Task& task : queue.tasks) reported[{task.name, task.index}] = &task;
   std::size_t running = 0, waiting = 0;
   std::string reason;
   std::vector<TaskName> gone;
   for (auto& [name, task] : live_) {
-    const auto found = told.find(name);
-    const slurm::Task* const said = found == told.end() ? nullptr : found->second;
-    if (task.ended == Clock::time_point{}) note_end(name, task, said);
+    const auto found = reported.find(name);
+    const slurm::Task* const found_task = found == reported.end() ? nullptr : found->second;
+    if (task.ended == Clock::time_point{}) note_end(name, task, found_task);
     const bool has_ended = task.ended != Clock::time_point{};
-    if (said && said->is_running()) {
+    if (found_task && found_task->is_running()) {
       ++running;
       last_sign_ = Clock::now();
     } else if (!has_ended) {
       ++waiting;
-      if (said && !said->reason.empty()) reason = said->reason;
+      if (found_task && !found_task->reason.empty()) reason = found_task->reason;
     }
-    if (has_ended || (said && said->is_running())) collect(task, ended);
+    if (has_ended || (found_task && found_task->is_running())) collect(task, ended);
     if (!has_ended) continue;
     // A completed task has stored its cells; the files are only not visible yet.
     const bool may_come = task.state == "COMPLETED" || task.state.empty();
@@ -247,7 +247,8 @@ void SlurmRunner::poll(std::vector<EndedCell>& ended) {
 
 void SlurmRunner::give_back(const TaskName& name, LiveTask& task, std::vector<EndedCell>& ended) {
   const std::string last =
-      last_line_of(read_bytes(task.folder / fmt::format("{}.log", name.second)).value_or(""));
+      last_line_of(read_bytes(task.folder / fmt::format("{}.log", name.second)).value_or(""))
+          .substr(0, kLongestLine);
   const std::string words = fmt::format(
       "Slurm task {}_{} ended {}{}{}{}", task.job, name.second,
       task.state.empty() ? "without a trace" : "as " + task.state,

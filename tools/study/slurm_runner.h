@@ -59,7 +59,7 @@ class SlurmRunner final : public CellRunner {
   void submit();
   void poll(std::vector<EndedCell>& ended);
   void collect(LiveTask& task, std::vector<EndedCell>& ended);
-  void note_end(const TaskName& name, LiveTask& task, const slurm::Task* told);
+  void note_end(const TaskName& name, LiveTask& task, const slurm::Task* reported);
   void give_back(const TaskName& name, LiveTask& task, std::vector<EndedCell>& ended);
   void check_patience();
   void forget(const TaskName& name);

@@ -7,6 +7,7 @@
 
 #include "engine/core/check.h"
 #include "engine/core/random.h"
+#include "engine/math/statistics.h"
 #include "tools/study/distributions.h"
 
 namespace vinerow::study {
@@ -45,8 +46,8 @@ Summary summarise(std::span<const double> values) {
   }
   Summary summary{values.size(), first + sum / n, kUndefined, first, first};
   for (const double value : values) {
-    summary.least = std::min(summary.least, value);
-    summary.greatest = std::max(summary.greatest, value);
+    summary.minimum = std::min(summary.minimum, value);
+    summary.maximum = std::max(summary.maximum, value);
   }
   if (values.size() < 2) return summary;
 
@@ -58,16 +59,6 @@ Summary summarise(std::span<const double> values) {
   }
   summary.deviation = std::sqrt(squares / (n - 1.0));
   return summary;
-}
-
-double quantile(std::span<const double> sorted, double share) {
-  VINEROW_DEMAND(!sorted.empty() && share >= 0.0 && share <= 1.0);
-  VINEROW_DEMAND(std::is_sorted(sorted.begin(), sorted.end()));
-  VINEROW_DEMAND(std::isfinite(sorted.front()) && std::isfinite(sorted.back()));
-  const double place = share * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
-  if (below + 1 >= sorted.size()) return sorted.back();
-  return std::lerp(sorted[below], sorted[below + 1], place - static_cast<double>(below));
 }
 
 Interval t_interval(std::span<const double> values, double confidence) {
@@ -86,11 +77,11 @@ Interval bootstrap_interval(std::span<const double> values, double confidence,
   VINEROW_DEMAND(is_share(confidence) && resamples > 0);
   const Summary summary = summarise(values);
   if (summary.count < 2) return kEverything;
-  if (summary.least == summary.greatest) return {summary.least, summary.least};
+  if (summary.minimum == summary.maximum) return {summary.minimum, summary.minimum};
   const double n = static_cast<double>(summary.count);
 
   // Deviations from the mean, relative to the largest: their cubes neither overflow nor vanish.
-  const double scale = std::max(summary.greatest - summary.mean, summary.mean - summary.least);
+  const double scale = std::max(summary.maximum - summary.mean, summary.mean - summary.minimum);
   std::vector<double> deviations;
   for (const double value : values) deviations.push_back((value - summary.mean) / scale);
 
@@ -130,8 +121,8 @@ Interval bootstrap_interval(std::span<const double> values, double confidence,
   const double z = normal_quantile(0.5 * (1.0 - confidence));
   const double low = quantile(means, corrected_level(z, bias, acceleration));
   const double high = quantile(means, corrected_level(-z, bias, acceleration));
-  return {std::max(summary.least, summary.mean + scale * low),
-          std::min(summary.greatest, summary.mean + scale * high)};
+  return {std::max(summary.minimum, summary.mean + scale * low),
+          std::min(summary.maximum, summary.mean + scale * high)};
 }
 
 Interval wilson_interval(std::int64_t successes, std::int64_t trials, double confidence) {

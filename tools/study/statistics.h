@@ -24,22 +24,13 @@ struct Summary {
   std::size_t count = 0;
   double mean = 0.0;       ///< NaN without values
   double deviation = 0.0;  ///< sample standard deviation, divisor count - 1; NaN below 2 values
-  double least = 0.0;      ///< NaN without values
-  double greatest = 0.0;   ///< NaN without values
+  double minimum = 0.0;    ///< NaN without values
+  double maximum = 0.0;    ///< NaN without values
 };
 
 /// Computes mean and deviation in two passes; equal values give exactly that mean and a deviation
 /// of exactly 0.
 Summary summarise(std::span<const double> values);
-
-/// Quantile: the value below which a share of the sample is, interpolated between two values.
-///
-/// Source: Hyndman, Fan, "Sample quantiles in statistical packages", The American Statistician 50
-/// (1996), definition 7: at index h = (n - 1) share, counted from 0, as in NumPy and R.
-///
-/// @param sorted  (n) at least one, ascending (both checked)
-/// @param share   in [0, 1]; 0.5 is the median
-double quantile(std::span<const double> sorted, double share);
 
 /// Confidence interval of the mean: mean ± t s / √n, t the quantile (1 + confidence) / 2 of
 /// Student's distribution with n - 1 degrees of freedom.
@@ -60,7 +51,7 @@ Interval t_interval(std::span<const double> values, double confidence);
 /// Resamples are drawn from one fixed random stream: the same each time, and the same selection for
 /// every metric with equally many values.
 ///
-/// The interval never leaves [least, greatest], so it is too short for few values: a 95 % interval
+/// The interval never leaves [minimum, maximum], so it is too short for few values: a 95 % interval
 /// covers the mean of 10 normal values in about 91 % of cases, of 5 in 83 %. For few values the t
 /// interval is better.
 ///

@@ -31,9 +31,9 @@ bool StopJudge::is_narrow(std::size_t setting, std::size_t seeds) {
 }
 
 std::size_t StopJudge::wanted(std::size_t setting) {
-  const std::size_t most = results_.design().seeds();
+  const std::size_t max_seeds = results_.design().seeds();
   std::size_t& wanted = wanted_[setting];
-  while (wanted < most) {
+  while (wanted < max_seeds) {
     for (std::size_t k = 0; k < wanted; ++k) {
       if (!is_finished(results_.state(results_.design().cell_of(setting, k)))) return wanted;
     }

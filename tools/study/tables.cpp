@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/io/files/csv.h"
+#include "engine/math/statistics.h"
 #include "tools/study/numbers.h"
 #include "tools/study/setting_numbers.h"
 #include "tools/study/statistics.h"

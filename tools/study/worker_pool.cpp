@@ -16,8 +16,8 @@
 #include <optional>
 
 #include "engine/core/check.h"
+#include "engine/core/program.h"
 #include "engine/core/whole_file.h"
-#include "tools/study/last_line.h"
 
 namespace vinerow::study {
 namespace {
@@ -29,17 +29,6 @@ double resident_MB(pid_t process) {
   double total = 0.0, resident = 0.0;
   statm >> total >> resident;
   return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
-}
-
-/// Complete output of a process on its error stream.
-std::string text_of(std::FILE* errors) {
-  std::string text;
-  std::rewind(errors);
-  char bytes[4096];
-  for (std::size_t count = 0; (count = std::fread(bytes, 1, sizeof bytes, errors)) > 0;) {
-    text.append(bytes, count);
-  }
-  return text;
 }
 
 }  // namespace
@@ -145,7 +134,8 @@ void WorkerPool::read_answer(Worker& worker, std::vector<EndedCell>& ended) {
     close(worker.to);
     close(worker.from);
     worker.process = -1;
-    const std::string last = last_line_of(text_of(worker.errors.get()));
+    const std::string last =
+        last_line_of(read_from_start(worker.errors.get())).substr(0, kLongestLine);
     const std::string how =
         WIFSIGNALED(status)
             ? fmt::format("signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)))

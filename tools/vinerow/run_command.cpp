@@ -87,7 +87,7 @@ void print_pictures(const run::RunResult& result, const std::filesystem::path& o
 class Unwritten {
  public:
   bool any() const { return any_; }
-  void tell(const std::string& sentence) {
+  void report(const std::string& sentence) {
     if (sentence.empty()) return;
     any_ = true;
     fmt::print(stderr, "vinerow: {}\n", sentence);
@@ -98,7 +98,7 @@ class Unwritten {
     try {
       write();
     } catch (const WriteError& error) {
-      tell(fmt::format("no {}: {}", what, error.what()));
+      report(fmt::format("no {}: {}", what, error.what()));
     } catch (const ConfigError& error) {
       fmt::print(stderr, "vinerow: no {}: {}\n", what, error.what());
     }
@@ -136,7 +136,7 @@ run::RunStatus run_and_report(const scenario::Scenario& scenario, const Registry
   line.end();
   print_pictures(result, options.out);
   Unwritten unwritten;
-  unwritten.tell(result.write_failure);
+  unwritten.report(result.write_failure);
   const bool broke_off = result.status == run::RunStatus::kBrokenOff;
   const bool drawing_interrupted = is_interrupted() && !broke_off;
   try {

@@ -173,7 +173,7 @@ void run_study(const StudyArguments& arguments, bool must_be_there, int& exit_st
   line.end();
   print_counts(open, result.results);
   fmt::print("run      {} cells in {:.1f} s, {} were already finished\n", result.run, result.wall_s,
-             result.taken);
+             result.finished_before);
   if (result.detached) {
     fmt::print("detached {}\n'vinerow study resume {} --runner slurm' collects the results\n",
                result.runner, arguments.file.string());

@@ -21,10 +21,10 @@ std::string find_fault_in_wing_inertia(const FixedWingParams& p) {
         "larger than the sum of the other two",
         inertia.x(), inertia.y(), inertia.z());
   }
-  const double most = std::sqrt(inertia.x() * inertia.z());
-  if (std::abs(p.inertia_xz_kgm2) < most) return "";
+  const double limit = std::sqrt(inertia.x() * inertia.z());
+  if (std::abs(p.inertia_xz_kgm2) < limit) return "";
   return fmt::format("inertia_xz_kgm2 = {:.4g}, must be less than sqrt(Jx Jz) = {:.4g} either side",
-                     p.inertia_xz_kgm2, most);
+                     p.inertia_xz_kgm2, limit);
 }
 
 const ParameterTable<FixedWingFault>& wing_fault_table() {

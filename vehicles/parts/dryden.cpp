@@ -9,19 +9,19 @@ namespace {
 constexpr double kFoot_m = 0.3048;
 constexpr double kSqrt3 = 1.7320508075688772;
 
-/// One exact step of x' = A x + noise over `way` (in lengths L): decay of both states, and the
+/// One exact step of x' = A x + noise over `distance` (in lengths L): decay of both states, and the
 /// noise added over the step as the lower triangle of its covariance's root.
 struct Step {
-  double way, decay;
+  double distance, decay;
   double aa, ab, bb;
 };
 
-/// Covariance of the noise: with y = 2 way
+/// Covariance of the noise: with y = 2 distance
 ///   Q_aa = (1 - e^-y) / 2, Q_ab = (1 - e^-y (1 + y)) / 4, Q_bb = (1 - e^-y (1 + y + y^2/2)) / 4.
 /// The brackets are incomplete gamma functions; their series keeps digits where y is small.
-Step make_step(double way) {
-  const double y = 2.0 * way;
-  const double decay = std::exp(-way), decay2 = decay * decay;
+Step make_step(double distance) {
+  const double y = 2.0 * distance;
+  const double decay = std::exp(-distance), decay2 = decay * decay;
   double gamma2, gamma3;  // of orders 2 and 3, the latter halved
   if (y < 0.1) {
     gamma2 = y * y * (1 / 2.0 - y * (1 / 3.0 - y * (1 / 8.0 - y * (1 / 30.0 - y / 144.0))));
@@ -31,7 +31,7 @@ Step make_step(double way) {
     gamma2 = 1.0 - decay2 * (1.0 + y);
     gamma3 = 1.0 - decay2 * (1.0 + y + 0.5 * y * y);
   }
-  Step step{way, decay, std::sqrt(-0.5 * std::expm1(-y)), 0.0, 0.0};
+  Step step{distance, decay, std::sqrt(-0.5 * std::expm1(-y)), 0.0, 0.0};
   step.ab = 0.25 * gamma2 / step.aa;
   step.bb = std::sqrt(std::max(0.0, 0.25 * gamma3 - step.ab * step.ab));
   return step;
@@ -60,17 +60,17 @@ DrydenTurbulence::DrydenTurbulence(RandomStream random) : random_(random) {
   }
 }
 
-void DrydenTurbulence::advance(double way_m, const DrydenScales& scales) {
-  if (!(way_m > 0.0)) return;
-  const Step uv = make_step(way_m / scales.length_uv_m);
-  const Step w = make_step(way_m / scales.length_w_m);
+void DrydenTurbulence::advance(double distance_m, const DrydenScales& scales) {
+  if (!(distance_m > 0.0)) return;
+  const Step uv = make_step(distance_m / scales.length_uv_m);
+  const Step w = make_step(distance_m / scales.length_w_m);
   // The noise of u has the variance 1 - decay^2, which is 2 Q_aa.
   u_ = uv.decay * u_ + std::sqrt(2.0) * uv.aa * random_.normal();
   const auto advance_filter = [this](const Step& step, Transverse& filter) {
     const double n1 = random_.normal(), n2 = random_.normal();
     const double a = filter.a;
     filter.a = step.decay * a + step.aa * n1;
-    filter.b = step.decay * (filter.b + step.way * a) + step.ab * n1 + step.bb * n2;
+    filter.b = step.decay * (filter.b + step.distance * a) + step.ab * n1 + step.bb * n2;
   };
   advance_filter(uv, v_);
   advance_filter(w, w_);

@@ -34,8 +34,8 @@ class DrydenTurbulence {
   /// Starts in the steady state.
   explicit DrydenTurbulence(RandomStream random);
 
-  /// Advances by a distance through the air. Draws five normal numbers. @param way_m  >= 0
-  void advance(double way_m, const DrydenScales& scales);
+  /// Advances by a distance through the air. Draws five normal numbers. @param distance_m  >= 0
+  void advance(double distance_m, const DrydenScales& scales);
   /// u, v, w in units of their standard deviations.
   Eigen::Vector3d unit() const;
 

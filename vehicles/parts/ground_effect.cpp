@@ -23,8 +23,8 @@ double GroundEffect::thrust_ratio(double height_m, double facing) const {
       return z / (slant2 * std::sqrt(slant2));
     };
     // Square: d^2 = 2 arm^2; diagonal: b^2 = 4 arm^2, which is also 2 d^2.
-    const double beside = images(2.0 * arm_m_ * arm_m_), opposite = images(4.0 * arm_m_ * arm_m_);
-    wake += r2 * (beside + (0.5 + 2.0 * body_lift_) * opposite);
+    const double adjacent = images(2.0 * arm_m_ * arm_m_), opposite = images(4.0 * arm_m_ * arm_m_);
+    wake += r2 * (adjacent + (0.5 + 2.0 * body_lift_) * opposite);
   }
   wake *= facing * std::min(1.0, 4.0 * (1.0 - height_m / reach_m_));
   return 1.0 / std::max(1.0 - wake, 1.0 / kMaxRatio);

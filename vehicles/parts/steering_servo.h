@@ -25,8 +25,8 @@ inline double advance_servo(const SteeringServoParams& params, double command_ra
                             double angle_rad) {
   if (std::abs(command_rad - angle_rad) < 1e-9) return command_rad;
   const double share = params.lag_s > 0.0 ? -std::expm1(-dt_s / params.lag_s) : 1.0;
-  const double most = params.rate_radps * dt_s;
-  return angle_rad + std::clamp(share * (command_rad - angle_rad), -most, most);
+  const double max_step_rad = params.rate_radps * dt_s;
+  return angle_rad + std::clamp(share * (command_rad - angle_rad), -max_step_rad, max_step_rad);
 }
 
 }  // namespace vinerow::vehicles

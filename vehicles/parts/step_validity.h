@@ -27,12 +27,12 @@ inline constexpr Duration kMaxFlightStep{10'000'000};
 /// @param vehicle  name  @param part  "its wheels"
 /// @throws ConfigError "rover: physics.step_s = 0.025 s is too long for its wheels, which are valid
 /// to 0.0025 s"
-inline void demand_step(Duration step, Duration most, const std::string& vehicle,
+inline void demand_step(Duration step, Duration max_step, const std::string& vehicle,
                         const char* part) {
-  if (step.ns <= most.ns) return;
+  if (step.ns <= max_step.ns) return;
   throw ConfigError(
       fmt::format("{}: physics.step_s = {:g} s is too long for {}, which are valid to {:g} s",
-                  vehicle, step.s(), part, most.s()));
+                  vehicle, step.s(), part, max_step.s()));
 }
 
 }  // namespace vinerow::vehicles

@@ -62,10 +62,10 @@ void WindProbe::find_ground(const Eigen::Vector3d& p_W, bool tick) {
 
 void WindProbe::move_knots(Time now, double height_m, double airspeed_mps) {
   const DrydenScales scales = calc_dryden_scales(height_m, wind_20ft_mps_);
-  const auto reach_next = [&](double way_m) {
+  const auto reach_next = [&](double distance_m) {
     knot_ = next_knot_;
     if (wind_20ft_mps_ <= 0.0) return;
-    turbulence_.advance(way_m, scales);
+    turbulence_.advance(distance_m, scales);
     next_knot_ = turbulence_.unit().cwiseProduct(
         Eigen::Vector3d(scales.sigma_uv_mps, scales.sigma_uv_mps, scales.sigma_w_mps));
   };

@@ -55,14 +55,14 @@ void cut_piece(const Piece& whole, double CanopyPoint::*value, double at, Piece&
 /// Hands out the strips of a polygon between multiples of `width`, with their numbers.
 template <class F>
 void cut_into_strips(Piece rest, double CanopyPoint::*value, double width, F&& take) {
-  double least = rest.corners[0].*value, most = least;
+  double min_value = rest.corners[0].*value, max_value = min_value;
   for (std::size_t i = 1; i < rest.count; ++i) {
-    least = std::min(least, rest.corners[i].*value);
-    most = std::max(most, rest.corners[i].*value);
+    min_value = std::min(min_value, rest.corners[i].*value);
+    max_value = std::max(max_value, rest.corners[i].*value);
   }
-  int strip = static_cast<int>(std::floor(least / width));
+  int strip = static_cast<int>(std::floor(min_value / width));
   Piece below, above;
-  for (; (strip + 1) * width < most; ++strip) {
+  for (; (strip + 1) * width < max_value; ++strip) {
     cut_piece(rest, value, (strip + 1) * width, below, above);
     if (below.count >= 3) take(below, strip);
     rest = above;

@@ -41,10 +41,10 @@ Sections SectionSwitch::wanted() {
   }
   const Eigen::Vector3d boom_W =
       estimate.X_WB * Eigen::Vector3d(params_.boom_x_m, 0.0, 0.0) + params_.lead_s * v_W;
-  const AdjacentRows beside =
-      rows_.beside(boom_W.head<2>(), yaw_from_quaternion(estimate.X_WB.q), params_.row_reach_m,
-                   params_.max_angle_rad, params_.beyond_end_m);
-  return {beside.left.has_value(), beside.right.has_value()};
+  const AdjacentRows adjacent =
+      rows_.adjacent(boom_W.head<2>(), yaw_from_quaternion(estimate.X_WB.q), params_.row_reach_m,
+                     params_.max_angle_rad, params_.beyond_end_m);
+  return {adjacent.left.has_value(), adjacent.right.has_value()};
 }
 
 }  // namespace vinerow::vehicles

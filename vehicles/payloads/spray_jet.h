@@ -89,8 +89,8 @@ SprayFate trace_spray(const SceneQuery& scene, const SprayParams& params, const 
                       double portion_ml, F&& deposit) {
   SprayFate fate;
   double left_ml = portion_ml;
-  const auto lose_along = [&](double way_m) {
-    const double lost_ml = left_ml * -std::expm1(-way_m / params.loss_length_m);
+  const auto lose_along = [&](double along_m) {
+    const double lost_ml = left_ml * -std::expm1(-along_m / params.loss_length_m);
     fate.lost_ml += lost_ml;
     left_ml -= lost_ml;
   };
@@ -100,13 +100,13 @@ SprayFate trace_spray(const SceneQuery& scene, const SprayParams& params, const 
     while (next_m <= x_m) next_m *= 2.0;
     const double until_m = std::min(next_m, params.reach_m);
     // Canopy shifts the jet, which then continues parallel to its undisturbed path.
-    const Eigen::Vector3d way = jet.at(until_m) - jet.at(x_m);
-    const double length_m = way.norm();
-    const Eigen::Vector3d direction = way / length_m;
+    const Eigen::Vector3d displacement = jet.at(until_m) - jet.at(x_m);
+    const double length_m = displacement.norm();
+    const Eigen::Vector3d direction = displacement / length_m;
     const internal::SprayMeeting met = internal::meet(scene, p_W, direction, length_m);
     if (!met.meets) {
       lose_along(until_m - x_m);
-      p_W += way;
+      p_W += displacement;
       x_m = until_m;
       continue;
     }

@@ -24,8 +24,8 @@ using Eigen::Vector3d;
 
 constexpr double kMlPerL = 1000.0;
 constexpr double kM2PerHa = 1e4;
-/// Rows that run along the true way at least so far are beside it.
-constexpr double kBesideAngle_rad = rad_from_deg(60.0);
+/// Largest angle between a row and the heading for the row to be adjacent.
+constexpr double kMaxRowAngle_rad = rad_from_deg(60.0);
 
 /// Points of low discrepancy in the unit cube.
 class QuasiRandom {
@@ -182,10 +182,10 @@ class Sprayer final : public Payload {
     const double inner = std::cos(params_.hollow_half_angle_rad);
     const double outer = std::cos(params_.spray_half_angle_rad);
     const double along = inner + at.x() * (outer - inner);
-    const double beside = std::sqrt(std::max(0.0, 1.0 - along * along));
+    const double across = std::sqrt(std::max(0.0, 1.0 - along * along));
     const double around_rad = 2.0 * kPi * at.y();
-    const Vector3d direction_B = nozzle.axes_B * Vector3d(along, beside * std::cos(around_rad),
-                                                          beside * std::sin(around_rad));
+    const Vector3d direction_B = nozzle.axes_B * Vector3d(along, across * std::cos(around_rad),
+                                                          across * std::sin(around_rad));
     const Vector3d p_W = X_WB * nozzle.p_B - at.z() * period_.s() * v_W;
     const SprayJet jet(params_.spray, p_W, X_WB.q * direction_B, v_W, wind_W);
     const SprayFate fate =
@@ -209,9 +209,9 @@ class Sprayer final : public Payload {
   /// Which true rows were beside an open section, and what was sprayed beside none.
   void account_rows(const Odometry& truth, const Vector3d& boom_W, const Vector3d& v_W,
                     double nozzle_l) {
-    const AdjacentRows beside =
-        patches_.rows().beside(boom_W.head<2>(), yaw_from_quaternion(truth.X_WB.q),
-                               params_.row_reach_m, kBesideAngle_rad, 0.0);
+    const AdjacentRows adjacent =
+        patches_.rows().adjacent(boom_W.head<2>(), yaw_from_quaternion(truth.X_WB.q),
+                                 params_.row_reach_m, kMaxRowAngle_rad, 0.0);
     const auto account = [&](const Side& side, const std::optional<RowPlace>& row) {
       if (!side.open) return;
       if (!row) {
@@ -223,8 +223,8 @@ class Sprayer final : public Payload {
       const int faced = row->lateral_m >= 0.0 ? 1 : -1;
       worked_[static_cast<std::size_t>(patches_.step_of(row->row, faced, row->along_m))] = 1;
     };
-    account(left_, beside.left);
-    account(right_, beside.right);
+    account(left_, adjacent.left);
+    account(right_, adjacent.right);
   }
 
   void run_dry(Time now, const Vector3d& boom_W) {

@@ -89,8 +89,8 @@ RowPlace RowLines::nearest(const Vector2d& p_W) const {
   return place_at(found.line, found, p_W);
 }
 
-AdjacentRows RowLines::beside(const Vector2d& p_W, double heading_rad, double reach_m,
-                              double max_angle_rad, double beyond_end_m) const {
+AdjacentRows RowLines::adjacent(const Vector2d& p_W, double heading_rad, double reach_m,
+                                double max_angle_rad, double beyond_end_m) const {
   const Vector2d ahead(std::cos(heading_rad), std::sin(heading_rad));
   AdjacentRows found;
   for (int row = 0; row < count(); ++row) {

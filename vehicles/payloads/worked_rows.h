@@ -45,8 +45,8 @@ class RowLines {
   /// Nearest row on each side that is within `reach_m`, at most `max_angle_rad` off the heading,
   /// and ends no more than `beyond_end_m` before the position (negative: extends that far beyond
   /// it).
-  AdjacentRows beside(const Eigen::Vector2d& p_W, double heading_rad, double reach_m,
-                      double max_angle_rad, double beyond_end_m) const;
+  AdjacentRows adjacent(const Eigen::Vector2d& p_W, double heading_rad, double reach_m,
+                        double max_angle_rad, double beyond_end_m) const;
 
  private:
   /// Heights of the ground along a row, at equal distances from its first point to its last.

@@ -88,10 +88,10 @@ MeshObject place_item(const MeshItem& item, MeshLibrary& library) {
 }
 
 std::vector<std::filesystem::path> model_folders(const MeshWorldParams& params) {
-  const std::filesystem::path beside = params.sdf_file.parent_path();
+  const std::filesystem::path sdf_folder = params.sdf_file.parent_path();
   std::vector<std::filesystem::path> folders;
-  for (const std::string& folder : params.model_folders) folders.push_back(beside / folder);
-  if (folders.empty()) folders = {beside / ".." / "models", beside / "models", beside};
+  for (const std::string& folder : params.model_folders) folders.push_back(sdf_folder / folder);
+  if (folders.empty()) folders = {sdf_folder / ".." / "models", sdf_folder / "models", sdf_folder};
   return folders;
 }
 
@@ -136,8 +136,8 @@ class SdfModels {
       place(include, *include.written_out);
       return;
     }
-    const std::filesystem::path beside = params_.sdf_file.parent_path();
-    const auto folder = io::find_sdf_model(include, beside, folders_);
+    const std::filesystem::path sdf_folder = params_.sdf_file.parent_path();
+    const auto folder = io::find_sdf_model(include, sdf_folder, folders_);
     if (folder) {
       place(include, io::read_sdf_model(*folder, folders_));
       return;

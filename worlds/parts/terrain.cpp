@@ -13,10 +13,10 @@
 namespace vinerow::worlds {
 namespace {
 
-/// Climb over the first `way_m` of a slope of one that fades out over `fade_m`.
-double faded_climb_m(double way_m, double fade_m) {
-  if (way_m >= fade_m) return 0.5 * fade_m;
-  const double u = way_m / fade_m;
+/// Climb over the first `distance_m` of a slope of one that fades out over `fade_m`.
+double faded_climb_m(double distance_m, double fade_m) {
+  if (distance_m >= fade_m) return 0.5 * fade_m;
+  const double u = distance_m / fade_m;
   return fade_m * (u - u * u * u + 0.5 * u * u * u * u);
 }
 

@@ -63,10 +63,10 @@ TriangleMesh make_trunks(const mapping::RowCurve& row, const mapping::GroundHeig
     if (level == 0) {
       append_tube(mesh, stem, sides, shade * kBark);
       const double reach_m = 0.46 * vine_spacing_m;
-      for (const double way : {-1.0, 1.0}) {
+      for (const double sign : {-1.0, 1.0}) {
         const Eigen::Vector3d head(bend_m[2][0], bend_m[2][1], top - 0.02);
-        const Eigen::Vector3d elbow(way * 0.4 * reach_m, 0.5 * bend_m[1][1], top + 0.03);
-        const Eigen::Vector3d end(way * reach_m, 0.0, top + 0.02);
+        const Eigen::Vector3d elbow(sign * 0.4 * reach_m, 0.5 * bend_m[1][1], top + 0.03);
+        const Eigen::Vector3d end(sign * reach_m, 0.0, top + 0.02);
         const std::array<TubePoint, 3> arm = {TubePoint{X_WR * head, 0.7 * r},
                                               TubePoint{X_WR * elbow, 0.55 * r},
                                               TubePoint{X_WR * end, 0.4 * r}};
@@ -98,9 +98,9 @@ TriangleMesh make_end_posts(const mapping::RowCurve& row, const mapping::GroundH
   TriangleMesh mesh;
   for (const bool at_start : {true, false}) {
     const Pose X_WR = mapping::row_frame(row, ground, at_start ? start_m : end_m);
-    const double way = at_start ? -1.0 : 1.0;
+    const double sign = at_start ? -1.0 : 1.0;
     const double lean = params.end_post_lean_rad, height = params.post_height_m;
-    const Eigen::Vector3d up(way * std::sin(lean), 0.0, std::cos(lean));
+    const Eigen::Vector3d up(sign * std::sin(lean), 0.0, std::cos(lean));
     const std::array<TubePoint, 2> post = {
         TubePoint{X_WR * Eigen::Vector3d(-kBuriedDepth_m * up), params.end_post_radius_m},
         TubePoint{X_WR * Eigen::Vector3d(height * up), 0.9 * params.end_post_radius_m}};
@@ -120,8 +120,8 @@ TriangleMesh make_wires(const mapping::RowCurve& row, const mapping::GroundHeigh
     std::vector<TubePoint> points;
     for (std::size_t i = 0; i < stations.size(); ++i) {
       // At the ends the wire meets the leaning post.
-      const double way = i == 0 ? -1.0 : (i + 1 == stations.size() ? 1.0 : 0.0);
-      const Eigen::Vector3d p(way * height_m * std::tan(params.end_post_lean_rad), 0.0, height_m);
+      const double sign = i == 0 ? -1.0 : (i + 1 == stations.size() ? 1.0 : 0.0);
+      const Eigen::Vector3d p(sign * height_m * std::tan(params.end_post_lean_rad), 0.0, height_m);
       points.push_back({mapping::row_frame(row, ground, stations[i]) * p, 0.0025});
     }
     append_tube(mesh, points, 3, kSteel);

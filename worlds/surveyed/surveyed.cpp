@@ -14,6 +14,7 @@
 #include "engine/core/error.h"
 #include "engine/io/geo/geo_features.h"
 #include "engine/math/angles.h"
+#include "engine/math/statistics.h"
 #include "worlds/mapping/from_truth/map_parameters.h"
 #include "worlds/mapping/model/row_map.h"
 #include "worlds/parts/alley_spawns.h"
@@ -179,10 +180,7 @@ Assigned assign_points(const std::vector<io::GeoFeature>& points, const LocalFra
 double median_spacing_m(const std::vector<double>& s_m, double otherwise) {
   std::vector<double> gaps;
   for (std::size_t i = 1; i < s_m.size(); ++i) gaps.push_back(s_m[i] - s_m[i - 1]);
-  if (gaps.empty()) return otherwise;
-  std::nth_element(gaps.begin(), gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2),
-                   gaps.end());
-  return gaps[gaps.size() / 2];
+  return gaps.empty() ? otherwise : upper_median(gaps);
 }
 
 double smallest_pitch_m(const RowMap& map) {

@@ -121,8 +121,8 @@ class OdometryFilter final : public Estimator {
       // An arc: the velocity turns with the heading, so its chord has the mean heading.
       const double turn = wrap_angle(heading_.yaw_rad() - yaw_before);
       const double slide_rad = std::atan2(v_B.y(), v_B.x());
-      const double way_m = v_B.norm() * period_s_;
-      filter_.predict(advance({{0.0, 0.0}, yaw_before + slide_rad}, way_m, turn).p);
+      const double distance_m = v_B.norm() * period_s_;
+      filter_.predict(advance({{0.0, 0.0}, yaw_before + slide_rad}, distance_m, turn).p);
       trace_.add(now, filter_.p());
     }
     if (is_new) take_fix(now);

@@ -16,11 +16,12 @@ void OdometryKalman::predict(const Eigen::Vector2d& d) {
   if (params_.fixed_gain > 0.0) return;
   Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
   F.topRightCorner<2, 1>() = d;
-  const double way_m = d.norm();
+  const double distance_m = d.norm();
   const double q = params_.drift_m_per_sqrt_m, r = params_.scale_drift_per_sqrt_m;
   const Eigen::Matrix3d previous = covariance_;
   covariance_.noalias() = F * previous.lazyProduct(F.transpose());
-  covariance_.diagonal() += Eigen::Vector3d(q * q * way_m, q * q * way_m, r * r * way_m);
+  covariance_.diagonal() +=
+      Eigen::Vector3d(q * q * distance_m, q * q * distance_m, r * r * distance_m);
 }
 
 void OdometryKalman::correct(const Eigen::Vector2d& innovation, const Eigen::Vector2d& std_m) {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <optional>
 
+#include "controllers/estimation/parts/estimator_events.h"
 #include "controllers/estimation/row_localisation/distance_filter_law.h"
 #include "controllers/estimation/row_localisation/distance_filter_params.h"
-#include "controllers/estimation/parts/estimator_events.h"
 #include "controllers/estimation/row_localisation/ground_reference.h"
 #include "controllers/estimation/row_localisation/map_watch.h"
 #include "controllers/estimation/row_localisation/range_sensors.h"
@@ -67,8 +67,8 @@ std::string distance_filter_name(const EstimatorContext& context) {
 }
 
 std::vector<RangeSensorModel> make_filter_sensors(const DistanceEstimatorParams& params,
-                                                 const EstimatorContext& context,
-                                                 const GroundReference& ground) {
+                                                  const EstimatorContext& context,
+                                                  const GroundReference& ground) {
   if (!params.use_map) return {};
   std::vector<RangeSensorModel> sensors =
       find_range_sensors(params.ranges, context, distance_filter_name(context));
@@ -102,7 +102,7 @@ class DistanceFilter final : public Estimator {
         p_BA_(params.p_BA),
         seen_ranges_(sensors_.size(), 0) {
     readings_.reserve(sensors_.size());
-    taken_.resize(sensors_.size());
+    handled_.resize(sensors_.size());
     state_.names = {"echoes",      "echoes_gated",  "echoes_unmatched", "fixes",
                     "fixes_gated", "bad_numbers",   "backwards",        "not_positive",
                     "lost",        "set_restarts",  "heights",          "heights_gated",
@@ -174,15 +174,15 @@ class DistanceFilter final : public Estimator {
   /// Applies readings of the same time together, in the order of the sensors.
   void take_ranges() {
     for (std::size_t i = 0; i < ranges_.size(); ++i) {
-      taken_[i] = !ranges_[i].is_newer_than(seen_ranges_[i]);
+      handled_[i] = !ranges_[i].is_newer_than(seen_ranges_[i]);
     }
     for (std::size_t i = 0; i < ranges_.size(); ++i) {
-      if (taken_[i]) continue;
+      if (handled_[i]) continue;
       const Time measured = ranges_[i].stamp();
       readings_.clear();
       for (std::size_t k = i; k < ranges_.size(); ++k) {
-        if (taken_[k] || ranges_[k].stamp() != measured) continue;
-        taken_[k] = true;
+        if (handled_[k] || ranges_[k].stamp() != measured) continue;
+        handled_[k] = true;
         const RangeSample& sample = ranges_[k].value();
         if (std::isfinite(sample.range_m) &&
             ground_.may_be_ground({law_.q_WB(), law_.kalman().p_W()}, sensors_[k],
@@ -245,7 +245,7 @@ class DistanceFilter final : public Estimator {
     state_out_.write(now, state_);
   }
 
-  static constexpr double kMinStd_m = 1e-3;            // an ideal receiver states zero
+  static constexpr double kMinStd_m = 1e-3;              // an ideal receiver states zero
   static constexpr double kStatedYawStd_rad = 3.491e-3;  // 0.2 deg, VN-200
   static constexpr double kReach_m = 4.0;  // minimum reach of the range sensors (HC-SR04)
 
@@ -259,7 +259,7 @@ class DistanceFilter final : public Estimator {
   Vector3d p_BA_;
   int ground_echoes_ = 0;
   std::vector<std::uint64_t> seen_ranges_;
-  std::vector<char> taken_;
+  std::vector<char> handled_;
   std::vector<RangeReading> readings_;
   double reach_m_ = kReach_m;
   Vector3d w_WB_B_ = Vector3d::Zero();

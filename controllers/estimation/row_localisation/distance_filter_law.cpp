@@ -116,10 +116,10 @@ Vector3d DistanceFilterLaw::position_at(const Moment& moment) const {
          moment.age_s * kalman_.velocity_correction_W();
 }
 
-void DistanceFilterLaw::count(DatumStatus status, int& taken, int& gated) {
+void DistanceFilterLaw::count(DatumStatus status, int& accepted, int& gated) {
   switch (status) {
-    case DatumStatus::kTaken:
-      ++taken;
+    case DatumStatus::kAccepted:
+      ++accepted;
       break;
     case DatumStatus::kGated:
       ++gated;
@@ -140,9 +140,9 @@ void DistanceFilterLaw::take_inertial_position(Time measured, const Vector3d& p_
                                                const Vector3d& std_m) {
   Moment moment;
   if (params_.reading != InertialReading::kPositionFix || !recall(measured, moment)) return;
-  int taken = 0, gated = 0;
+  int accepted = 0, gated = 0;
   count(kalman_.correct_position(p_W - position_at(moment), std_m.cwiseAbs2(), moment.age_s, 0.0),
-        taken, gated);
+        accepted, gated);
 }
 
 void DistanceFilterLaw::take_fix(Time measured, const Vector3d& p_W, const Vector3d& std_m,
@@ -164,7 +164,7 @@ void DistanceFilterLaw::take_fix(Time measured, const Vector3d& p_W, const Vecto
     start_set();
   }
   count(status, counters_.fixes, counters_.fixes_gated);
-  if (status != DatumStatus::kTaken) return;
+  if (status != DatumStatus::kAccepted) return;
   fix_nis_ = 3.0 * kalman_.last_nis();  // last_nis() is the mean over the coordinates
   cut_set_by_fix(p_B + moment.displacement_since_W, std_m);
 }
@@ -216,13 +216,13 @@ void DistanceFilterLaw::take_ranges(Time measured, std::span<const RangeReading>
     }
     const DatumStatus status = fuse(*echo, reading, moment, p_m);
     count(status, counters_.echoes, counters_.echoes_gated);
-    watch(status != DatumStatus::kTaken, sensor.period_s / static_cast<double>(sensors_.size()));
-    if (status != DatumStatus::kTaken) continue;
+    watch(status != DatumStatus::kAccepted, sensor.period_s / static_cast<double>(sensors_.size()));
+    if (status != DatumStatus::kAccepted) continue;
     cut_set(echo_slab(*echo, p_m, reading.range_m, bounds_of(reading)), moment);
   }
   if (joint_cut_ && params_.fusion == DistanceFusion::kJoint) {
-    int taken = 0, gated = 0;
-    count(finish_joint(), taken, gated);
+    int accepted = 0, gated = 0;
+    count(finish_joint(), accepted, gated);
   }
 }
 
@@ -253,10 +253,10 @@ EchoBounds DistanceFilterLaw::bounds_of(const RangeReading& reading) const {
 void DistanceFilterLaw::cut_set(const EchoSlab& slab, const Moment& moment) {
   // Move the slab from its own time to now by the integrated displacement.
   EchoSlab moved = slab;
-  const double way = slab.normal_W.dot(moment.displacement_since_W);
+  const double shift = slab.normal_W.dot(moment.displacement_since_W);
   const double drift = params_.bound_sigma * params_.kalman.velocity_std_mps * moment.age_s;
-  moved.lower_m += way - drift;
-  moved.upper_m += way + drift;
+  moved.lower_m += shift - drift;
+  moved.upper_m += shift + drift;
   if (set_.cut(moved) != CutStatus::kEmpty) return;
   ++counters_.set_restarts;
   start_set();

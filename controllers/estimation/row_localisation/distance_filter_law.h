@@ -187,7 +187,7 @@ class DistanceFilterLaw {
   DatumStatus fuse_increment_matrix(const Eigen::Vector2d& centre, const Eigen::Matrix2d& shape);
   DatumStatus finish_joint();
 
-  void count(DatumStatus status, int& taken, int& gated);
+  void count(DatumStatus status, int& accepted, int& gated);
   void watch(bool refused, double weight);
   void cut_set(const EchoSlab& slab, const Moment& moment);
   void cut_set_by_fix(const Eigen::Vector3d& p, const Eigen::Vector3d& std_m);

@@ -103,7 +103,7 @@ DatumStatus DistanceFilterLaw::correct_by_echo(const PositionKalman::Scalar& dat
                                                double variance_alone) {
   const double known = datum.gradient.dot(kalman_.covariance() * datum.gradient);
   const DatumStatus status = kalman_.correct(datum);
-  if (status == DatumStatus::kTaken) {
+  if (status == DatumStatus::kAccepted) {
     range_nis_ = datum.innovation * datum.innovation / (known + variance_alone);
   }
   return status;
@@ -146,7 +146,7 @@ DatumStatus DistanceFilterLaw::fuse_cut(const EchoSlab2& slab) {
     const ParallelCut cut =
         cut_ellipsoid<2>(joint_centre_, joint_shape_, slab.a, slab.lower_m, slab.upper_m, options);
     joint_cut_ |= cut.cuts();
-    return cut.cuts() || cut.status == CutStatus::kNoUpdate ? DatumStatus::kTaken
+    return cut.cuts() || cut.status == CutStatus::kNoUpdate ? DatumStatus::kAccepted
                                                             : DatumStatus::kGated;
   }
   Vector2d centre = kalman_.p_W().head<2>();
@@ -155,7 +155,7 @@ DatumStatus DistanceFilterLaw::fuse_cut(const EchoSlab2& slab) {
   const double spread = std::sqrt(slab.a.dot(shape * slab.a));
   const ParallelCut cut =
       cut_ellipsoid<2>(centre, shape, slab.a, slab.lower_m, slab.upper_m, options);
-  if (cut.status == CutStatus::kNoUpdate) return DatumStatus::kTaken;
+  if (cut.status == CutStatus::kNoUpdate) return DatumStatus::kAccepted;
   if (!cut.cuts()) return DatumStatus::kGated;
   switch (params_.fusion) {
     case DistanceFusion::kReplace:
@@ -163,12 +163,12 @@ DatumStatus DistanceFilterLaw::fuse_cut(const EchoSlab2& slab) {
     case DistanceFusion::kIncrementMatrix:
       return fuse_increment_matrix(centre, shape / (k * k));
     case DistanceFusion::kIncrement: {
-      const PseudoMeasurement told = pseudo_measurement(cut, slab.a.dot(before), spread, k);
-      if (!told.valid) return DatumStatus::kTaken;
+      const PseudoMeasurement pseudo = pseudo_measurement(cut, slab.a.dot(before), spread, k);
+      if (!pseudo.valid) return DatumStatus::kAccepted;
       PositionKalman::Scalar datum;
       datum.gradient.head<2>() = slab.a;
-      datum.innovation = told.value - slab.a.dot(before);
-      datum.variance = told.variance;
+      datum.innovation = pseudo.value - slab.a.dot(before);
+      datum.variance = pseudo.variance;
       return kalman_.correct(datum);
     }
     default:
@@ -193,9 +193,9 @@ DatumStatus DistanceFilterLaw::fuse_increment_matrix(const Vector2d& centre,
     datum.innovation = directions.col(i).dot(moved) / information -
                        directions.col(i).dot(kalman_.p_W().head<2>() - p);
     datum.variance = 1.0 / information;
-    if (const auto status = kalman_.correct(datum); status != DatumStatus::kTaken) return status;
+    if (const auto status = kalman_.correct(datum); status != DatumStatus::kAccepted) return status;
   }
-  return DatumStatus::kTaken;
+  return DatumStatus::kAccepted;
 }
 
 DatumStatus DistanceFilterLaw::finish_joint() {

@@ -37,7 +37,7 @@ const ParameterTable<MapEstimatorParams>& map_localisation_table() {
   using Law = MapLocalisationParams;
   using Noise = LocalisationNoise;
   const auto law = [](auto member) { return inside(&P::law, member); };
-  const auto noise = [](auto... way) { return inside(&P::law, &Law::noise, way...); };
+  const auto noise = [](auto... members) { return inside(&P::law, &Law::noise, members...); };
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .text("ins", &P::ins, "signal of the aided inertial unit: velocity and attitude")
@@ -175,8 +175,8 @@ class MapLocalisation final : public Estimator {
       law_.start(now, truth_.value().X_WB.p + start_std_m_ * Eigen::Vector3d(x, y, z),
                  start_std_m_ * start_std_m_ * Eigen::Matrix3d::Identity());
     }
-    const Odometry& told = ins_.value();
-    law_.predict(now, told.X_WB.q * told.v_WB_B, told.X_WB.q);
+    const Odometry& motion = ins_.value();
+    law_.predict(now, motion.X_WB.q * motion.v_WB_B, motion.X_WB.q);
     if (!gps_name_.empty() && gps_.is_newer_than(seen_fix_)) {
       const GnssFix& fix = gps_.value();
       if (fix.valid) {

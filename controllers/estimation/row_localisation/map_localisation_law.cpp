@@ -294,16 +294,16 @@ void MapLocalisationLaw::correct_range(Time measured, int sensor, double range_m
   last_range_[sensor] = measured;
   if (range_m > params_.max_range_m) return;
   const Eigen::Vector3d displacement_since_W = displacement_W_ - past.displacement_W;
-  const int taken_before = counters_.echoes;
+  const int echoes_before = counters_.echoes;
   for (int i = 0; i < count_; ++i) {
     filters_[i].log_gain = take_echo(filters_[i], past, displacement_since_W, sensors_[sensor],
                                      range_m, period_s, i == best_);
   }
-  const bool taken = counters_.echoes != taken_before;
+  const bool is_accepted = counters_.echoes != echoes_before;
   weigh();
   // An echo without a wall counts as a rejected one: after entering the rows on a poor fix, only
   // such echoes show that the alley is wrong.
-  watch_gates(!taken, period_s);
+  watch_gates(!is_accepted, period_s);
 }
 
 }  // namespace vinerow::controllers

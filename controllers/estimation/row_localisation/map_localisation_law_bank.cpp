@@ -60,8 +60,8 @@ void MapLocalisationLaw::start_bank(const Eigen::Vector3d& p_W,
       const LinePoint at = nearest_from_above(alley.line_W, p_W.head<2>());
       if (!(at.distance_m < 3.0 * std_m + alley.width_m)) continue;
       const double spread_m = std::hypot(std_m, params_.start_lateral_std_m);
-      const Candidate candidate{
-          at, std::exp(-0.5 * std::pow(at.distance_m / spread_m, 2)) + kMinPrior};
+      const Candidate candidate{at,
+                                std::exp(-0.5 * std::pow(at.distance_m / spread_m, 2)) + kMinPrior};
       // The likeliest first; among equals the first in the map.
       int place = found < params_.bank ? found++ : found;
       while (place > 0 && candidates[place - 1].weight < candidate.weight) {
@@ -175,9 +175,9 @@ Eigen::Matrix3d MapLocalisationLaw::position_covariance() const {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   for (int i = 0; i < count_; ++i) {
     const LocalisationState& other = filters_[i].state;
-    const Eigen::Vector3d beside_m = other.p_W() - state().p_W();
+    const Eigen::Vector3d offset_m = other.p_W() - state().p_W();
     covariance += filters_[i].weight * (Eigen::Matrix3d(other.covariance().topLeftCorner<3, 3>()) +
-                                        beside_m * beside_m.transpose());
+                                        offset_m * offset_m.transpose());
   }
   return covariance;
 }
@@ -194,11 +194,11 @@ Eigen::Matrix3d MapLocalisationLaw::position_on_map_covariance() const {
       return Eigen::Matrix3d(other.covariance().block<3, 3>(row, column));
     };
     const Eigen::Matrix3d shared = block(LocalisationState::kPosition, LocalisationState::kMap);
-    const Eigen::Vector3d beside_m = other.p_W() - other.map_shift_W() - position_on_map();
-    covariance += filters_[i].weight *
-                  (block(LocalisationState::kPosition, LocalisationState::kPosition) +
-                   block(LocalisationState::kMap, LocalisationState::kMap) - shared -
-                   shared.transpose() + beside_m * beside_m.transpose());
+    const Eigen::Vector3d offset_m = other.p_W() - other.map_shift_W() - position_on_map();
+    covariance +=
+        filters_[i].weight * (block(LocalisationState::kPosition, LocalisationState::kPosition) +
+                              block(LocalisationState::kMap, LocalisationState::kMap) - shared -
+                              shared.transpose() + offset_m * offset_m.transpose());
   }
   return covariance;
 }

@@ -7,7 +7,7 @@
 namespace vinerow::controllers {
 
 void MapWatch::look(Time now, const RowMeshIndex& map, const std::vector<RangeSensorModel>& sensors,
-                    const Pose& X_MB, double reach_m, EstimatorEvents& news) {
+                    const Pose& X_MB, double reach_m, EstimatorEvents& events) {
   if (sensors.empty() || (has_looked_ && now < next_)) return;
   if (!has_looked_) last_wall_ = now;
   has_looked_ = true;
@@ -20,16 +20,17 @@ void MapWatch::look(Time now, const RowMeshIndex& map, const std::vector<RangeSe
     last_wall_ = now;
     if (!is_without_) return;
     is_without_ = false;
-    news.tell(Event::Level::kInfo,
-              fmt::format("the map has walls within reach again at ({:.1f}, {:.1f})", X_MB.p.x(),
-                          X_MB.p.y()));
+    events.tell(Event::Level::kInfo,
+                fmt::format("the map has walls within reach again at ({:.1f}, {:.1f})", X_MB.p.x(),
+                            X_MB.p.y()));
   } else if (!is_without_ && now - last_wall_ > kLong) {
     is_without_ = true;
     ++times_without_;
-    news.tell(Event::Level::kInfo,
-              fmt::format("the map has had no wall within {:.1f} m of the range sensors for {:.0f} "
-                          "s, now at ({:.1f}, {:.1f}): echoes are not used",
-                          reach_m, kLong.s(), X_MB.p.x(), X_MB.p.y()));
+    events.tell(
+        Event::Level::kInfo,
+        fmt::format("the map has had no wall within {:.1f} m of the range sensors for {:.0f} "
+                    "s, now at ({:.1f}, {:.1f}): echoes are not used",
+                    reach_m, kLong.s(), X_MB.p.x(), X_MB.p.y()));
   }
 }
 

@@ -20,7 +20,7 @@ class MapWatch {
   /// and when one has a wall again. Does nothing without sensors.
   /// @param X_MB  estimated pose of the vehicle on the map @param reach_m  of the sensors
   void look(Time now, const RowMeshIndex& map, const std::vector<RangeSensorModel>& sensors,
-            const Pose& X_MB, double reach_m, EstimatorEvents& news);
+            const Pose& X_MB, double reach_m, EstimatorEvents& events);
   /// Number of reports of missing walls.
   int times_without() const { return times_without_; }
 

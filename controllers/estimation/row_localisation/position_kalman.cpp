@@ -38,7 +38,7 @@ DatumStatus PositionKalman::accept(const Vector& x, const Matrix& P) {
   if (!is_sound(x, P)) return DatumStatus::kNotPositive;
   x_ = x;
   P_ = 0.5 * (P + P.transpose());
-  return DatumStatus::kTaken;
+  return DatumStatus::kAccepted;
 }
 
 bool PositionKalman::start(Time now, const Vector3d& p_W, const Matrix3d& covariance_m2) {
@@ -73,7 +73,7 @@ DatumStatus PositionKalman::predict(Time now, const Vector3d& v_W) {
   P_.bottomLeftCorner<3, 3>() = keep * pc.transpose();
   P_.bottomRightCorner<3, 3>() = keep * keep * cc;
   P_.bottomRightCorner<3, 3>().diagonal().array() += sigma2 * (1.0 - keep * keep);
-  return DatumStatus::kTaken;
+  return DatumStatus::kAccepted;
 }
 
 PositionKalman::Vector PositionKalman::gradient_of(const Vector3d& dh_dp, double age_s) {
@@ -129,14 +129,14 @@ DatumStatus PositionKalman::correct_position(const Vector3d& innovation, const V
     // Minus the correction by the axes before.
     datum.innovation = innovation[axis] - datum.gradient.dot(x_ - before);
     datum.variance = variance[axis];
-    if (const DatumStatus status = correct(datum); status != DatumStatus::kTaken) {
+    if (const DatumStatus status = correct(datum); status != DatumStatus::kAccepted) {
       x_ = before;
       P_ = covariance_before;
       return status;
     }
   }
   last_nis_ = nis;
-  return DatumStatus::kTaken;
+  return DatumStatus::kAccepted;
 }
 
 DatumStatus PositionKalman::correct_horizontal(const Vector2d& p, const Matrix2d& R) {

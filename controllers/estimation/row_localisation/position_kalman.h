@@ -27,7 +27,7 @@ struct PositionKalmanParams {
 };
 
 enum class DatumStatus {
-  kTaken,
+  kAccepted,
   kGated,        ///< the innovation exceeds the gate
   kBadNumber,    ///< not finite, or a variance that is not positive
   kNotPositive,  ///< the covariance would have lost its positive definiteness

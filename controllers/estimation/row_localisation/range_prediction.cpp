@@ -51,19 +51,20 @@ SpreadPrediction predict_spread(const RowMeshIndex& map, const Pose& X_WB,
   constexpr double kNear_m = 0.15;       // below it the same ray of the fan returns first
   const SpreadPrediction tangent{middle.range_m, middle.gradient_p().dot(along_W), 0.0};
   if (!(std_m > kMinSpread_m)) return tangent;
-  const auto look_from = [&](double way_m) -> std::optional<RowMeshIndex::Hit> {
+  const auto look_from = [&](double along_m) -> std::optional<RowMeshIndex::Hit> {
     if (std_m < kNear_m) {
-      return map.cast_ray(middle.origin_W + way_m * along_W, middle.dir_W, max_range_m);
+      return map.cast_ray(middle.origin_W + along_m * along_W, middle.dir_W, max_range_m);
     }
-    const auto first = predict_range(map, {X_WB.q, X_WB.p + way_m * along_W}, sensor, max_range_m);
+    const auto first =
+        predict_range(map, {X_WB.q, X_WB.p + along_m * along_W}, sensor, max_range_m);
     return first ? std::optional(first->hit) : std::nullopt;
   };
   // Weighted moments of the distance x along the line and the range y relative to the middle.
   double weights = 1.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
   bool is_whole = true;
   for (const int sigmas : {-2, -1, 1, 2}) {
-    const double way_m = sigmas * std_m;
-    const auto there = look_from(way_m);
+    const double along_m = sigmas * std_m;
+    const auto there = look_from(along_m);
     if (!there || there->row != middle.hit.row ||
         std::abs(there->normal_W.head<2>().dot(along_W.head<2>().normalized())) > max_along) {
       is_whole = false;
@@ -72,10 +73,10 @@ SpreadPrediction predict_spread(const RowMeshIndex& map, const Pose& X_WB,
     const double weight = std::exp(-0.5 * sigmas * sigmas);
     const double off_m = there->distance_m - middle.range_m;
     weights += weight;
-    x += weight * way_m;
+    x += weight * along_m;
     y += weight * off_m;
-    xx += weight * way_m * way_m;
-    xy += weight * way_m * off_m;
+    xx += weight * along_m * along_m;
+    xy += weight * along_m * off_m;
     yy += weight * off_m * off_m;
   }
   x /= weights;

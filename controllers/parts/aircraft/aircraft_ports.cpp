@@ -129,11 +129,11 @@ void AircraftPorts::write_actuators(Time now, const AircraftControls& controls) 
 }
 
 AircraftControls AircraftPorts::write(Time now, const AircraftControls& deviation) {
-  const AircraftControls asked = is_finite(deviation) ? deviation : AircraftControls{};
+  const AircraftControls requested = is_finite(deviation) ? deviation : AircraftControls{};
   const AircraftControls& trim = trim_.controls;
-  const AircraftControls controls =
-      aircraft_.limit({trim.throttle + asked.throttle, trim.elevator_rad + asked.elevator_rad,
-                       trim.aileron_rad + asked.aileron_rad});
+  const AircraftControls controls = aircraft_.limit({trim.throttle + requested.throttle,
+                                                     trim.elevator_rad + requested.elevator_rad,
+                                                     trim.aileron_rad + requested.aileron_rad});
   const AircraftControls left = {reference().power ? controls.throttle - trim.throttle : 0.0,
                                  controls.elevator_rad - trim.elevator_rad,
                                  controls.aileron_rad - trim.aileron_rad};

@@ -34,17 +34,19 @@ AxisTube make_axis(const AxisLaw& law, const Eigen::VectorXd& state_limit,
   model.state_names = words.states;
   model.input_names = words.inputs;
 
-  const Result<GustMargin> room = calc_gust_margin(model);
-  if (!room) {
+  const Result<GustMargin> gust_margin = calc_gust_margin(model);
+  if (!gust_margin) {
     throw ConfigError(fmt::format("{}: {} does not stabilise the {} axis: {}", who, words.gain_key,
-                                  words.name, room.reason()));
+                                  words.name, gust_margin.reason()));
   }
-  const double largest_mps = params.gust_mps > 0.0 ? room->factor * params.gust_mps : room->factor;
-  if (!(room->factor > 1.0)) {
+  const double largest_mps =
+      params.gust_mps > 0.0 ? gust_margin->factor * params.gust_mps : gust_margin->factor;
+  if (!(gust_margin->factor > 1.0)) {
     throw ConfigError(fmt::format(
         "{}: gusts of {:g} m/s alone take {:.0f} % of the limit of {}; the largest feasible gust "
         "is {:.2f} m/s ({})",
-        who, params.gust_mps, 100.0 / room->factor, room->binding, largest_mps, words.name));
+        who, params.gust_mps, 100.0 / gust_margin->factor, gust_margin->binding, largest_mps,
+        words.name));
   }
   const Result<TubeSets> sets = make_tube_sets(model, params.shape);
   if (!sets) throw ConfigError(fmt::format("{}: {} axis: {}", who, words.name, sets.reason()));

@@ -56,9 +56,10 @@ std::string say_elevons(const Aircraft& aircraft, const AircraftControls& contro
 std::string say_lift(const Aircraft& aircraft, TrimSolver& solver, const TrimRequest& request) {
   const double needed_N = aircraft.flight_model->mass_kg() * aircraft.gravity_mps2 *
                           std::cos(request.climb_angle_rad) / std::cos(request.bank_rad);
-  const TrimSolver::Lift most = solver.largest_lift(request.airspeed_mps, request.climb_angle_rad);
-  if (most.lift_N >= needed_N) return "";
-  if (most.lift_N <= 0.0) {
+  const TrimSolver::Lift max_lift =
+      solver.largest_lift(request.airspeed_mps, request.climb_angle_rad);
+  if (max_lift.lift_N >= needed_N) return "";
+  if (max_lift.lift_N <= 0.0) {
     return fmt::format("the elevons, {:.1f} to {:.1f} deg, balance it at no incidence",
                        deg_from_rad(aircraft.elevon_min_rad()),
                        deg_from_rad(aircraft.elevon_max_rad()));
@@ -66,12 +67,12 @@ std::string say_lift(const Aircraft& aircraft, TrimSolver& solver, const TrimReq
   std::string said = fmt::format(
       "it takes {:.1f} N of lift and the wings give at most {:.1f} N at {:.1f} deg of "
       "incidence",
-      needed_N, most.lift_N, deg_from_rad(most.alpha_rad));
+      needed_N, max_lift.lift_N, deg_from_rad(max_lift.alpha_rad));
   if (aircraft.wing_area_m2 > 0.0) {
     const double coefficient_N = 0.5 * aircraft.air_density_kgm3 * request.airspeed_mps *
                                  request.airspeed_mps * aircraft.wing_area_m2;
     said += fmt::format(" (lift coefficient {:.2f} of at most {:.2f})", needed_N / coefficient_N,
-                        most.lift_N / coefficient_N);
+                        max_lift.lift_N / coefficient_N);
   }
   return said;
 }

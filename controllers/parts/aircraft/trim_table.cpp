@@ -42,7 +42,7 @@ TrimPoint trim_between(const TrimPoint& a, const TrimPoint& b, double s) {
 
 /// The steepest and the flattest flight of one bank, at the ends of the throttle.
 struct ClimbRange {
-  Trim least, most;
+  Trim lowest, highest;
 };
 
 class TableMaker {
@@ -52,26 +52,26 @@ class TableMaker {
 
   std::optional<ClimbRange> climbs_at(double bank_rad) {
     const TrimRequest request{airspeed_mps_, 0.0, bank_rad};
-    const std::optional<Trim> least =
+    const std::optional<Trim> lowest =
         in_range(solver_.solve_at_throttle(request, aircraft_.throttle_min()));
-    const std::optional<Trim> most =
+    const std::optional<Trim> highest =
         in_range(solver_.solve_at_throttle(request, aircraft_.throttle_max()));
-    if (!least || !most) return std::nullopt;
-    return ClimbRange{*least, *most};
+    if (!lowest || !highest) return std::nullopt;
+    return ClimbRange{*lowest, *highest};
   }
 
   /// @param neighbour  the last trim, as the start of the search; set to the result
   TrimPoint at(const ClimbRange& range, double climb_rad, double bank_rad,
                std::optional<Trim>& neighbour) {
-    if (climb_rad <= range.least.request.climb_angle_rad) return point_of(range.least);
-    if (climb_rad >= range.most.request.climb_angle_rad) return point_of(range.most);
+    if (climb_rad <= range.lowest.request.climb_angle_rad) return point_of(range.lowest);
+    if (climb_rad >= range.highest.request.climb_angle_rad) return point_of(range.highest);
     const TrimRequest request{airspeed_mps_, climb_rad, bank_rad};
     std::optional<Trim> trim;
     if (neighbour) trim = in_range(solver_.solve(request, &*neighbour));
     if (!trim) trim = in_range(solver_.solve(request));
     neighbour = trim;
     // Below some throttle a propeller only windmills: the last interval is the glide.
-    return point_of(trim ? *trim : range.least);
+    return point_of(trim ? *trim : range.lowest);
   }
 
  private:
@@ -104,8 +104,8 @@ TrimTable::TrimTable(const Aircraft& aircraft, double airspeed_mps, double max_b
     throw ConfigError(fmt::format("{}: no steady flight at {:.2f} m/s with the throttle at an end",
                                   who, airspeed_mps));
   }
-  climb_min_rad_ = wings_level->least.request.climb_angle_rad;
-  climb_max_rad_ = wings_level->most.request.climb_angle_rad;
+  climb_min_rad_ = wings_level->lowest.request.climb_angle_rad;
+  climb_max_rad_ = wings_level->highest.request.climb_angle_rad;
   // Banks too steep for the lift of the wings are left out.
   const auto holds = [&](double bank_rad) {
     return maker.climbs_at(bank_rad) && maker.climbs_at(-bank_rad);

@@ -79,7 +79,7 @@ bool Footprint::is_free(const Pose2& pose) const {
   return is_clear(pose, std::max(margin_m_, edge_reach_m_), margin_m_);
 }
 
-bool Footprint::is_clear(const Pose2& pose, double room_m, double far_clearance_m) const {
+bool Footprint::is_clear(const Pose2& pose, double min_clearance_m, double far_clearance_m) const {
   const Eigen::Vector2d ahead = direction(pose.yaw_rad), left = left_of(ahead);
   bool is_far = true;
   for (const Circle& circle : cover_) {
@@ -89,7 +89,7 @@ bool Footprint::is_clear(const Pose2& pose, double room_m, double far_clearance_
     is_far = is_far && distance_m >= circle.radius_m + far_clearance_m;
   }
   if (is_far) return true;
-  return clearance_m(pose) >= room_m;
+  return clearance_m(pose) >= min_clearance_m;
 }
 
 /// A point of the outline moves by at most (1 + |curvature| r) per metre driven. So if the

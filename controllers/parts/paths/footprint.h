@@ -39,8 +39,8 @@ class Footprint {
   const std::vector<Eigen::Vector2d>& outline_B() const { return outline_B_; }
 
  private:
-  /// clearance_m(pose) >= room_m, likewise; the covering circles need far_clearance_m.
-  bool is_clear(const Pose2& pose, double room_m, double far_clearance_m) const;
+  /// clearance_m(pose) >= min_clearance_m, likewise; the covering circles need far_clearance_m.
+  bool is_clear(const Pose2& pose, double min_clearance_m, double far_clearance_m) const;
   /// Whether nothing comes nearer than `min_m` on an arc; by bisection, down to 1 mm.
   bool is_swept_clear(const Pose2& start, double from_m, double to_m, double curvature_per_m,
                       double min_m) const;

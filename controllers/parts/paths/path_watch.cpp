@@ -32,7 +32,7 @@ void PathWatch::update(const Cycle& cycle) {
     distance_m_ = 0.0;
     allowed_m_ = kDistanceShare * params_.lost_m + kBow * gap_m;
   }
-  distance_m_ += cycle.way_m;
+  distance_m_ += cycle.travel_m;
   const auto where = [&] {
     return fmt::format("at ({:.2f}, {:.2f}), {:.1f} m along its path of {:.1f} m", cycle.p_W.x(),
                        cycle.p_W.y(), cycle.distance_m, cycle.length_m);

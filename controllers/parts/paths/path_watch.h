@@ -37,7 +37,7 @@ class PathWatch {
     Eigen::Vector2d on_path;  ///< the corresponding point of the path
     double distance_m = 0.0;  ///< along the path
     double length_m = 0.0;    ///< of the path
-    double way_m = 0.0;       ///< commanded in this cycle, >= 0
+    double travel_m = 0.0;    ///< commanded in this cycle, >= 0
   };
   /// Once per cycle while following. No heap except for the sentence.
   void update(const Cycle& cycle);

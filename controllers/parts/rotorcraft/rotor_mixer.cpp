@@ -56,8 +56,8 @@ double RotorMixer::largest_roll_pitch_share() const {
     for (int j = 0; j < roll_pitch_N_.size(); ++j) {
       const double t_i = thrusts_of_wrench_(i, 0), t_j = thrusts_of_wrench_(j, 0);
       const double spread = roll_pitch_N_(j) / t_j - roll_pitch_N_(i) / t_i;
-      const double room = max_N_ / t_j - min_N_ / t_i;
-      if (spread > 0.0 && share * spread > room) share = std::max(room, 0.0) / spread;
+      const double max_spread = max_N_ / t_j - min_N_ / t_i;
+      if (spread > 0.0 && share * spread > max_spread) share = std::max(max_spread, 0.0) / spread;
     }
   }
   return share;

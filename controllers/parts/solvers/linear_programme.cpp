@@ -40,7 +40,7 @@ LinearProgramme::LinearProgramme(int variables, int max_rows, const LpSettings& 
       rows_(variables, max_rows),
       factors_(variables),
       basis_(static_cast<std::size_t>(variables)),
-      taken_(static_cast<std::size_t>(max_rows)),
+      excluded_(static_cast<std::size_t>(max_rows)),
       cost_(Eigen::VectorXd::Zero(variables)),
       limits_(Eigen::VectorXd::Zero(variables)),
       y_(Eigen::VectorXd::Zero(variables)),
@@ -137,7 +137,7 @@ LpStatus LinearProgramme::finish(LpStatus status) {
 
 LinearProgramme::Outcome LinearProgramme::run() {
   for (int i = 0; i < rows_.count(); ++i) {
-    taken_[static_cast<std::size_t>(i)] = !rows_.in_force(i);
+    excluded_[static_cast<std::size_t>(i)] = !rows_.in_force(i);
   }
   for (int j = 0; j < n_; ++j) {
     basis_[static_cast<std::size_t>(j)] = -1 - j;
@@ -182,10 +182,10 @@ bool LinearProgramme::drive_out_artificials() {
     factors_.solve_transposed(limits_, z_);
     rows_.multiply(z_, slack_);
     int row = kNone;
-    double most = kSmallPivot * z_.norm();
+    double largest = kSmallPivot * z_.norm();
     for (int i = 0; i < rows_.count(); ++i) {
-      if (taken_[static_cast<std::size_t>(i)] || std::abs(slack_[i]) <= most) continue;
-      most = std::abs(slack_[i]);
+      if (excluded_[static_cast<std::size_t>(i)] || std::abs(slack_[i]) <= largest) continue;
+      largest = std::abs(slack_[i]);
       row = i;
     }
     // Without such a row all rows are orthogonal to this direction, and the artificial column
@@ -224,7 +224,7 @@ LinearProgramme::Outcome LinearProgramme::phase_two() {
       }
       return Outcome::kNoPrimal;
     }
-    taken_[static_cast<std::size_t>(row)] = 1;
+    excluded_[static_cast<std::size_t>(row)] = 1;
   }
   return Outcome::kStopped;
 }
@@ -242,12 +242,12 @@ bool LinearProgramme::bland() const {
 
 int LinearProgramme::entering_row(double allowed, double allowed_of_limit) const {
   int best = kNone;
-  double most = 0.0;
+  double largest = 0.0;
   for (int i = 0; i < rows_.count(); ++i) {
-    if (taken_[static_cast<std::size_t>(i)] || slack_[i] <= most) continue;
+    if (excluded_[static_cast<std::size_t>(i)] || slack_[i] <= largest) continue;
     if (!(slack_[i] > allowed + allowed_of_limit * std::abs(rows_.g()[i]))) continue;
     if (bland()) return i;
-    most = slack_[i];
+    largest = slack_[i];
     best = i;
   }
   return best;
@@ -272,9 +272,9 @@ int LinearProgramme::leaving_place(bool artificials_may_leave) const {
   // longest step if multipliers may fall below zero by rounding, then the largest pivot of those
   // that limit it.
   double step = std::numeric_limits<double>::infinity();
-  const double room = bland() ? 0.0 : kZero;
+  const double harris_tolerance = bland() ? 0.0 : kZero;
   for (int k = 0; k < n_; ++k) {
-    if (candidate(k)) step = std::min(step, (y_[k] + room) / direction_[k]);
+    if (candidate(k)) step = std::min(step, (y_[k] + harris_tolerance) / direction_[k]);
   }
   int best = kNone;
   for (int k = 0; k < n_; ++k) {
@@ -289,8 +289,8 @@ int LinearProgramme::leaving_place(bool artificials_may_leave) const {
 
 void LinearProgramme::replace(int place, int row) {
   const int before = basis_[static_cast<std::size_t>(place)];
-  if (before >= 0) taken_[static_cast<std::size_t>(before)] = 0;
-  taken_[static_cast<std::size_t>(row)] = 1;
+  if (before >= 0) excluded_[static_cast<std::size_t>(before)] = 0;
+  excluded_[static_cast<std::size_t>(row)] = 1;
   basis_[static_cast<std::size_t>(place)] = row;
   factors_.column(place) = rows_.row(row);
 }

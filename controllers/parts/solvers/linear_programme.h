@@ -89,12 +89,12 @@ class LinearProgramme {
   LpSettings settings_;
   lp::Rows rows_;
   lp::Basis factors_;
-  std::vector<int> basis_;   // rows; -1 - j for the artificial column of variable j
-  std::vector<char> taken_;  // of rows: in the basis, not in force, or put aside
-  int stalled_ = 0;          // pivots since the dual's value last changed
-  Eigen::VectorXd cost_;     // c over the scaled variables, length one
-  Eigen::VectorXd limits_;   // of the rows of the basis
-  Eigen::VectorXd y_, z_;    // multipliers and vertex of the basis
+  std::vector<int> basis_;      // rows; -1 - j for the artificial column of variable j
+  std::vector<char> excluded_;  // of rows: in the basis, not in force, or put aside
+  int stalled_ = 0;             // pivots since the dual's value last changed
+  Eigen::VectorXd cost_;        // c over the scaled variables, length one
+  Eigen::VectorXd limits_;      // of the rows of the basis
+  Eigen::VectorXd y_, z_;       // multipliers and vertex of the basis
   Eigen::VectorXd direction_, slack_, entering_, ray_;
 
   Eigen::VectorXd x_, multipliers_;

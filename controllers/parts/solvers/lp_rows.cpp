@@ -49,16 +49,16 @@ void Rows::choose_scale() {
       }
     }
     for (Eigen::Index j = 0; j < F_.cols(); ++j) {
-      double most = 0.0, least = std::numeric_limits<double>::infinity();
+      double max_entry = 0.0, min_entry = std::numeric_limits<double>::infinity();
       for (int i = 0; i < count_; ++i) {
         const double entry = std::abs(F_(i, j)) / largest_[i];
         // Entries below a millionth of their row's largest count as rounding and are ignored.
         if (!(entry * scale_[j] > 1e-6)) continue;
-        most = std::max(most, entry);
-        least = std::min(least, entry);
+        max_entry = std::max(max_entry, entry);
+        min_entry = std::min(min_entry, entry);
       }
-      if (most > 0.0)
-        scale_[j] = std::exp2(std::round(-0.5 * (std::log2(most) + std::log2(least))));
+      if (max_entry > 0.0)
+        scale_[j] = std::exp2(std::round(-0.5 * (std::log2(max_entry) + std::log2(min_entry))));
     }
   }
 }

@@ -99,10 +99,11 @@ class RowBuilder {
  public:
   RowBuilder(const LinearMpcProblem& problem, const MatrixXd& Gamma, Condensed& out)
       : problem_(problem), Gamma_(Gamma), out_(out) {
-    Index most = problem.horizon * problem.B.cols();
-    for (const MpcStateRows& block : problem.state_rows) most += problem.horizon * block.F.rows();
-    for (const MpcStateRows& block : problem.terminal_rows) most += block.F.rows();
-    out_.rows.setZero(most, Gamma.cols());
+    Index max_rows = problem.horizon * problem.B.cols();
+    for (const MpcStateRows& block : problem.state_rows)
+      max_rows += problem.horizon * block.F.rows();
+    for (const MpcStateRows& block : problem.terminal_rows) max_rows += block.F.rows();
+    out_.rows.setZero(max_rows, Gamma.cols());
     out_.F.resize(0, problem.A.cols());
     out_.F_relative.resize(0, problem.A.cols());
   }

@@ -41,7 +41,7 @@ struct QpSolver::Impl {
 
   int n() const { return form.variables(); }
   int m() const { return form.constraints() - form.variables(); }
-  QpStatus check(const Input& f, qp::Limits::Verdict limits_taken) const;
+  QpStatus check(const Input& f, qp::Limits::Verdict limits_verdict) const;
   QpStatus optimise(const Input& f);
   void publish();
 
@@ -58,11 +58,11 @@ struct QpSolver::Impl {
   std::vector<int> active;
 };
 
-QpStatus QpSolver::Impl::check(const Input& f, qp::Limits::Verdict limits_taken) const {
+QpStatus QpSolver::Impl::check(const Input& f, qp::Limits::Verdict limits_verdict) const {
   if (!convex) return QpStatus::kNotConvex;
-  const bool numbers = limits_taken != qp::Limits::Verdict::kNotANumber;
+  const bool numbers = limits_verdict != qp::Limits::Verdict::kNotANumber;
   if (!numbers || !rows_finite || !f.allFinite()) return QpStatus::kInvalidInput;
-  if (limits_taken == qp::Limits::Verdict::kCrossed) return QpStatus::kInfeasible;
+  if (limits_verdict == qp::Limits::Verdict::kCrossed) return QpStatus::kInfeasible;
   return QpStatus::kSolved;
 }
 

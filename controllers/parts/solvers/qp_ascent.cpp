@@ -62,8 +62,8 @@ Member Ascent::member(int constraint, int side) const {
   result.constraint = constraint;
   result.side = limits_->is_equality(constraint) ? 0 : side;
   result.limit = result.side < 0 ? limits_->lower(constraint) : limits_->upper(constraint);
-  const double least = kSmallestSoftness * form_->row_squared(constraint);
-  if (softness_[constraint] > 0.0) result.softness = std::max(softness_[constraint], least);
+  const double min_softness = kSmallestSoftness * form_->row_squared(constraint);
+  if (softness_[constraint] > 0.0) result.softness = std::max(softness_[constraint], min_softness);
   return result;
 }
 

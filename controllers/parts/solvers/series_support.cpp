@@ -32,8 +32,8 @@ Result<Eigen::VectorXd> calc_reach(const Eigen::MatrixXd& A, const Support& W) {
       c = A.transpose() * c;
     }
   }
-  const double most = reach.maxCoeff();
-  return Eigen::VectorXd(reach.cwiseMax(most > 0.0 ? 1e-3 * most : 1.0));
+  const double max_reach = reach.maxCoeff();
+  return Eigen::VectorXd(reach.cwiseMax(max_reach > 0.0 ? 1e-3 * max_reach : 1.0));
 }
 
 }  // namespace

@@ -11,9 +11,9 @@ using Eigen::MatrixXd;
 /// List of rows and their meanings.
 class RowList {
  public:
-  RowList(TubeForm& form, Index most) : form_(&form) {
-    form.rows.setZero(most, form.H.cols());
-    form.about.reserve(static_cast<std::size_t>(most));
+  RowList(TubeForm& form, Index max_rows) : form_(&form) {
+    form.rows.setZero(max_rows, form.H.cols());
+    form.about.reserve(static_cast<std::size_t>(max_rows));
   }
   /// @param map  from y to the quantity of the row
   void add(const MatrixXd& map, const TubeRow& about) {

@@ -77,28 +77,28 @@ Result<SeriesSupport> make_tube(const TubeModel& model) {
 
 /// The smallest ratio of limit and reach, and the limit that it belongs to.
 GustMargin gust_margin_of(const TubeModel& model, const SeriesSupport& S) {
-  GustMargin room;
-  room.factor = std::numeric_limits<double>::infinity();
-  const auto look = [&room](double limit, double reach, const std::string& name) {
-    if (reach > 0.0 && limit / reach < room.factor) {
-      room.factor = limit / reach;
-      room.binding = name;
+  GustMargin gust_margin;
+  gust_margin.factor = std::numeric_limits<double>::infinity();
+  const auto look = [&gust_margin](double limit, double reach, const std::string& name) {
+    if (reach > 0.0 && limit / reach < gust_margin.factor) {
+      gust_margin.factor = limit / reach;
+      gust_margin.binding = name;
     }
   };
   const Index n = model.A.rows(), m = model.B.cols();
-  room.reach.state.resize(n);
-  room.reach.input.resize(m);
+  gust_margin.reach.state.resize(n);
+  gust_margin.reach.input.resize(m);
   // Without gusts S is the origin, but the bound of the series' remainder is not exactly zero.
   const bool calm = (model.E * model.gust.asDiagonal()).isZero(0.0);
   for (Index i = 0; i < n; ++i) {
-    room.reach.state[i] = calm ? 0.0 : S(VectorXd::Unit(n, i));
-    look(model.state_limit[i], room.reach.state[i], name_at(model.state_names, i, "state"));
+    gust_margin.reach.state[i] = calm ? 0.0 : S(VectorXd::Unit(n, i));
+    look(model.state_limit[i], gust_margin.reach.state[i], name_at(model.state_names, i, "state"));
   }
   for (Index j = 0; j < m; ++j) {
-    room.reach.input[j] = calm ? 0.0 : S(model.K.row(j));
-    look(model.input_limit[j], room.reach.input[j], name_at(model.input_names, j, "input"));
+    gust_margin.reach.input[j] = calm ? 0.0 : S(model.K.row(j));
+    look(model.input_limit[j], gust_margin.reach.input[j], name_at(model.input_names, j, "input"));
   }
-  return room;
+  return gust_margin;
 }
 
 /// Largest set that stays within limits of x and K x forever under x+ = A_K x (+ w, w in W).
@@ -166,16 +166,16 @@ Result<TubeSets> make_tube_sets(const TubeModel& model, TubeShape shape) {
   if (!S) return Failure{S.reason()};
   TubeSets sets;
   sets.A_K = model.A + model.B * model.K;
-  sets.room = gust_margin_of(model, *S);
-  const double factor = sets.room.factor;
+  sets.gust_margin = gust_margin_of(model, *S);
+  const double factor = sets.gust_margin.factor;
   if (!(factor > 1.0)) {
     return Failure{fmt::format(
         "the tube is empty: gusts alone take {:.3g} times the limit of {}; at most {:.3g} of them "
         "are feasible",
-        1.0 / factor, sets.room.binding, factor)};
+        1.0 / factor, sets.gust_margin.binding, factor)};
   }
   const bool calm = std::isinf(factor);
-  TubeReach reach = sets.room.reach;
+  TubeReach reach = sets.gust_margin.reach;
   if (!calm) {  // R needs an interior, because its rows are divided by their limits.
     reach.state = reach.state.cwiseMax(kThinnest * model.state_limit);
     reach.input = reach.input.cwiseMax(kThinnest * model.input_limit);

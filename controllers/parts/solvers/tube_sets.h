@@ -68,7 +68,7 @@ enum class TubeShape {
 
 struct TubeSets {
   Eigen::MatrixXd A_K;
-  GustMargin room;
+  GustMargin gust_margin;
   double margin = 0.0;  ///< R's half widths are (1 + margin) of those of S; 0 for kBox
   /// R = {e : |F e| <= g}; rows scaled so that g is 1. No rows without gusts: R = {0}.
   Eigen::MatrixXd tube_rows;

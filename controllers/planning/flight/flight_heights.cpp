@@ -62,15 +62,15 @@ double HeightProfile::at(double distance_m) const {
   return last == 0 ? heights_m_[0] : (1.0 - share) * heights_m_[i] + share * heights_m_[i + 1];
 }
 
-Result<HeightProfile> make_ground_profile(const Path& way, const FlightGround& ground) {
-  const int parts = std::max(1, static_cast<int>(std::ceil(way.length_m() / kFlightStep_m)));
-  const double step_m = way.length_m() / parts;
+Result<HeightProfile> make_ground_profile(const Path& path, const FlightGround& ground) {
+  const int parts = std::max(1, static_cast<int>(std::ceil(path.length_m() / kFlightStep_m)));
+  const double step_m = path.length_m() / parts;
   std::vector<double> heights_m;
   heights_m.reserve(parts + 1);
   int segment = 0;
   for (int i = 0; i <= parts; ++i) {
-    segment = way.segment_at(i * step_m, segment);
-    const Eigen::Vector2d p = way.pose_at(i * step_m, segment).p;
+    segment = path.segment_at(i * step_m, segment);
+    const Eigen::Vector2d p = path.pose_at(i * step_m, segment).p;
     const auto height_m = ground.ground_m(p);
     if (!height_m) {
       return Failure{
@@ -89,7 +89,7 @@ HeightProfile make_row_profile(const HeightProfile& ground, double above_m, doub
   return HeightProfile(ground.step_m(), std::move(heights_m));
 }
 
-HeightProfile make_return_profile(const Path& way, const HeightProfile& ground_m,
+HeightProfile make_return_profile(const Path& path, const HeightProfile& ground_m,
                                   const FlightGround& ground, double above_m, double reach_m,
                                   double smooth_m) {
   const double step_m = ground_m.step_m();
@@ -97,8 +97,8 @@ HeightProfile make_return_profile(const Path& way, const HeightProfile& ground_m
   std::vector<double> excess_m;
   int segment = 0;
   for (int i = 0; i <= last_of(ground_m); ++i) {
-    segment = way.segment_at(i * step_m, segment);
-    const Eigen::Vector2d p = way.pose_at(i * step_m, segment).p;
+    segment = path.segment_at(i * step_m, segment);
+    const Eigen::Vector2d p = path.pose_at(i * step_m, segment).p;
     double needed_m = ground_m.samples_m()[i];
     // One step more, for canopies between the samples.
     if (const auto top_m = ground.canopy_top_m(p, reach_m + step_m)) {

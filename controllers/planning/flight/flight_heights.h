@@ -57,7 +57,7 @@ class HeightProfile {
 
 /// Profile of the ground below a path, every 5 cm. @returns "path leaves the ground: no ground at
 /// (x, y)" if the ground ends
-Result<HeightProfile> make_ground_profile(const Path& way, const FlightGround& ground);
+Result<HeightProfile> make_ground_profile(const Path& path, const FlightGround& ground);
 
 /// Heights `above_m` over the ground, smoothed by two moving averages that reach `smooth_m`
 /// together. Both ends keep their exact height.
@@ -66,7 +66,7 @@ HeightProfile make_row_profile(const HeightProfile& ground, double above_m, doub
 /// Heights at least `above_m` over the ground and over canopies within `reach_m`: the smoothed
 /// ground, plus an upper bound of what rises above it, widened and smoothed over `smooth_m` to
 /// either side, so that the clearance is nowhere less than above_m.
-HeightProfile make_return_profile(const Path& way, const HeightProfile& ground_m,
+HeightProfile make_return_profile(const Path& path, const HeightProfile& ground_m,
                                   const FlightGround& ground, double above_m, double reach_m,
                                   double smooth_m);
 

@@ -15,15 +15,15 @@
 namespace vinerow::controllers {
 namespace {
 
-constexpr double kBesideLeg_m = 0.05;
+constexpr double kOnLeg_m = 0.05;
 constexpr double kCheckPitch_m = 0.25;
 
 /// Coordinates of a point relative to the first straight of a leg: distance along it and to its
 /// left.
 Eigen::Vector2d place_along(const RouteLeg& leg, const Eigen::Vector2d& p) {
   const Pose2 entry = leg.entry();
-  const Eigen::Vector2d along = direction(entry.yaw_rad), way = p - entry.p;
-  return {way.dot(along), cross(along, way)};
+  const Eigen::Vector2d along = direction(entry.yaw_rad), offset = p - entry.p;
+  return {offset.dot(along), cross(along, offset)};
 }
 
 double first_length_m(const RouteLeg& leg) {
@@ -38,14 +38,14 @@ std::optional<Eigen::Vector2d> find_place_on_leg(const RouteLeg& leg, const RowM
   const auto alley = std::find_if(map.alleys.begin(), map.alleys.end(),
                                   [&](const Alley& one) { return one.id == leg.alley; });
   const double reach_m = alley == map.alleys.end() ? 0.0 : 0.5 * alley->width_m;
-  if (std::abs(place.y()) > std::max(reach_m, kBesideLeg_m) || place.x() < -kBesideLeg_m ||
-      place.x() > first_length_m(leg) - kBesideLeg_m) {
+  if (std::abs(place.y()) > std::max(reach_m, kOnLeg_m) || place.x() < -kOnLeg_m ||
+      place.x() > first_length_m(leg) - kOnLeg_m) {
     return std::nullopt;
   }
   return leg.entry().p + std::max(place.x(), 0.0) * direction(leg.entry().yaw_rad);
 }
 
-class GridPath final : public FlightWay {
+class GridPath final : public RowPathPlanner {
  public:
   GridPath(const RoutePlannerParams& params, std::unique_ptr<PoseSearch> search,
            const PlannerContext& context)
@@ -81,7 +81,7 @@ class GridPath final : public FlightWay {
   std::unique_ptr<Planner> planner_;
 };
 
-class ClosedFormPath final : public FlightWay {
+class ClosedFormPath final : public RowPathPlanner {
  public:
   ClosedFormPath(const RoutePlannerParams& params, TurnKind turns, double reach_m,
                  const PlannerContext& context)
@@ -151,9 +151,9 @@ class ClosedFormPath final : public FlightWay {
 
 }  // namespace
 
-std::unique_ptr<FlightWay> make_grid_path(const RoutePlannerParams& params,
-                                          std::unique_ptr<PoseSearch> search,
-                                          const PlannerContext& context) {
+std::unique_ptr<RowPathPlanner> make_grid_path(const RoutePlannerParams& params,
+                                               std::unique_ptr<PoseSearch> search,
+                                               const PlannerContext& context) {
   if (context.map == nullptr || context.map->occupancy.empty()) {
     throw ConfigError(context.part +
                       " (row_flight): the map has no occupancy grid: set occupancy_cell_m, or "
@@ -162,8 +162,9 @@ std::unique_ptr<FlightWay> make_grid_path(const RoutePlannerParams& params,
   return std::make_unique<GridPath>(params, std::move(search), context);
 }
 
-std::unique_ptr<FlightWay> make_closed_form_path(const RoutePlannerParams& params, TurnKind turns,
-                                                 double reach_m, const PlannerContext& context) {
+std::unique_ptr<RowPathPlanner> make_closed_form_path(const RoutePlannerParams& params,
+                                                      TurnKind turns, double reach_m,
+                                                      const PlannerContext& context) {
   return std::make_unique<ClosedFormPath>(params, turns, reach_m, context);
 }
 
@@ -171,15 +172,15 @@ double choose_heading(const Eigen::Vector2d& start, const RouteLeg& first, doubl
                       const std::function<bool(const std::vector<PathSegment>&)>& is_free) {
   constexpr int kHeadings = 72;
   const Pose2 entry = first.entry();
-  const Eigen::Vector2d place = place_along(first, start), way = entry.p - start;
-  if (std::abs(place.y()) < kBesideLeg_m && place.x() < first_length_m(first)) {
+  const Eigen::Vector2d place = place_along(first, start), offset = entry.p - start;
+  if (std::abs(place.y()) < kOnLeg_m && place.x() < first_length_m(first)) {
     return entry.yaw_rad;
   }
   std::vector<std::pair<double, double>> candidates;  // length, heading
   const auto add = [&](double yaw_rad) {
     candidates.emplace_back(calc_dubins({start, yaw_rad}, entry, radius_m).length_m(), yaw_rad);
   };
-  add(std::atan2(way.y(), way.x()));
+  add(std::atan2(offset.y(), offset.x()));
   for (int i = 0; i < kHeadings; ++i) add(wrap_angle(entry.yaw_rad + 2.0 * kPi * i / kHeadings));
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first - 1e-9; });

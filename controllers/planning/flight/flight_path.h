@@ -13,9 +13,9 @@
 
 namespace vinerow::controllers {
 
-class FlightWay {
+class RowPathPlanner {
  public:
-  virtual ~FlightWay() = default;
+  virtual ~RowPathPlanner() = default;
   /// @param start  place of the take-off; the vehicle can turn to any heading while it climbs
   /// @returns points on the ground of kinds kTransit, kLeg, kTurn, or the reason why there is no
   /// path
@@ -25,14 +25,15 @@ class FlightWay {
 
 /// Path with turns searched on the occupancy grid by the route planner of ground vehicles.
 /// @throws ConfigError if the map has no grid
-std::unique_ptr<FlightWay> make_grid_path(const RoutePlannerParams& params,
-                                          std::unique_ptr<PoseSearch> search,
-                                          const PlannerContext& context);
+std::unique_ptr<RowPathPlanner> make_grid_path(const RoutePlannerParams& params,
+                                               std::unique_ptr<PoseSearch> search,
+                                               const PlannerContext& context);
 
 /// Path with turns in closed form, for maps without a grid; avoids canopies only.
 /// @param reach_m  half the width that the vehicle needs, margin included
-std::unique_ptr<FlightWay> make_closed_form_path(const RoutePlannerParams& params, TurnKind turns,
-                                                 double reach_m, const PlannerContext& context);
+std::unique_ptr<RowPathPlanner> make_closed_form_path(const RoutePlannerParams& params,
+                                                      TurnKind turns, double reach_m,
+                                                      const PlannerContext& context);
 
 /// The heading with the shortest Dubins path to the entrance of the first alley. @param is_free
 /// called for candidate paths; if none is free, the shortest path is chosen

@@ -187,11 +187,11 @@ class MissionRoute final : public Planner {
   std::optional<std::string> go_around_fences(const Vector3d& p, const MissionPlace& place) {
     if (winged_ || !keeps_fences_ || fences_.empty()) return std::nullopt;
     const PathPoint from = path_.points.back();
-    const auto way = fences_.find_path(from.p_W.head<2>(), p.head<2>());
-    if (!way) return std::nullopt;  // check() names the fence
+    const auto detour = fences_.find_path(from.p_W.head<2>(), p.head<2>());
+    if (!detour) return std::nullopt;  // check() names the fence
     double length_m = 0.0;
     Vector2d at = from.p_W.head<2>();
-    for (const Vector2d& bend : *way) {
+    for (const Vector2d& bend : *detour) {
       length_m += (bend - at).norm();
       at = bend;
     }
@@ -199,15 +199,15 @@ class MissionRoute final : public Planner {
     MissionPlace bend_place = place;
     bend_place.speed_mps = from.speed_mps;
     bend_place.camera = camera_.back();
-    double way_m = 0.0;
+    double travelled_m = 0.0;
     at = from.p_W.head<2>();
-    for (const Vector2d& bend : *way) {
-      way_m += (bend - at).norm();
+    for (const Vector2d& bend : *detour) {
+      travelled_m += (bend - at).norm();
       at = bend;
-      const double height_m = from.p_W.z() + way_m / length_m * (p.z() - from.p_W.z());
+      const double height_m = from.p_W.z() + travelled_m / length_m * (p.z() - from.p_W.z());
       add({bend.x(), bend.y(), height_m}, from.kind, bend_place);
     }
-    report_.numbers["fence_detours"] += way->empty() ? 0.0 : 1.0;
+    report_.numbers["fence_detours"] += detour->empty() ? 0.0 : 1.0;
     return std::nullopt;
   }
 
@@ -218,14 +218,14 @@ class MissionRoute final : public Planner {
     if (needed_m <= direct_m) return;
     MissionPlace lap = place;
     lap.camera = false;
-    double way_m = 0.0;
+    double travelled_m = 0.0;
     Vector2d at = start_.p.head<2>();
     constexpr double kMore = 1.001;
     for (const Vector2d& corner : make_climb_laps(at, yaw_from_quaternion(start_.q), p.head<2>(),
                                                   kMore * needed_m, radius_m_, true)) {
-      way_m += (corner - at).norm();
+      travelled_m += (corner - at).norm();
       at = corner;
-      const double height_m = std::min(start_.p.z() + climb_slope_ * way_m, p.z());
+      const double height_m = std::min(start_.p.z() + climb_slope_ * travelled_m, p.z());
       add({corner.x(), corner.y(), height_m}, PathKind::kTransit, lap);
     }
   }
@@ -272,10 +272,11 @@ class MissionRoute final : public Planner {
         }
       }
       if (i == 0 || a.kind == PathKind::kVertical) continue;
-      const Vector3d way = b.p_W - a.p_W;
-      const int steps = std::max(1, static_cast<int>(std::ceil(way.head<2>().norm() / kLook_m)));
+      const Vector3d displacement = b.p_W - a.p_W;
+      const int steps =
+          std::max(1, static_cast<int>(std::ceil(displacement.head<2>().norm() / kLook_m)));
       for (int k = 0; k <= steps; ++k) {
-        const Vector3d p = a.p_W + static_cast<double>(k) / steps * way;
+        const Vector3d p = a.p_W + static_cast<double>(k) / steps * displacement;
         const auto ground_m = ground_(p.head<2>());
         if (!ground_m) continue;
         if (p.z() < *ground_m) {

@@ -18,7 +18,7 @@ namespace {
 constexpr double kShortestFlight_m = 1e-6;
 
 /// Distance of every point of a plan along the curve of its Path.
-std::vector<double> calc_distances(const PlannedPath& plan, const Path& way) {
+std::vector<double> calc_distances(const PlannedPath& plan, const Path& curve) {
   std::vector<double> distances_m;
   int segment = -1;
   const PathPoint* kept = nullptr;
@@ -27,16 +27,19 @@ std::vector<double> calc_distances(const PlannedPath& plan, const Path& way) {
         kept == nullptr || (point.p_W - kept->p_W).head<2>().norm() >= kShortestFlight_m;
     if (kept != nullptr && is_new) ++segment;
     if (is_new) kept = &point;
-    distances_m.push_back(segment < 0 ? 0.0 : way.end_of(segment));
+    distances_m.push_back(segment < 0 ? 0.0 : curve.end_of(segment));
   }
   return distances_m;
 }
 
 class RowFlight final : public Planner {
  public:
-  RowFlight(const RowFlightParams& params, std::unique_ptr<FlightWay> way,
+  RowFlight(const RowFlightParams& params, std::unique_ptr<RowPathPlanner> path_planner,
             const PlannerContext& context)
-      : params_(params), path_(std::move(way)), map_(*context.map), scene_(context.scene) {}
+      : params_(params),
+        path_(std::move(path_planner)),
+        map_(*context.map),
+        scene_(context.scene) {}
 
   const PlanReport* report() const override { return &report_; }
 
@@ -77,9 +80,9 @@ class RowFlight final : public Planner {
       ++joint;
     }
     points.erase(points.begin() + 1, points.begin() + static_cast<std::ptrdiff_t>(joint));
-    const Eigen::Vector2d way = (points[1].p_W - start).head<2>();
+    const Eigen::Vector2d offset = (points[1].p_W - start).head<2>();
     points[0].p_W.head<2>() = start.head<2>();
-    points[0].yaw_rad = std::atan2(way.y(), way.x());
+    points[0].yaw_rad = std::atan2(offset.y(), offset.x());
     points[0].curvature_per_m = 0.0;
     return path;
   }
@@ -101,9 +104,9 @@ class RowFlight final : public Planner {
   /// Appends the take-off and the path to the end of the last row.
   std::optional<std::string> append_rows(const FlightGround& ground, const Eigen::Vector3d& start,
                                          const PlannedPath& rows, PlannedPath& flight) {
-    const Path way(rows);
-    if (way.empty()) return "the alleys to fly have no length";
-    const auto ground_m = make_ground_profile(way, ground);
+    const Path curve(rows);
+    if (curve.empty()) return "the alleys to fly have no length";
+    const auto ground_m = make_ground_profile(curve, ground);
     if (!ground_m) return ground_m.reason();
     const HeightProfile heights = make_row_profile(*ground_m, params_.height_m, params_.smooth_m);
     if (heights.at(0.0) <= start.z()) {
@@ -120,7 +123,7 @@ class RowFlight final : public Planner {
     take_off.speed_mps = 0.0;
     flight.points.push_back(take_off);
 
-    const std::vector<double> distances_m = calc_distances(rows, way);
+    const std::vector<double> distances_m = calc_distances(rows, curve);
     double error_m = 0.0;
     for (std::size_t i = 0; i < rows.points.size(); ++i) {
       PathPoint point = rows.points[i];
@@ -145,11 +148,12 @@ class RowFlight final : public Planner {
     const PathSegment straight =
         make_straight(from, to, PathKind::kReturn, -1, params_.return_speed_mps);
     PlannedPath home = make_planned_path({straight}, params_.route.pitch_m);
-    const Path way(home);
-    const auto ground_m = make_ground_profile(way, ground);
+    const Path curve(home);
+    const auto ground_m = make_ground_profile(curve, ground);
     if (!ground_m) return "on the way home the " + ground_m.reason();
-    const HeightProfile heights = make_return_profile(
-        way, *ground_m, ground, params_.return_height_m, params_.radius_m, params_.return_smooth_m);
+    const HeightProfile heights =
+        make_return_profile(curve, *ground_m, ground, params_.return_height_m, params_.radius_m,
+                            params_.return_smooth_m);
     if (heights.at(0.0) <= exit.p_W.z()) {
       return fmt::format(
           "cannot climb to the way home at ({:.2f}, {:.2f}): it starts at {:.2f} m, the rows end "
@@ -162,24 +166,24 @@ class RowFlight final : public Planner {
     exit.curvature_per_m = 0.0;
     exit.yaw_rad = straight.start.yaw_rad;
     exit.speed_mps = 0.0;
-    const std::vector<double> distances_m = calc_distances(home, way);
+    const std::vector<double> distances_m = calc_distances(home, curve);
     for (std::size_t i = 0; i < home.points.size(); ++i) {
       home.points[i].p_W.z() = heights.at(distances_m[i]);
       flight.points.push_back(home.points[i]);
     }
-    report_.numbers["return_length_m"] = way.length_m();
-    report_.numbers["return_clearance_m"] = calc_clearance_m(way, *ground_m, ground, heights);
+    report_.numbers["return_length_m"] = curve.length_m();
+    report_.numbers["return_clearance_m"] = calc_clearance_m(curve, *ground_m, ground, heights);
     return std::nullopt;
   }
 
   /// Minimum height above the ground and above canopies directly below the path.
-  static double calc_clearance_m(const Path& way, const HeightProfile& ground_m,
+  static double calc_clearance_m(const Path& curve, const HeightProfile& ground_m,
                                  const FlightGround& ground, const HeightProfile& heights) {
     double min_m = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < heights.samples_m().size(); ++i) {
       const double at_m = static_cast<double>(i) * heights.step_m();
       double below_m = ground_m.samples_m()[i];
-      if (const auto top_m = ground.canopy_top_m(way.pose_at(at_m).p, 0.0)) {
+      if (const auto top_m = ground.canopy_top_m(curve.pose_at(at_m).p, 0.0)) {
         below_m = std::max(below_m, *top_m);
       }
       min_m = std::min(min_m, heights.samples_m()[i] - below_m);
@@ -209,8 +213,8 @@ class RowFlight final : public Planner {
   void measure(PlannedPath& flight) {
     double climb_m = 0.0;
     flight.length_m = 0.0;
-    const Path way(flight);
-    const std::vector<double> distances_m = calc_distances(flight, way);
+    const Path curve(flight);
+    const std::vector<double> distances_m = calc_distances(flight, curve);
     for (std::size_t i = 1; i < flight.points.size(); ++i) {
       const double rise_m = flight.points[i].p_W.z() - flight.points[i - 1].p_W.z();
       flight.length_m += std::hypot(distances_m[i] - distances_m[i - 1], rise_m);
@@ -223,7 +227,7 @@ class RowFlight final : public Planner {
   static constexpr double kOnTheSpot_m = 0.1;
 
   RowFlightParams params_;
-  std::unique_ptr<FlightWay> path_;
+  std::unique_ptr<RowPathPlanner> path_;
   const RowMap& map_;
   const SceneQuery* scene_;
   PlanReport report_;
@@ -251,15 +255,15 @@ std::unique_ptr<Planner> make_row_flight(const ParameterSet& parameters,
                                   context.vehicle_description->type));
   }
   const RowFlightParams params = read_row_flight_params(parameters, context, who);
-  std::unique_ptr<FlightWay> way;
+  std::unique_ptr<RowPathPlanner> path_planner;
   if (!params.turns) {
-    way = make_grid_path(params.route, make_rrt_star_search(parameters, params.route, context),
-                         context);
+    path_planner = make_grid_path(params.route,
+                                  make_rrt_star_search(parameters, params.route, context), context);
   } else {
-    way = make_closed_form_path(params.route, *params.turns,
-                                params.radius_m + params.route.margin_m, context);
+    path_planner = make_closed_form_path(params.route, *params.turns,
+                                         params.radius_m + params.route.margin_m, context);
   }
-  return std::make_unique<RowFlight>(params, std::move(way), context);
+  return std::make_unique<RowFlight>(params, std::move(path_planner), context);
 }
 
 }  // namespace vinerow::controllers

@@ -19,19 +19,19 @@ constexpr double kFits = 1.0 + 1e-9;
 
 /// Passage of a corner, from cut_m before it to cut_m behind it.
 struct Corner {
-  enum class Way { kAsItIs, kArc, kLoop } way = Way::kAsItIs;
+  enum class Shape { kAsItIs, kArc, kLoop } shape = Shape::kAsItIs;
   double cut_m = 0.0;
   double turn_rad = 0.0;
 };
 
-Corner plan_corner(double turn_rad, double room_m, double radius_m) {
+Corner plan_corner(double turn_rad, double available_m, double radius_m) {
   const double size_rad = std::abs(turn_rad);
   if (size_rad < kSmooth_rad) return {};
   const double wanted_m = radius_m * std::tan(0.5 * std::min(size_rad, kWidestArc_rad));
-  const bool fits = size_rad <= kWidestArc_rad && wanted_m <= room_m * kFits;
-  if (fits) return {Corner::Way::kArc, wanted_m, turn_rad};
+  const bool fits = size_rad <= kWidestArc_rad && wanted_m <= available_m * kFits;
+  if (fits) return {Corner::Shape::kArc, wanted_m, turn_rad};
   if (size_rad < kSlight_rad) return {};
-  return {Corner::Way::kLoop, std::min(wanted_m, room_m), turn_rad};
+  return {Corner::Shape::kLoop, std::min(wanted_m, available_m), turn_rad};
 }
 
 /// Longest arc, so that its chord distinguishes it from its complement.
@@ -63,44 +63,44 @@ RoundedPath round_corners(const std::vector<Eigen::Vector2d>& points,
   }
   // Length of a leg that a corner may use: all of it if the other end is free, half if both ends
   // are corners.
-  const auto room_m = [&](std::size_t leg) {
+  const auto available_m = [&](std::size_t leg) {
     const bool is_between = leg > 0 && leg + 1 < legs;
     return (is_between ? 0.5 : 1.0) * straights[leg].length_m;
   };
-  RoundedPath way;
+  RoundedPath rounded;
   double start_m = 0.0;  // of the leg's straight, behind the corner before
   for (std::size_t i = 0; i < legs; ++i) {
     Corner corner;
     if (i + 1 < legs) {
       const double turn_rad =
           wrap_angle(straights[i + 1].start.yaw_rad - straights[i].start.yaw_rad);
-      corner = plan_corner(turn_rad, std::min(room_m(i), room_m(i + 1)), radius_m);
+      corner = plan_corner(turn_rad, std::min(available_m(i), available_m(i + 1)), radius_m);
     }
     PathSegment straight = straights[i];
     straight.start = straights[i].at(start_m);
     straight.length_m = std::max(straights[i].length_m - corner.cut_m - start_m, 0.0);
-    way.pieces.push_back(straight);
+    rounded.pieces.push_back(straight);
     start_m = corner.cut_m;
     const Pose2 from = straight.end();
     const double slow_mps = i + 1 < legs ? std::min(speed_mps[i], speed_mps[i + 1]) : 0.0;
-    switch (corner.way) {
-      case Corner::Way::kAsItIs:
+    switch (corner.shape) {
+      case Corner::Shape::kAsItIs:
         break;
-      case Corner::Way::kArc:
-        way.pieces.push_back({from, radius_m * std::abs(corner.turn_rad),
-                              std::copysign(1.0 / radius_m, corner.turn_rad), PathKind::kTurn, -1,
-                              slow_mps});
-        ++way.arcs;
+      case Corner::Shape::kArc:
+        rounded.pieces.push_back({from, radius_m * std::abs(corner.turn_rad),
+                                  std::copysign(1.0 / radius_m, corner.turn_rad), PathKind::kTurn,
+                                  -1, slow_mps});
+        ++rounded.arcs;
         break;
-      case Corner::Way::kLoop:
+      case Corner::Shape::kLoop:
         append_dubins(from, calc_dubins(from, straights[i + 1].at(corner.cut_m), radius_m),
-                      PathKind::kTurn, slow_mps, way.pieces);
-        ++way.loops;
+                      PathKind::kTurn, slow_mps, rounded.pieces);
+        ++rounded.loops;
         break;
     }
   }
-  way.pieces = split_arcs(way.pieces);
-  return way;
+  rounded.pieces = split_arcs(rounded.pieces);
+  return rounded;
 }
 
 double find_corner_radius_m(const std::optional<double>& wanted_m,

@@ -111,14 +111,14 @@ class Coverage final : public Planner {
   void append_approach(const Pose2& pose, const Pose2& entry,
                        std::vector<PathSegment>& pieces) const {
     const Pose2 begin = advance(entry, -params_.lead_in_m, 0.0);
-    const Eigen::Vector2d way = begin.p - pose.p;
+    const Eigen::Vector2d offset = begin.p - pose.p;
     const Eigen::Vector2d along = direction(begin.yaw_rad);
     constexpr double kOnTheLine_m = 0.05, kHeadingSlack_rad = 0.1;
     const bool is_aligned =
         std::abs(wrap_angle(pose.yaw_rad - begin.yaw_rad)) < kHeadingSlack_rad &&
-        std::abs(cross(along, way)) < kOnTheLine_m && way.dot(along) > -kOnTheLine_m;
+        std::abs(cross(along, offset)) < kOnTheLine_m && offset.dot(along) > -kOnTheLine_m;
     if (params_.approach && is_aligned) {
-      if (way.norm() > kOnTheLine_m) {
+      if (offset.norm() > kOnTheLine_m) {
         pieces.push_back(make_straight(pose.p, begin.p, PathKind::kTransit, -1, params_.speed_mps));
       }
     } else if (params_.approach) {

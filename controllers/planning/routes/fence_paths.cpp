@@ -119,10 +119,10 @@ std::optional<std::vector<Vec>> FencePaths::find_path(const Vec& from_W, const V
       before[i] = at;
     }
   }
-  std::vector<Vec> way;
-  for (std::size_t i = before[1]; i != 0; i = before[i]) way.push_back(places[i]);
-  std::reverse(way.begin(), way.end());
-  return way;
+  std::vector<Vec> path;
+  for (std::size_t i = before[1]; i != 0; i = before[i]) path.push_back(places[i]);
+  std::reverse(path.begin(), path.end());
+  return path;
 }
 
 }  // namespace vinerow::controllers

@@ -100,12 +100,12 @@ class GoTo final : public Planner {
         find_places({start.p.head<2>(), yaw_from_quaternion(start.q)});
     PathSegments pieces;
     for (std::size_t i = 0; i + 1 < places.size(); ++i) {
-      const auto way = join(places[i], places[i + 1], static_cast<int>(i));
-      if (!way) {
+      const auto joined = join(places[i], places[i + 1], static_cast<int>(i));
+      if (!joined) {
         return Failure{fmt::format("no path from {} to {}: {}", to_string(places[i]),
-                                   to_string(places[i + 1]), way.reason())};
+                                   to_string(places[i + 1]), joined.reason())};
       }
-      pieces.insert(pieces.end(), way->begin(), way->end());
+      pieces.insert(pieces.end(), joined->begin(), joined->end());
     }
     for (PathSegment& piece : pieces) {
       piece.kind = piece.curvature_per_m == 0.0 ? PathKind::kLeg : PathKind::kTurn;
@@ -130,8 +130,8 @@ class GoTo final : public Planner {
     }
     for (std::size_t i = 1; i < places.size(); ++i) {
       const Pose2& behind = places[std::min(i + 1, places.size() - 1)];
-      const Eigen::Vector2d way = behind.p - places[i - 1].p;
-      places[i].yaw_rad = find_free_yaw(places[i].p, std::atan2(way.y(), way.x()));
+      const Eigen::Vector2d chord = behind.p - places[i - 1].p;
+      places[i].yaw_rad = find_free_yaw(places[i].p, std::atan2(chord.y(), chord.x()));
     }
     if (params_.bearing_rad) places.back().yaw_rad = 0.5 * kPi - *params_.bearing_rad;
     return places;
@@ -146,10 +146,10 @@ class GoTo final : public Planner {
       const double aside_rad = kPi * i / kSteps;
       for (const double yaw_rad : {wanted_rad + aside_rad, wanted_rad - aside_rad}) {
         constexpr double kMore_m = 0.01;
-        const double room_m = footprint_.clearance_m({p, yaw_rad});
-        if (room_m < max_m + kMore_m) continue;
+        const double candidate_m = footprint_.clearance_m({p, yaw_rad});
+        if (candidate_m < max_m + kMore_m) continue;
         best_rad = yaw_rad;
-        max_m = room_m;
+        max_m = candidate_m;
       }
     }
     return best_rad;

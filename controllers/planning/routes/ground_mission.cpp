@@ -83,7 +83,7 @@ class GroundMission final : public Planner {
 
   std::optional<std::string> go_to(const Vec& goal, double speed_mps, bool sprays, int before,
                                    int item) {
-    std::vector<Vec> way;
+    std::vector<Vec> waypoints;
     if (params_.keeps_fences && !fences_.empty()) {
       const auto found = fences_.find_path(points_.back(), goal);
       if (!found) {
@@ -94,11 +94,11 @@ class GroundMission final : public Planner {
             find_broken_fence(mission_, origin_, points_.back(), goal)
                 .value_or("the gap between them is too narrow"));
       }
-      way = *found;
-      detours_ += way.empty() ? 0 : 1;
+      waypoints = *found;
+      detours_ += waypoints.empty() ? 0 : 1;
     }
-    way.push_back(goal);
-    for (const Vec& p : way) {
+    waypoints.push_back(goal);
+    for (const Vec& p : waypoints) {
       if ((p - points_.back()).norm() < kSameSpot_m) continue;
       points_.push_back(p);
       speed_mps_.push_back(speed_mps);
@@ -111,10 +111,10 @@ class GroundMission final : public Planner {
   PathSegments join() {
     PathSegments pieces;
     if (radius_m_ > 0.0) {
-      RoundedPath way = round_corners(points_, speed_mps_, radius_m_, PathKind::kLeg);
-      report_.numbers["rounded_corners"] = way.arcs;
-      report_.numbers["loops_at_corners"] = way.loops;
-      pieces = std::move(way.pieces);
+      RoundedPath rounded = round_corners(points_, speed_mps_, radius_m_, PathKind::kLeg);
+      report_.numbers["rounded_corners"] = rounded.arcs;
+      report_.numbers["loops_at_corners"] = rounded.loops;
+      pieces = std::move(rounded.pieces);
     } else {
       for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
         pieces.push_back(

@@ -60,13 +60,13 @@ std::vector<Stretch> find_blocked(const PathSegments& pieces, const Footprint& f
 }  // namespace
 
 Result<PathSegments> drive_around(const RouteLeg& leg, const Footprint& footprint,
-                                  const RouteClearance& room, PoseSearch& search, int problem,
+                                  const RouteClearance& clearance, PoseSearch& search, int problem,
                                   const LegDetourParams& params,
                                   std::vector<SearchReport>& reports) {
   PathSegments straights;
   append_leg(leg, params.speed_mps, straights);
   const double length_m = calc_length_m(straights);
-  PathSegments way;
+  PathSegments path;
   double at_m = 0.0;
   for (const Stretch& stretch : find_blocked(straights, footprint, params.step_m)) {
     if (stretch.from_m < at_m) continue;  // already passed with the stretch before
@@ -86,7 +86,7 @@ Result<PathSegments> drive_around(const RouteLeg& leg, const Footprint& footprin
         continue;
       }
       PathSegments swerve = *outcome;
-      if (!room.is_free(swerve)) {
+      if (!clearance.is_free(swerve)) {
         reason = "the path found touches it";
         continue;
       }
@@ -109,13 +109,14 @@ Result<PathSegments> drive_around(const RouteLeg& leg, const Footprint& footprin
     }
     if (!found) {
       return Failure{fmt::format("the leg in alley {} is blocked: {}; no path around it: {}",
-                                 leg.alley, room.tell(pose_on(straights, stretch.from_m)), reason)};
+                                 leg.alley, clearance.tell(pose_on(straights, stretch.from_m)),
+                                 reason)};
     }
-    way.insert(way.end(), found->begin(), found->end());
+    path.insert(path.end(), found->begin(), found->end());
   }
   const PathSegments rest = cut(straights, at_m, length_m);
-  way.insert(way.end(), rest.begin(), rest.end());
-  return way;
+  path.insert(path.end(), rest.begin(), rest.end());
+  return path;
 }
 
 }  // namespace vinerow::controllers

@@ -21,7 +21,7 @@ struct LegDetourParams {
 /// to
 /// @returns the pieces, or the reason why a stretch cannot be passed
 Result<PathSegments> drive_around(const RouteLeg& leg, const Footprint& footprint,
-                                  const RouteClearance& room, PoseSearch& search, int problem,
+                                  const RouteClearance& clearance, PoseSearch& search, int problem,
                                   const LegDetourParams& params,
                                   std::vector<SearchReport>& reports);
 

@@ -54,8 +54,8 @@ MissionPlaces place_mission(const io::MissionFile& mission, const GeoOrigin& ori
                             const std::string& who) {
   const LocalFrame frame(origin);
   MissionPlaces result;
-  const auto& told = winged ? mission.cruise_speed_mps : mission.hover_speed_mps;
-  double speed_mps = told.value_or(0.0);
+  const auto& stated_mps = winged ? mission.cruise_speed_mps : mission.hover_speed_mps;
+  double speed_mps = stated_mps.value_or(0.0);
   result.first_speed_mps = speed_mps;
   bool camera = false, sprays = false, is_speed_given = false;
   constexpr int kSprayer = 216;

@@ -26,9 +26,10 @@ void set_mission_kinds(const std::vector<bool>& camera, bool uses_camera, Planne
   for (std::size_t i = 0; i < n; ++i) {
     PathPoint& point = points[i];
     const std::size_t from = i < end ? i : end - 1;
-    const Eigen::Vector2d way = (points[from + 1].p_W - points[from].p_W).head<2>();
+    const Eigen::Vector2d displacement = (points[from + 1].p_W - points[from].p_W).head<2>();
     const double before_rad = i > 0 ? points[i - 1].yaw_rad : 0.0;
-    point.yaw_rad = way.norm() < kSame_m ? before_rad : std::atan2(way.y(), way.x());
+    point.yaw_rad =
+        displacement.norm() < kSame_m ? before_rad : std::atan2(displacement.y(), displacement.x());
     if (point.kind == PathKind::kTurn && (i < first || i > last)) {
       point.kind = i < first ? PathKind::kTransit : PathKind::kReturn;
     }

@@ -83,18 +83,19 @@ class RoutePlanner final : public Planner {
                                              PathSegments& pieces) {
     const Pose2 entry = leg.entry();
     const Eigen::Vector2d along = direction(entry.yaw_rad);
-    const Eigen::Vector2d way = entry.p - pose.p;
-    const double ahead_m = way.dot(along);
+    const Eigen::Vector2d offset = entry.p - pose.p;
+    const double ahead_m = offset.dot(along);
     const double first_m = (leg.line_W[1] - leg.line_W[0]).norm();
     const bool is_aligned =
         std::abs(wrap_angle(pose.yaw_rad - entry.yaw_rad)) < kAlongTheLine_rad &&
-        std::abs(cross(along, way)) < kOnTheLine_m;
+        std::abs(cross(along, offset)) < kOnTheLine_m;
     if (is_aligned && std::abs(ahead_m) <= kOnTheLine_m) return std::nullopt;
     if (is_aligned && ahead_m < 0.0 && -ahead_m < first_m - kOnTheLine_m) {
       leg.line_W.front() = advance(entry, -ahead_m, 0.0).p;
       return std::nullopt;
     }
-    if (is_aligned && ahead_m > 0.0 && std::abs(cross(along, way)) < kAlongTheLine_rad * ahead_m) {
+    if (is_aligned && ahead_m > 0.0 &&
+        std::abs(cross(along, offset)) < kAlongTheLine_rad * ahead_m) {
       const PathSegment straight =
           make_straight(pose.p, entry.p, PathKind::kTransit, -1, params_.speed_mps);
       if (clearance_.is_free({straight})) {
@@ -124,13 +125,13 @@ class RoutePlanner final : public Planner {
     // Random streams separate from those of the turns, which have the numbers of the legs.
     constexpr int kFirstProblem = 1'000'000, kProblemsPerLeg = 1000;
     std::vector<SearchReport> done;
-    const auto way = drive_around(
+    const auto detour = drive_around(
         leg, footprint_, clearance_, *search_, kFirstProblem + kProblemsPerLeg * leg.alley,
         {params_.turning_radius_m, params_.check_step_m, params_.speed_mps}, done);
     for (const SearchReport& search : done) add_search(search, report_);
-    if (!way) return way.reason();
+    if (!detour) return detour.reason();
     ++report_.numbers["legs_with_detours"];
-    pieces.insert(pieces.end(), way->begin(), way->end());
+    pieces.insert(pieces.end(), detour->begin(), detour->end());
     return std::nullopt;
   }
 
@@ -197,10 +198,10 @@ class RoutePlanner final : public Planner {
   void measure(const PathSegments& pieces) {
     double min_m = std::numeric_limits<double>::infinity(), min_in_turns_m = min_m;
     for (const PathSegment& piece : pieces) {
-      const double room_m = clearance_.clearance_m(piece);
-      min_m = std::min(min_m, room_m);
+      const double piece_clearance_m = clearance_.clearance_m(piece);
+      min_m = std::min(min_m, piece_clearance_m);
       if (piece.kind != PathKind::kTurn) continue;
-      min_in_turns_m = std::min(min_in_turns_m, room_m);
+      min_in_turns_m = std::min(min_in_turns_m, piece_clearance_m);
       report_.numbers["turn_length_m"] += piece.length_m;
     }
     report_.numbers["length_m"] = calc_length_m(pieces);

@@ -89,8 +89,8 @@ std::optional<double> calc_missing_clearance_m(const Pose2& from, const Pose2& t
           const Eigen::Vector2d p = pose.p + p_B.x() * ahead + p_B.y() * left;
           // Outside the window a point is at least as far away as its edge.
           const double outside_m = beyond.covers(p) ? beyond.at(p) : kReach_m;
-          const double room_m = outside_m > 0.0 ? -outside_m : field.at(p);
-          missing_m = std::max(missing_m, margin_m - room_m);
+          const double distance_m = outside_m > 0.0 ? -outside_m : field.at(p);
+          missing_m = std::max(missing_m, margin_m - distance_m);
         }
       }
     }

@@ -139,10 +139,10 @@ class Waypoints final : public Planner {
   PathSegments lay_path() {
     const std::vector<double> speed_mps(points_.size() - 1, speed_mps_);
     if (radius_m_ > 0.0) {
-      RoundedPath way = round_corners(points_, speed_mps, radius_m_, PathKind::kLeg);
-      report_.numbers["rounded_corners"] = way.arcs;
-      report_.numbers["loops_at_corners"] = way.loops;
-      return std::move(way.pieces);
+      RoundedPath rounded = round_corners(points_, speed_mps, radius_m_, PathKind::kLeg);
+      report_.numbers["rounded_corners"] = rounded.arcs;
+      report_.numbers["loops_at_corners"] = rounded.loops;
+      return std::move(rounded.pieces);
     }
     PathSegments pieces;
     for (std::size_t i = 0; i + 1 < points_.size(); ++i) {

@@ -32,14 +32,14 @@ class BoundedNearest final : public ompl::NearestNeighbors<T> {
   T nearest(const T& query) const override {
     // The element of the smallest bound first: it leaves few others to evaluate.
     bounds_.clear();
-    std::size_t least = 0;
+    std::size_t smallest = 0;
     for (std::size_t i = 0; i < elements_.size(); ++i) {
       bounds_.push_back({bound_(elements_[i], query), i});
-      if (bounds_[i] < bounds_[least]) least = i;
+      if (bounds_[i] < bounds_[smallest]) smallest = i;
     }
-    Place best{this->distFun_(elements_[least], query), least};
+    Place best{this->distFun_(elements_[smallest], query), smallest};
     for (const Place& candidate : bounds_) {
-      if (candidate.index == least || candidate.distance > best.distance) continue;
+      if (candidate.index == smallest || candidate.distance > best.distance) continue;
       const Place place{this->distFun_(elements_[candidate.index], query), candidate.index};
       if (place < best) best = place;
     }

@@ -85,7 +85,7 @@ struct Setup {
         std::make_shared<CarObjective>(si, *problem.cost, longest_m));
   }
 
-  std::vector<Pose2> way() const {
+  std::vector<Pose2> waypoints() const {
     std::vector<Pose2> poses;
     if (!definition->hasExactSolution()) return poses;
     const auto* path = definition->getSolutionPath()->as<og::PathGeometric>();
@@ -107,7 +107,7 @@ CarTree run(Seeded<Base>& planner, const Setup& setup, std::int64_t iterations) 
   planner.solve(stop);
   CarTree tree = planner.tree();
   tree.iterations = std::min<std::int64_t>(stop.getTimesCalled(), iterations);
-  tree.way = setup.way();
+  tree.waypoints = setup.waypoints();
   return tree;
 }
 

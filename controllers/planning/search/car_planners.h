@@ -20,7 +20,7 @@ struct CarProblem {
 
 struct CarTree {
   std::vector<Pose2>
-      way;  ///< poses to join by Dubins paths, from `from` to `to`; empty: none found
+      waypoints;  ///< poses to join by Dubins paths, from `from` to `to`; empty: none found
   std::int64_t nodes = 0;
   std::int64_t iterations = 0;
   std::vector<std::pair<Pose2, Pose2>> edges;

@@ -12,12 +12,12 @@ CarSampler::CarSampler(const CarSpace* space, const CarSampling& sampling, Rando
     : StateSampler(space), car_(*space), sampling_(sampling), random_(random) {}
 
 Pose2 CarSampler::draw() {
-  const auto& way = sampling_.initial_path;
-  if (!way.empty() && random_.uniform() < sampling_.near_share) {
-    const auto at = static_cast<std::size_t>(random_.uniform() * static_cast<double>(way.size()));
+  const auto& path = sampling_.initial_path;
+  if (!path.empty() && random_.uniform() < sampling_.near_share) {
+    const auto at = static_cast<std::size_t>(random_.uniform() * static_cast<double>(path.size()));
     const double x = random_.normal(), y = random_.normal(), yaw = random_.normal();
-    return {way[at].p + sampling_.near_m * Eigen::Vector2d(x, y),
-            way[at].yaw_rad + sampling_.near_rad * yaw};
+    return {path[at].p + sampling_.near_m * Eigen::Vector2d(x, y),
+            path[at].yaw_rad + sampling_.near_rad * yaw};
   }
   const ob::RealVectorBounds& box = car_.getBounds();
   const double x = random_.uniform(box.low[0], box.high[0]);

@@ -90,7 +90,7 @@ ob::Cost CarObjective::stateCost(const ob::State*) const {
 
 ob::Cost CarObjective::motionCost(const ob::State* from, const ob::State* to) const {
   const DubinsPath path = si_->getStateSpace()->as<CarSpace>()->path_between(from, to);
-  if (path.length_m() > longest_m_) return ob::Cost(cost_.most_of(path.length_m()));
+  if (path.length_m() > longest_m_) return ob::Cost(cost_.max_of(path.length_m()));
   return ob::Cost(cost_.of(CarSpace::pose_of(from), path));
 }
 

@@ -92,9 +92,9 @@ std::vector<PathSegment> shorten_by_cost(const std::vector<PathSegment>& pieces,
                                          double check_step_m) {
   constexpr int kMaxRounds = 4;
   constexpr double kStep_m = 0.5, kGain = 1e-3;
-  std::vector<PathSegment> way = pieces;
+  std::vector<PathSegment> shortened = pieces;
   for (int round = 0; round < kMaxRounds; ++round) {
-    std::vector<Pose2> poses = sample_poses(way, kStep_m);
+    std::vector<Pose2> poses = sample_poses(shortened, kStep_m);
     bool is_shorter = false;
     for (std::size_t i = 0; i + 2 < poses.size(); ++i) {
       for (std::size_t j = poses.size() - 1; j > i + 1; --j) {
@@ -111,9 +111,9 @@ std::vector<PathSegment> shorten_by_cost(const std::vector<PathSegment>& pieces,
       }
     }
     if (!is_shorter) break;
-    way = join_poses(poses, radius_m);
+    shortened = join_poses(poses, radius_m);
   }
-  return way;
+  return shortened;
 }
 
 }  // namespace vinerow::controllers

@@ -26,7 +26,7 @@ class PathCost {
   double of(const std::vector<PathSegment>& pieces) const;
   double of(const Pose2& start, const DubinsPath& path) const;
   /// Upper bound: cost of a Dubins path of this length with zero clearance everywhere.
-  double most_of(double length_m) const {
+  double max_of(double length_m) const {
     return length_m * (1.0 + params_.clearance_weight) + 2.0 * params_.bend_m;
   }
 

@@ -14,8 +14,8 @@
 namespace vinerow::controllers {
 namespace {
 
-std::optional<std::string> find_taken(const Pose2& pose, const char* name,
-                                      const Footprint& footprint) {
+std::optional<std::string> find_collision(const Pose2& pose, const char* name,
+                                          const Footprint& footprint) {
   if (footprint.is_free(pose)) return std::nullopt;
   return fmt::format("{} in collision: {}", name, describe_clearance(pose, footprint));
 }
@@ -48,8 +48,8 @@ Result<PathSegments> RrtStarSearch::find(const Pose2& from, const Pose2& to,
                                          const Footprint& footprint, int problem,
                                          SearchReport& report) try {
   report = {};
-  if (const auto fault = find_taken(from, "start", footprint)) return Failure{*fault};
-  if (const auto fault = find_taken(to, "goal", footprint)) return Failure{*fault};
+  if (const auto fault = find_collision(from, "start", footprint)) return Failure{*fault};
+  if (const auto fault = find_collision(to, "goal", footprint)) return Failure{*fault};
 
   const PathCost cost(params_.cost, footprint);
   CarProblem car;
@@ -75,7 +75,7 @@ Result<PathSegments> RrtStarSearch::find(const Pose2& from, const Pose2& to,
     car.iterations = params_.first_iterations;
     const CarTree tree = run_rrt(car, sampling, random_of_(2 * problem));
     tell(tree, car.radius_m, report);
-    best = join_poses(tree.way, car.radius_m);
+    best = join_poses(tree.waypoints, car.radius_m);
     if (best.empty() || !is_free(best, footprint, params_.check_step_m)) {
       return Failure{
           fmt::format("no closed form fits the turning radius of {:.2f} m, and a tree of {} nodes "
@@ -84,11 +84,11 @@ Result<PathSegments> RrtStarSearch::find(const Pose2& from, const Pose2& to,
     }
   }
   report.first_length_m = calc_length_m(best);
-  const auto improve = [&](const PathSegments& way) {
+  const auto improve = [&](const PathSegments& candidate) {
     // A gain of one per cent does not justify more bends.
     constexpr double kWorthwhile = 0.99;
     const PathSegments shorter =
-        shorten_by_cost(way, car.radius_m, footprint, cost, params_.check_step_m);
+        shorten_by_cost(candidate, car.radius_m, footprint, cost, params_.check_step_m);
     if (cost.of(shorter) < kWorthwhile * cost.of(best) &&
         is_free(shorter, footprint, params_.check_step_m)) {
       best = shorter;
@@ -107,7 +107,7 @@ Result<PathSegments> RrtStarSearch::find(const Pose2& from, const Pose2& to,
   sampling.best_cost = [known] { return known; };
   const CarTree tree = run_rrt_star(car, sampling, random_of_(2 * problem + 1));
   tell(tree, car.radius_m, report);
-  if (tree.way.size() > 1) improve(join_poses(tree.way, car.radius_m));
+  if (tree.waypoints.size() > 1) improve(join_poses(tree.waypoints, car.radius_m));
   return best;
 } catch (const ompl::Exception& fault) {
   return Failure{fmt::format("OMPL failed: {}", fault.what())};

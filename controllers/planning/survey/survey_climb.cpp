@@ -51,11 +51,12 @@ bool is_high_enough(const SurveyClimb& climb) {
 }
 
 SurveyRoute add_laps(const SurveyRequest& request, const Pose& start_W, const SurveyRoute& route,
-                     double way_m, bool to_left) {
+                     double min_length_m, bool to_left) {
   const double radius_m = calc_turn_radius_m(request), yaw_rad = yaw_from_quaternion(start_W.q);
   const std::size_t first = route.first_lane_point;
   const Vector2d to_W = route.points[first].p_W, start = start_W.p.head<2>();
-  std::vector<Vector2d> corners = make_climb_laps(start, yaw_rad, to_W, way_m, radius_m, to_left);
+  std::vector<Vector2d> corners =
+      make_climb_laps(start, yaw_rad, to_W, min_length_m, radius_m, to_left);
   // The path leaves the last lap at its last corner, heading back.
   const Vector2d along_W = (route.points[first + 1].p_W - to_W).normalized();
   const std::vector<Vector2d> approach =
@@ -85,11 +86,11 @@ Result<SurveyClimb> climb_to_first_lane(const SurveyRequest& request, const Pose
     const double there_m = heights_m[best.profile.at_point(route.first_lane_point)];
     // A little more than needed, because of the terrain on the path to the first lane.
     constexpr double kMore = 1.01, kMore_m = 5.0;
-    const double way_m = kMore * std::abs(there_m - start_m) / request.max_slope + kMore_m;
+    const double min_length_m = kMore * std::abs(there_m - start_m) / request.max_slope + kMore_m;
     best.clearance_m = -std::numeric_limits<double>::infinity();
     for (const bool to_left : {true, false}) {
-      auto climb =
-          try_climb(request, start_m, add_laps(request, start_W, route, way_m, to_left), ground);
+      auto climb = try_climb(request, start_m,
+                             add_laps(request, start_W, route, min_length_m, to_left), ground);
       if (!climb) return climb;
       if (climb->clearance_m > best.clearance_m) best = std::move(climb).value();
     }
@@ -124,14 +125,14 @@ std::optional<std::string> find_corner_outside(const Polygon& polygon, const Gro
         fmt::format("point {} of the polygon at ({:.1f}, {:.1f})", i + 1, p.x(), p.y());
     // Find the start of the terrain on the line to the polygon's centre.
     constexpr int kSteps = 2000;
-    const Vector2d way = middle - p;
+    const Vector2d to_centre = middle - p;
     for (int k = 1; k <= kSteps; ++k) {
       const double share = static_cast<double>(k) / kSteps;
-      if (!ground(p + share * way)) continue;
+      if (!ground(p + share * to_centre)) continue;
       return fmt::format(
           "{} is outside the terrain, which starts {:.1f} m from there towards the polygon's "
           "centre",
-          point, share * way.norm());
+          point, share * to_centre.norm());
     }
     return fmt::format(
         "{} is outside the terrain, and so is the line to the polygon's centre at ({:.1f}, {:.1f})",

@@ -54,8 +54,8 @@ SurveyForecast forecast_survey(const SurveyRequest& request, const std::vector<S
   for (const SurveyShot& shot : shots) {
     const Vector2d forward = direction(shot.yaw_rad);
     const double reach_m = std::hypot(across, along) * std::max(0.0, shot.p_W.z() - lowest_m);
-    const auto cell_of = [&](double way_m, int count) {
-      return std::clamp(static_cast<int>(std::floor(way_m / cell_m)), 0, count - 1);
+    const auto cell_of = [&](double offset_m, int count) {
+      return std::clamp(static_cast<int>(std::floor(offset_m / cell_m)), 0, count - 1);
     };
     const int i1 = cell_of(shot.p_W.x() + reach_m - low.x(), columns);
     const int j1 = cell_of(shot.p_W.y() + reach_m - low.y(), rows);
@@ -63,10 +63,10 @@ SurveyForecast forecast_survey(const SurveyRequest& request, const std::vector<S
       for (int i = cell_of(shot.p_W.x() - reach_m - low.x(), columns); i <= i1; ++i) {
         Place& place = places[static_cast<std::size_t>(j) * columns + i];
         if (place.views < 0) continue;
-        const Vector2d way = place_at(i, j) - shot.p_W.head<2>();
+        const Vector2d offset = place_at(i, j) - shot.p_W.head<2>();
         const double above_m = shot.p_W.z() - place.ground_m;
-        place.views += std::abs(way.dot(forward)) <= along * above_m &&
-                       std::abs(cross(forward, way)) <= across * above_m;
+        place.views += std::abs(offset.dot(forward)) <= along * above_m &&
+                       std::abs(cross(forward, offset)) <= across * above_m;
       }
     }
   }

@@ -44,18 +44,18 @@ void split_piece(const std::vector<GroundProfile::Sample>& samples,
     // Slopes of ramps from i that miss none of the samples between by more than allowed.
     double low = -std::numeric_limits<double>::infinity(), high = -low;
     for (int j = i + 1; j < count; ++j) {
-      const double way_m = samples[first + j].distance_m - samples[first + i].distance_m;
+      const double run_m = samples[first + j].distance_m - samples[first + i].distance_m;
       const double rise_m = wanted_m[first + j] - wanted_m[first + i];
-      const double slope = rise_m / way_m;
-      const double squares_m2 = best[i].squares_m2 + way_m * way_m;
+      const double slope = rise_m / run_m;
+      const double squares_m2 = best[i].squares_m2 + run_m * run_m;
       const int ramps = best[i].ramps + 1;
       if (slope >= low && slope <= high &&
           (ramps < best[j].ramps ||
            (ramps == best[j].ramps && squares_m2 < best[j].squares_m2 - kSameSquares_m2))) {
         best[j] = {ramps, squares_m2, i};
       }
-      low = std::max(low, (rise_m - error_m) / way_m);
-      high = std::min(high, (rise_m + error_m) / way_m);
+      low = std::max(low, (rise_m - error_m) / run_m);
+      high = std::min(high, (rise_m + error_m) / run_m);
       if (low > high) break;
     }
   }
@@ -79,12 +79,13 @@ Result<GroundProfile> GroundProfile::make(const std::vector<Eigen::Vector2d>& li
   add(line.front(), 0.0);
   profile.at_point_.push_back(0);
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-    const Eigen::Vector2d way = line[i + 1] - line[i];
-    const double length_m = way.norm(), step_m = std::max(kSurveyStep_m, length_m / kMaxSamples);
+    const Eigen::Vector2d displacement = line[i + 1] - line[i];
+    const double length_m = displacement.norm(),
+                 step_m = std::max(kSurveyStep_m, length_m / kMaxSamples);
     const int count = std::max(1, static_cast<int>(std::ceil(length_m / step_m - kCountRounding)));
     for (int k = 1; k <= count; ++k) {
       const double share = static_cast<double>(k) / count;
-      add(line[i] + share * way, distance_m + share * length_m);
+      add(line[i] + share * displacement, distance_m + share * length_m);
     }
     distance_m += length_m;
     profile.at_point_.push_back(static_cast<int>(profile.samples_.size()) - 1);
@@ -116,12 +117,12 @@ std::vector<double> make_wanted_heights(const GroundProfile& profile, double abo
   const std::size_t n = samples.size();
   // Raise what falls too steeply (forwards), then what rises too steeply (backwards).
   for (std::size_t i = 1; i < n; ++i) {
-    const double way_m = samples[i].distance_m - samples[i - 1].distance_m;
-    wanted_m[i] = std::max(wanted_m[i], wanted_m[i - 1] - max_slope * way_m);
+    const double run_m = samples[i].distance_m - samples[i - 1].distance_m;
+    wanted_m[i] = std::max(wanted_m[i], wanted_m[i - 1] - max_slope * run_m);
   }
   for (std::size_t i = n - 1; i-- > 0;) {
-    const double way_m = samples[i + 1].distance_m - samples[i].distance_m;
-    wanted_m[i] = std::max(wanted_m[i], wanted_m[i + 1] - max_slope * way_m);
+    const double run_m = samples[i + 1].distance_m - samples[i].distance_m;
+    wanted_m[i] = std::max(wanted_m[i], wanted_m[i + 1] - max_slope * run_m);
   }
   return wanted_m;
 }

@@ -57,8 +57,8 @@ double calc_exit_distance_m(const OrderTask& task, int lane, bool up) {
 
 void keep_better(const OrderTask& task, const std::vector<int>& lanes, LaneOrder& best) {
   for (const bool up : {true, false}) {
-    const double way_m = calc_extra_distance_m(task, lanes, up);
-    if (way_m < best.extra_distance_m - kLess_m) best = {lanes, up, way_m};
+    const double distance_m = calc_extra_distance_m(task, lanes, up);
+    if (distance_m < best.extra_distance_m - kLess_m) best = {lanes, up, distance_m};
   }
 }
 
@@ -149,12 +149,12 @@ double calc_turn_length_m(const LaneEnds& a, const LaneEnds& b, bool at_high,
 
 double calc_extra_distance_m(const OrderTask& task, const std::vector<int>& lanes, bool starts_up) {
   bool up = starts_up;
-  double way_m = calc_entry_distance_m(task, lanes.front(), up);
+  double distance_m = calc_entry_distance_m(task, lanes.front(), up);
   for (std::size_t i = 0; i + 1 < lanes.size(); ++i, up = !up) {
-    way_m +=
+    distance_m +=
         calc_turn_length_m(task.lanes[lanes[i]], task.lanes[lanes[i + 1]], up, task.turn_radius_m);
   }
-  return way_m + calc_exit_distance_m(task, lanes.back(), up);
+  return distance_m + calc_exit_distance_m(task, lanes.back(), up);
 }
 
 LaneOrder order_lanes_exactly(const OrderTask& task) {
@@ -164,23 +164,24 @@ LaneOrder order_lanes_exactly(const OrderTask& task) {
   LaneOrder best = no_order();
   for (const bool starts_up : {true, false}) {
     // W(set, last) at [set * n + last], and the lane before `last`.
-    std::vector<double> way_m(sets * n, kInfinity);
+    std::vector<double> distance_m(sets * n, kInfinity);
     std::vector<std::int8_t> before(sets * n, -1);
     for (int i = 0; i < n; ++i) {
-      way_m[(std::size_t{1} << i) * n + i] = calc_entry_distance_m(task, i, starts_up);
+      distance_m[(std::size_t{1} << i) * n + i] = calc_entry_distance_m(task, i, starts_up);
     }
     for (std::size_t set = 1; set < sets; ++set) {
       const bool up = starts_up == (__builtin_popcountll(set) % 2 == 1);
       for (int last = 0; last < n; ++last) {
-        const double so_far_m = way_m[set * n + last];
+        const double so_far_m = distance_m[set * n + last];
         if (so_far_m == kInfinity) continue;
         for (int next = 0; next < n; ++next) {
           if (set >> next & 1) continue;
-          const double way = so_far_m + calc_turn_length_m(task.lanes[last], task.lanes[next], up,
-                                                           task.turn_radius_m);
+          const double candidate_m =
+              so_far_m +
+              calc_turn_length_m(task.lanes[last], task.lanes[next], up, task.turn_radius_m);
           const std::size_t at = (set | std::size_t{1} << next) * n + next;
-          if (way < way_m[at] - kLess_m) {
-            way_m[at] = way;
+          if (candidate_m < distance_m[at] - kLess_m) {
+            distance_m[at] = candidate_m;
             before[at] = static_cast<std::int8_t>(last);
           }
         }
@@ -189,9 +190,10 @@ LaneOrder order_lanes_exactly(const OrderTask& task) {
     // Add the distance home, then follow the lanes back from the best end.
     const bool ends_up = starts_up == (n % 2 == 1);
     for (int last = 0; last < n; ++last) {
-      const double way = way_m[(sets - 1) * n + last] + calc_exit_distance_m(task, last, ends_up);
-      if (way >= best.extra_distance_m - kLess_m) continue;
-      best = {{}, starts_up, way};
+      const double candidate_m =
+          distance_m[(sets - 1) * n + last] + calc_exit_distance_m(task, last, ends_up);
+      if (candidate_m >= best.extra_distance_m - kLess_m) continue;
+      best = {{}, starts_up, candidate_m};
       std::size_t set = sets - 1;
       for (int lane = last; lane >= 0;) {
         best.lanes.push_back(lane);

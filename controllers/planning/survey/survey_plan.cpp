@@ -193,10 +193,10 @@ class SurveyPlanner {
     for (std::size_t k = 0; k < split.size(); ++k) {
       const int at = split[k];
       while (leg + 2 < route_.points.size() && at >= profile_->at_point(leg + 1)) ++leg;
-      const Vector2d way = route_.points[leg + 1].p_W - route_.points[leg].p_W;
+      const Vector2d displacement = route_.points[leg + 1].p_W - route_.points[leg].p_W;
       PathPoint point;
       point.p_W << samples[at].p_W, wanted_m_[at];
-      point.yaw_rad = std::atan2(way.y(), way.x());
+      point.yaw_rad = std::atan2(displacement.y(), displacement.x());
       point.speed_mps = request_.speed_mps;
       point.kind = route_.points[leg].kind;
       point.alley = route_.points[leg].lane;
@@ -214,7 +214,7 @@ class SurveyPlanner {
       lengths_m[point.kind] += length_m;
       plan_.path.length_m += std::hypot(length_m, rise_m);
       const auto speed_mps =
-          calc_ground_speed_mps(request_.speed_mps, request_.wind_W, way.normalized());
+          calc_ground_speed_mps(request_.speed_mps, request_.wind_W, displacement.normalized());
       time_s += length_m / speed_mps.value_or(request_.speed_mps);
       if (samples[at].distance_m >= climb_m_) slope = std::max(slope, std::abs(rise_m / length_m));
     }
@@ -263,8 +263,9 @@ class SurveyPlanner {
     const auto& samples = profile_->samples();
     for (std::size_t leg = 0; leg + 1 < route_.points.size(); ++leg) {
       if (route_.points[leg].kind != PathKind::kLeg) continue;
-      const Vector2d from = route_.points[leg].p_W, way = route_.points[leg + 1].p_W - from;
-      const int count = static_cast<int>(std::lround(way.norm() / plan_.photo_distance_m));
+      const Vector2d from = route_.points[leg].p_W,
+                     displacement = route_.points[leg + 1].p_W - from;
+      const int count = static_cast<int>(std::lround(displacement.norm() / plan_.photo_distance_m));
       int i = profile_->at_point(leg);
       const double start_m = samples[i].distance_m;
       for (int k = 0; k <= count; ++k) {
@@ -275,9 +276,9 @@ class SurveyPlanner {
             0.0, 1.0);
         const auto mix = [&](double a, double b) { return a + share * (b - a); };
         SurveyShot shot;
-        shot.p_W << from + k * plan_.photo_distance_m * way.normalized(),
+        shot.p_W << from + k * plan_.photo_distance_m * displacement.normalized(),
             mix(ramp_m_[i], ramp_m_[i + 1]);
-        shot.yaw_rad = std::atan2(way.y(), way.x());
+        shot.yaw_rad = std::atan2(displacement.y(), displacement.x());
         shot.height_m = shot.p_W.z() - mix(samples[i].ground_m, samples[i + 1].ground_m);
         shot.lane = route_.points[leg].lane;
         plan_.shots.push_back(shot);

@@ -16,15 +16,15 @@ double calc_misfit_m(const std::vector<Vector2d>& line, double turn_radius_m) {
   constexpr double kSharpest_rad = 2.6;  // beyond, the tangents become too long
   double misfit_m = 0.0, before_m = 0.0;
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-    const Vector2d way = line[i + 1] - line[i];
+    const Vector2d displacement = line[i + 1] - line[i];
     double after_m = 0.0;
     if (i + 2 < line.size()) {
       const Vector2d next = line[i + 2] - line[i + 1];
-      const double angle = std::abs(std::atan2(cross(way, next), way.dot(next)));
+      const double angle = std::abs(std::atan2(cross(displacement, next), displacement.dot(next)));
       after_m = turn_radius_m * std::tan(0.5 * std::min(angle, kSharpest_rad));
       misfit_m += 20.0 * turn_radius_m * std::max(0.0, angle - kSharpest_rad);
     }
-    misfit_m += std::max(0.0, before_m + after_m - way.norm());
+    misfit_m += std::max(0.0, before_m + after_m - displacement.norm());
     before_m = after_m;
   }
   return misfit_m;
@@ -144,23 +144,23 @@ std::vector<Vector2d> find_approach(const Vector2d& from_W,
   const double level_m = std::abs((from_W - to_W).dot(aside_W));
   for (const double b : {2.0 * turn_radius_m, 3.0 * turn_radius_m, 5.0 * turn_radius_m, level_m}) {
     for (const double side : {1.0, -1.0}) {
-      const Vector2d beside = to_W + side * b * aside_W;
-      paths.push_back({beside});
+      const Vector2d abeam_W = to_W + side * b * aside_W;
+      paths.push_back({abeam_W});
       for (const double a : {2.0 * turn_radius_m, 4.0 * turn_radius_m}) {
-        paths.push_back({Vector2d(beside - a * along_W)});
-        paths.push_back({Vector2d(beside + a * along_W), beside});  // along the lane, and back
-        paths.push_back({Vector2d(beside - a * along_W), Vector2d(to_W - a * along_W)});
+        paths.push_back({Vector2d(abeam_W - a * along_W)});
+        paths.push_back({Vector2d(abeam_W + a * along_W), abeam_W});  // along the lane, and back
+        paths.push_back({Vector2d(abeam_W - a * along_W), Vector2d(to_W - a * along_W)});
       }
     }
   }
   constexpr double kOn_m = 1e3;  // the lane is long enough for its turn
   double best_m = std::numeric_limits<double>::infinity();
   std::vector<Vector2d> best;
-  for (const std::vector<Vector2d>& way : paths) {
+  for (const std::vector<Vector2d>& candidate : paths) {
     std::vector<Vector2d> line;
     if (heading_W) line.push_back(from_W - kOn_m * *heading_W);
     line.push_back(from_W);
-    line.insert(line.end(), way.begin(), way.end());
+    line.insert(line.end(), candidate.begin(), candidate.end());
     line.push_back(to_W);
     line.push_back(to_W + kOn_m * along_W);
     double length_m = 0.0;
@@ -169,26 +169,26 @@ std::vector<Vector2d> find_approach(const Vector2d& from_W,
     const double worth_m = length_m + kMisfit * calc_misfit_m(line, turn_radius_m);
     if (worth_m >= best_m - 1e-6) continue;
     best_m = worth_m;
-    best = way;
+    best = candidate;
   }
   return best;
 }
 
 std::vector<Vector2d> make_climb_laps(const Vector2d& start_W, double yaw_rad,
-                                      const Vector2d& target_W, double way_m, double turn_radius_m,
-                                      bool to_left) {
+                                      const Vector2d& target_W, double min_length_m,
+                                      double turn_radius_m, bool to_left) {
   constexpr double kLongest_m = 400.0;  // of a lap's long side
   const Vector2d ahead = direction(yaw_rad);
   const Vector2d aside = (to_left ? 1.0 : -1.0) * left_of(ahead);
   const double wide_m = 2.5 * turn_radius_m, shortest_m = 3.0 * turn_radius_m;
-  const double extra_m = std::max(0.0, way_m - (target_W - start_W).norm());
+  const double extra_m = std::max(0.0, min_length_m - (target_W - start_W).norm());
   const int laps =
       std::max(1, static_cast<int>(std::ceil(extra_m / (2.0 * (kLongest_m + wide_m)))));
   std::vector<Vector2d> corners;
   double length_m = 0.0;
   constexpr double kLonger = 1.05;
   // The last lap turns to the target at its third corner, so its length is not known in advance.
-  for (double side_m = std::max(shortest_m, 0.5 * extra_m / laps - wide_m); length_m < way_m;
+  for (double side_m = std::max(shortest_m, 0.5 * extra_m / laps - wide_m); length_m < min_length_m;
        side_m *= kLonger) {
     corners.clear();
     for (int lap = 0; lap < laps; ++lap) {

@@ -44,10 +44,10 @@ std::vector<Eigen::Vector2d> find_approach(const Eigen::Vector2d& from_W,
                                            const Eigen::Vector2d& to_W,
                                            const Eigen::Vector2d& along_W, double turn_radius_m);
 
-/// Corners of laps near the start that make the path to `target` at least `way_m` long: first
-/// straight ahead along `yaw_rad`, then round to the left or right.
+/// Corners of laps near the start that make the path to `target` at least `min_length_m` long:
+/// first straight ahead along `yaw_rad`, then round to the left or right.
 std::vector<Eigen::Vector2d> make_climb_laps(const Eigen::Vector2d& start_W, double yaw_rad,
-                                             const Eigen::Vector2d& target_W, double way_m,
+                                             const Eigen::Vector2d& target_W, double min_length_m,
                                              double turn_radius_m, bool to_left);
 
 }  // namespace vinerow::controllers

@@ -14,11 +14,11 @@ namespace vinerow {
 
 /// Symmetric matrix from its diagonal and the elements above it (xy, xz, yz).
 inline Eigen::Matrix3d symmetric_matrix(const Eigen::Vector3d& diagonal,
-                                        const Eigen::Vector3d& beside) {
+                                        const Eigen::Vector3d& off_diagonal) {
   Eigen::Matrix3d m = diagonal.asDiagonal();
-  m(0, 1) = m(1, 0) = beside.x();
-  m(0, 2) = m(2, 0) = beside.y();
-  m(1, 2) = m(2, 1) = beside.z();
+  m(0, 1) = m(1, 0) = off_diagonal.x();
+  m(0, 2) = m(2, 0) = off_diagonal.y();
+  m(1, 2) = m(2, 1) = off_diagonal.z();
   return m;
 }
 

@@ -163,10 +163,10 @@ LasHeader read_las_header(BlockFile& file) {
   // LASzip marks compressed points by the highest bits of the format.
   if (head[104] & 0xc0) fail_compressed(file);
   header.point_format = head[104];
-  const int most = header.minor == 2 ? 3 : header.minor == 3 ? 5 : 10;
-  if (header.point_format > most) {
+  const int max_format = header.minor == 2 ? 3 : header.minor == 3 ? 5 : 10;
+  if (header.point_format > max_format) {
     file.fail(fmt::format("has points of format {}, LAS 1.{} has 0 to {}", header.point_format,
-                          header.minor, most));
+                          header.minor, max_format));
   }
   header.record_bytes = load<std::uint16_t>(head + 105);
   if (header.record_bytes < las_point_bytes(header.point_format)) {

@@ -79,9 +79,9 @@ void read_pcd_fields(const BlockFile& file, const Lines& lines, PcdHeader& heade
   const std::vector<std::string>& names = demand(file, lines, "FIELDS");
   const std::vector<std::string>& sizes = demand(file, lines, "SIZE");
   const std::vector<std::string>& types = demand(file, lines, "TYPE");
-  const auto told = lines.find("COUNT");
+  const auto entry = lines.find("COUNT");
   const std::vector<std::string> counts =
-      told == lines.end() ? std::vector<std::string>(names.size(), "1") : told->second;
+      entry == lines.end() ? std::vector<std::string>(names.size(), "1") : entry->second;
   const auto check = [&](const char* key, std::size_t words) {
     if (words != names.size()) {
       file.fail(fmt::format("has {} FIELDS but {} words after {}", names.size(), words, key));
@@ -117,9 +117,9 @@ void read_pcd_count(const BlockFile& file, const Lines& lines, PcdHeader& header
     file.fail(fmt::format("has WIDTH {} and HEIGHT {}, must be at most {}", width, height, kMax));
   }
   header.points = width * height;
-  const auto told = lines.find("POINTS");
-  if (told == lines.end() || told->second.empty()) return;
-  const std::uint64_t points = number(file, "POINTS", told->second.front());
+  const auto entry = lines.find("POINTS");
+  if (entry == lines.end() || entry->second.empty()) return;
+  const std::uint64_t points = number(file, "POINTS", entry->second.front());
   if (points != header.points) {
     file.fail(fmt::format("has POINTS {}, but WIDTH {} and HEIGHT {}", points, width, height));
   }

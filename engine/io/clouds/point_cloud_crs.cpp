@@ -112,10 +112,10 @@ void CloudFrame::to_local(std::span<CloudPoint> points) const {
 }
 
 bool looks_like_degrees(const Eigen::AlignedBox3d& bounds) {
-  const Eigen::Vector3d most = bounds.min().cwiseAbs().cwiseMax(bounds.max().cwiseAbs());
+  const Eigen::Vector3d max_abs = bounds.min().cwiseAbs().cwiseMax(bounds.max().cwiseAbs());
   const Eigen::Vector3d size = bounds.sizes();
   const double width = std::max(size.x(), size.y());
-  return most.x() <= 180.0 && most.y() <= 90.0 && width > 0.0 && size.z() >= 20.0 * width;
+  return max_abs.x() <= 180.0 && max_abs.y() <= 90.0 && width > 0.0 && size.z() >= 20.0 * width;
 }
 
 void check_cloud_unit(const std::filesystem::path& file, const std::string& crs,

@@ -195,12 +195,12 @@ class PlyReader : public PointCloudReader {
   std::uint8_t colour(Role role) const {
     const auto k = static_cast<std::size_t>(role);
     const Scalar type = types_[k];
-    const double most = is_real(type) ? 1.0 : size_of(type) == 2 ? 65535.0 : 255.0;
-    if (!(values_[k] >= 0.0 && values_[k] <= most)) {
-      file_.fail(
-          fmt::format("has a colour of {} at point {}, must be 0 to {}", values_[k], at_, most));
+    const double max_value = is_real(type) ? 1.0 : size_of(type) == 2 ? 65535.0 : 255.0;
+    if (!(values_[k] >= 0.0 && values_[k] <= max_value)) {
+      file_.fail(fmt::format("has a colour of {} at point {}, must be 0 to {}", values_[k], at_,
+                             max_value));
     }
-    return static_cast<std::uint8_t>(std::lround(values_[k] * (255.0 / most)));
+    return static_cast<std::uint8_t>(std::lround(values_[k] * (255.0 / max_value)));
   }
   /// Only numbers from 0 to 255 are LAS classes; others are ignored.
   std::optional<std::uint8_t> classification() const {

@@ -144,10 +144,10 @@ void write_geopackage(const std::vector<GisLayer>& layers, const std::string& cr
     const OGRwkbGeometryType type = layer.kind == GeometryKind::kPoint        ? wkbPoint25D
                                     : layer.kind == GeometryKind::kLineString ? wkbLineString25D
                                                                               : wkbPolygon25D;
-    OGRLayer* made =
+    OGRLayer* created =
         dataset->CreateLayer(layer.name.c_str(), crs_text.empty() ? nullptr : &crs, type, nullptr);
-    if (made == nullptr) fail_gis(file, "cannot be written");
-    add_features(layer, file, *made);
+    if (created == nullptr) fail_gis(file, "cannot be written");
+    add_features(layer, file, *created);
   }
   CPLErrorReset();
   dataset.reset();

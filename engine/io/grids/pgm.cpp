@@ -52,7 +52,7 @@ class PgmReader {
   }
 
   /// The next whole number, after white space and comments (# to the end of the line).
-  std::int64_t number(const char* what, std::int64_t least, std::int64_t most) {
+  std::int64_t number(const char* what, std::int64_t min_value, std::int64_t max_value) {
     skip_blanks();
     if (at_ >= bytes_.size()) fail(fmt::format("ends before its {}", what));
     const std::size_t begin = at_;
@@ -64,8 +64,8 @@ class PgmReader {
       fail(fmt::format("has no whole number as its {}, but {}", what,
                        readable(bytes_.substr(begin, 8))));
     }
-    if (value < least || value > most) {
-      fail(fmt::format("has {} = {}, must be {} to {}", what, value, least, most));
+    if (value < min_value || value > max_value) {
+      fail(fmt::format("has {} = {}, must be {} to {}", what, value, min_value, max_value));
     }
     return value;
   }

@@ -13,7 +13,7 @@
 namespace vinerow::io {
 namespace {
 
-constexpr std::uint16_t kFreePixel = 254, kTakenPixel = 0;
+constexpr std::uint16_t kFreePixel = 254, kOccupiedPixel = 0;
 
 double number_of(const YamlNode& node, const std::string& key) {
   if (node.is_scalar()) {
@@ -88,12 +88,12 @@ RosMap load_ros_map(const std::filesystem::path& yaml_file) {
   }
   grid.corner_W = read_origin(require_key(map, "origin", yaml_file));
   const bool negate = read_negate(map);
-  const double taken_above = threshold(map, "occupied_thresh", yaml_file);
+  const double occupied_above = threshold(map, "occupied_thresh", yaml_file);
   const double free_below = threshold(map, "free_thresh", yaml_file);
-  if (free_below > taken_above) {
+  if (free_below > occupied_above) {
     throw ConfigError(
         fmt::format("ROS map '{}': free_thresh = {} must not be above occupied_thresh = {}",
-                    yaml_file.string(), free_below, taken_above));
+                    yaml_file.string(), free_below, occupied_above));
   }
   if (const YamlNode* mode = map.find("mode"); mode && mode->text != "trinary") {
     fail_at(mode->mark, fmt::format("mode = {}, must be 'trinary'", shown(*mode)));
@@ -116,8 +116,8 @@ RosMap load_ros_map(const std::filesystem::path& yaml_file) {
     for (int i = 0; i < grid.columns; ++i) {
       const int value = image.values[from + i];
       const double p = (negate ? value : image.maximum - value) / double(image.maximum);
-      const bool free = p<free_below, taken = p> taken_above;
-      unknown += !free && !taken;
+      const bool free = p<free_below, occupied = p> occupied_above;
+      unknown += !free && !occupied;
       grid.cells[static_cast<std::size_t>(j) * grid.columns + i] = free ? 0 : 1;
     }
   }
@@ -137,7 +137,7 @@ void save_ros_map(const OccupancyGrid& grid, const std::filesystem::path& yaml_f
   image.values.reserve(grid.cells.size());
   for (int j = grid.rows - 1; j >= 0; --j) {
     for (int i = 0; i < grid.columns; ++i) {
-      image.values.push_back(grid.occupied(i, j) ? kTakenPixel : kFreePixel);
+      image.values.push_back(grid.occupied(i, j) ? kOccupiedPixel : kFreePixel);
     }
   }
   std::filesystem::path picture = yaml_file;

@@ -146,15 +146,15 @@ class ColladaCheck {
     return text ? parse_count(text).value_or(otherwise) : otherwise;
   }
 
-  void check_number(const tinyxml2::XMLElement& element, const char* key, std::uint64_t most,
+  void check_number(const tinyxml2::XMLElement& element, const char* key, std::uint64_t max_value,
                     const char* why) const {
     const char* text = element.Attribute(key);
     if (text == nullptr) return;
     const auto number = parse_count(text);
-    if (number && *number <= most) return;
+    if (number && *number <= max_value) return;
     fail(fmt::format("{} = '{}' of <{}> in line {}, must be a whole number up to {}{}", key,
-                     std::string(text).substr(0, 40), element.Name(), element.GetLineNum(), most,
-                     why));
+                     std::string(text).substr(0, 40), element.Name(), element.GetLineNum(),
+                     max_value, why));
   }
 
   /// Number of nodes in this subtree, including this node and all instanced nodes.

@@ -228,14 +228,14 @@ class PlyMeshReader {
       }
     }
     TriangleMesh& mesh = result_.mesh;
-    const std::size_t most = rows_.max_rows();
-    if (most > kMaxVertices) {
+    const std::size_t max_vertices = rows_.max_rows();
+    if (max_vertices > kMaxVertices) {
       rows_.file.fail(fmt::format("has more than {} vertices", kMaxVertices));
     }
-    mesh.vertices.reserve(most);
-    if (normal) mesh.normals.reserve(most);
-    if (uv) mesh.uvs.reserve(most);
-    if (rgb) mesh.colours.reserve(most);
+    mesh.vertices.reserve(max_vertices);
+    if (normal) mesh.normals.reserve(max_vertices);
+    if (uv) mesh.uvs.reserve(max_vertices);
+    if (rgb) mesh.colours.reserve(max_vertices);
     const auto vector_at = [&](const std::array<std::size_t, 3>& at) {
       const std::vector<double>& n = rows_.numbers;
       return Eigen::Vector3d(n[at[0]], n[at[1]], n[at[2]]);

@@ -151,7 +151,7 @@ MissionFile read_gis_mission(const std::filesystem::path& file) {
     throw ConfigError(fmt::format("mission '{}' has neither lines nor points", file.string()));
   }
   sort_points(file, points);
-  for (const GeoFeature& way : lines.empty() ? points : lines) route.add_path(way);
+  for (const GeoFeature& feature : lines.empty() ? points : lines) route.add_path(feature);
   MissionFile mission = route.take();
   mission.format = "lines and points of a map";
   return mission;

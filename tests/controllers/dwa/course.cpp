@@ -36,12 +36,12 @@ bool has_separating_edge(const Polygon& a, const Polygon& b) {
   return false;
 }
 
-double least_distance(const Polygon& outline, const std::vector<Polygon>& obstacles) {
-  double least = 1e9;
+double min_distance(const Polygon& outline, const std::vector<Polygon>& obstacles) {
+  double min_m = 1e9;
   for (const Polygon& obstacle : obstacles) {
-    least = std::min(least, distance_between(outline, obstacle));
+    min_m = std::min(min_m, distance_between(outline, obstacle));
   }
-  return least;
+  return min_m;
 }
 
 /// Where a ray meets an edge, or infinity.
@@ -105,10 +105,10 @@ struct Roller {
       return;
     }
     is_following = false;
-    const double most = kSteerRate_radps * kStep_s;
+    const double max_step_rad = kSteerRate_radps * kStep_s;
     if (command.mode == LocalCommand::Mode::kDrive) {
-      front_rad += std::clamp(command.front_axle_rad - front_rad, -most, most);
-      rear_rad += std::clamp(command.rear_axle_rad - rear_rad, -most, most);
+      front_rad += std::clamp(command.front_axle_rad - front_rad, -max_step_rad, max_step_rad);
+      rear_rad += std::clamp(command.rear_axle_rad - rear_rad, -max_step_rad, max_step_rad);
     }
     // Rolling about the instantaneous centre: the axles' velocities point along their wheels.
     const double k = (std::tan(front_rad) - std::tan(rear_rad)) / 1.5;
@@ -163,14 +163,14 @@ Polygon place(const Polygon& polygon_B, const controllers::Pose2& pose) {
 
 double distance_between(const Polygon& a, const Polygon& b) {
   if (!has_separating_edge(a, b) && !has_separating_edge(b, a)) return 0.0;
-  double least = 1e9;
+  double min_m = 1e9;
   for (std::size_t i = 0; i < a.size(); ++i) {
     for (std::size_t k = 0; k < b.size(); ++k) {
-      least = std::min(least, point_to_edge(a[i], b[k], b[(k + 1) % b.size()]));
-      least = std::min(least, point_to_edge(b[k], a[i], a[(i + 1) % a.size()]));
+      min_m = std::min(min_m, point_to_edge(a[i], b[k], b[(k + 1) % b.size()]));
+      min_m = std::min(min_m, point_to_edge(b[k], a[i], a[(i + 1) % a.size()]));
     }
   }
-  return least;
+  return min_m;
 }
 
 VehicleDescription make_four_wheel_rover() {
@@ -248,16 +248,16 @@ RowMap make_map(const Course& course) {
     for (int i = 0; i < grid.columns; ++i) {
       const Eigen::Vector2d centre =
           grid.corner_W + course.cell_m * Eigen::Vector2d(i + 0.5, j + 0.5);
-      bool taken = false;
+      bool occupied = false;
       for (const Polygon& polygon : course.known) {
         bool inside = true;
         for (std::size_t k = 0; k < polygon.size(); ++k) {
           const Eigen::Vector2d a = polygon[k], b = polygon[(k + 1) % polygon.size()];
           inside = inside && cross(b - a, centre - a) >= 0.0;
         }
-        taken = taken || inside;
+        occupied = occupied || inside;
       }
-      grid.cells.push_back(taken ? 1 : 0);
+      grid.cells.push_back(occupied ? 1 : 0);
     }
   }
   return map;
@@ -285,10 +285,9 @@ Drive drive(const Course& course) {
     plant.step(loop.read<LocalCommand>("local_command"), path);
     if (plant.v_mps < 0.0 && before >= 0.0) ++result.reversals;
     const Polygon outline = place(loop.description().footprint_B, plant.pose);
-    result.least_known_m = std::min(result.least_known_m, least_distance(outline, course.known));
+    result.min_known_m = std::min(result.min_known_m, min_distance(outline, course.known));
     if (with_unknown) {
-      result.least_unknown_m =
-          std::min(result.least_unknown_m, least_distance(outline, course.unknown));
+      result.min_unknown_m = std::min(result.min_unknown_m, min_distance(outline, course.unknown));
     }
   };
   loop.set_plant([&] { return plant.truth(); }, move);

@@ -57,8 +57,8 @@ RowMap make_map(const Course& course);
 struct Drive {
   bool finished = false;
   double time_s = 0.0;
-  double least_known_m = 1e9;    ///< true distance of the outline, polygons
-  double least_unknown_m = 1e9;  ///< the same to what the map does not have
+  double min_known_m = 1e9;    ///< true distance of the outline, polygons
+  double min_unknown_m = 1e9;  ///< the same to what the map does not have
   double farthest_off_plan_m = 0.0;
   int reversals = 0;  ///< times the vehicle began to go backwards
   int drive_ticks = 0, follow_ticks = 0, stop_ticks = 0;

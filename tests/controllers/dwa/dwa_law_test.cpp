@@ -191,7 +191,7 @@ TEST(DwaLaw, NeverChoosesASpeedItCannotStopFrom) {
     admissible += choice.is_admissible;
     EXPECT_LE(choice.v_mps * choice.v_mps, 2.0 * 0.5 * choice.travel_m + 1e-9);
     if (choice.is_admissible) {
-      EXPECT_GE(choice.room.known_m, 0.0);
+      EXPECT_GE(choice.clearance.known_m, 0.0);
     }
   }
   EXPECT_GT(admissible, 100);
@@ -207,7 +207,7 @@ TEST(DwaLaw, DoesNotRefuseToLeaveAWall) {
   const controllers::DwaChoice choice = law.choose({pose, 0.3, {}}, bench.task);
   EXPECT_TRUE(choice.is_admissible);
   EXPECT_GT(choice.v_mps, 0.3);
-  EXPECT_GE(choice.room.known_m, 0.019);
+  EXPECT_GE(choice.clearance.known_m, 0.019);
   bench.task.need = {0.05, 0.15};
   EXPECT_FALSE(law.choose({pose, 0.3, {}}, bench.task).is_admissible);
 }
@@ -223,18 +223,18 @@ TEST(DwaLaw, SingleCircleDoesNotFitACanopyOfSeventyCentimetres) {
     Course course = make_alley(half_m);
     course.known.pop_back();
     const controllers::DistanceField known(make_map(course).occupancy);
-    const controllers::FreeSpaceFinder rooms(known, nothing);
+    const controllers::FreeSpaceFinder finder(known, nothing);
     const controllers::Pose2 middle{{10.0, 0.0}, 0.0};
-    EXPECT_NEAR(rooms.measure(controllers::DiscOutline::circumscribed(hull), middle).known_m,
+    EXPECT_NEAR(finder.measure(controllers::DiscOutline::circumscribed(hull), middle).known_m,
                 single_m, 1e-3);
-    EXPECT_NEAR(rooms.measure(controllers::DiscOutline::three_circles(0.56, 0.5), middle).known_m,
+    EXPECT_NEAR(finder.measure(controllers::DiscOutline::three_circles(0.56, 0.5), middle).known_m,
                 three_m, 1e-3);
-    EXPECT_NEAR(rooms.measure(controllers::DiscOutline::polygon(hull), middle).known_m,
+    EXPECT_NEAR(finder.measure(controllers::DiscOutline::polygon(hull), middle).known_m,
                 0.75 - half_m, 1e-3);
   }
 }
 
-TEST(DwaRoom, SeesPointsInsideAndOutsideThePolygon) {
+TEST(DwaFreeSpace, SeesPointsInsideAndOutsideThePolygon) {
   const Polygon outline = make_four_wheel_rover().footprint_B;
   const controllers::DiscOutline polygon = controllers::DiscOutline::polygon(outline);
   const controllers::DistanceField no_map;
@@ -245,25 +245,25 @@ TEST(DwaRoom, SeesPointsInsideAndOutsideThePolygon) {
     const Eigen::Vector2d point(random.uniform(-1.6, 1.6), random.uniform(-1.2, 1.2));
     controllers::PointField field;
     field.build({0, 0}, {&point, 1});
-    const double room_m = controllers::FreeSpaceFinder(no_map, field)
-                              .measure(polygon, controllers::Pose2{})
-                              .unknown_m;
+    const double measured_m = controllers::FreeSpaceFinder(no_map, field)
+                                  .measure(polygon, controllers::Pose2{})
+                                  .unknown_m;
     // A tiny square about the point against the polygon.
     const double true_m = distance_between(
         outline, make_box(point.x() - 1e-6, point.x() + 1e-6, point.y() - 1e-6, point.y() + 1e-6));
     inside += true_m == 0.0;
     if (true_m == 0.0) {
-      EXPECT_LT(room_m, 0.07) << point.transpose();
-      deepest_m = std::min(deepest_m, room_m);
+      EXPECT_LT(measured_m, 0.07) << point.transpose();
+      deepest_m = std::min(deepest_m, measured_m);
     } else {
-      EXPECT_NEAR(room_m, true_m, true_m > 0.1 ? 0.025 : 0.07) << point.transpose();
+      EXPECT_NEAR(measured_m, true_m, true_m > 0.1 ? 0.025 : 0.07) << point.transpose();
     }
   }
   EXPECT_NEAR(deepest_m, -0.45, 0.05);
   EXPECT_GT(inside, 50);
 }
 
-TEST(DwaRoom, PointFieldIsTheDistanceToTheNearestPoint) {
+TEST(DwaFreeSpace, PointFieldIsTheDistanceToTheNearestPoint) {
   RandomStream random(4, "", "points");
   std::vector<Eigen::Vector2d> points;
   for (int i = 0; i < 40; ++i) points.push_back({random.uniform(5, 9), random.uniform(-3, 3)});

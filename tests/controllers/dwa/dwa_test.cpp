@@ -47,8 +47,8 @@ TEST(Dwa, PassesABoxAtTheSide) {
       course.range_noise_m = 0.003;
       const Drive result = drive(course);
       EXPECT_TRUE(result.finished);
-      EXPECT_GT(result.least_unknown_m, 0.05);
-      EXPECT_GT(result.least_known_m, 0.02);
+      EXPECT_GT(result.min_unknown_m, 0.05);
+      EXPECT_GT(result.min_known_m, 0.02);
       EXPECT_GT(result.drive_ticks, 0);
       EXPECT_EQ(count_events(result, "sees an obstacle that the map does not have"), 1);
       EXPECT_EQ(count_events(result, "follows the plan again"), 1);
@@ -66,8 +66,8 @@ TEST(Dwa, TouchesNoBoxWhereverItStands) {
       course.range_noise_m = 0.003;
       course.longest_s = 60.0;
       const Drive result = drive(course);
-      EXPECT_GT(result.least_unknown_m, 0.1) << rangers << " " << low;
-      EXPECT_GT(result.least_known_m, 0.02) << rangers << " " << low;
+      EXPECT_GT(result.min_unknown_m, 0.1) << rangers << " " << low;
+      EXPECT_GT(result.min_known_m, 0.02) << rangers << " " << low;
       EXPECT_TRUE(result.finished || count_events(result, "blocked at (") == 1)
           << all_events(result);
       if (low > 0.5) {
@@ -83,8 +83,8 @@ TEST(Dwa, StandsBeforeABoxInTheMiddle) {
   course.range_noise_m = 0.003;
   const Drive result = drive(course);
   EXPECT_FALSE(result.finished);
-  EXPECT_GT(result.least_unknown_m, 0.1);
-  EXPECT_GT(result.least_known_m, 0.02);
+  EXPECT_GT(result.min_unknown_m, 0.1);
+  EXPECT_GT(result.min_known_m, 0.02);
   EXPECT_EQ(count_events(result, "blocked at ("), 1);
   EXPECT_EQ(count_events(result, "by an obstacle that the map does not have"), 4);
   // Three, and one more with every fourth try from standing.
@@ -129,7 +129,7 @@ TEST(Dwa, TurnsByItselfInTheTurningArea) {
     const Drive result = drive(course);
     EXPECT_TRUE(result.finished);
     EXPECT_LE(result.reversals, 3);
-    EXPECT_GT(result.least_known_m, 0.0);
+    EXPECT_GT(result.min_known_m, 0.0);
   }
 }
 
@@ -150,7 +150,7 @@ TEST(Dwa, PureForwardJamsInTheTurnAndRecoveryBringsItThrough) {
   EXPECT_TRUE(result.finished);
   EXPECT_GE(result.reversals, 1);
   EXPECT_LE(result.reversals, 3);
-  EXPECT_GT(result.least_known_m, 0.02);
+  EXPECT_GT(result.min_known_m, 0.02);
   EXPECT_EQ(count_events(result, "held up at ("), result.reversals);
 }
 
@@ -186,7 +186,7 @@ TEST(Dwa, HoldsTheFootprintsOfEveryKindApart) {
     course.values = {{"footprint", std::string(footprint)}};
     const Drive result = drive(course);
     EXPECT_TRUE(result.finished);
-    EXPECT_GT(result.least_unknown_m, 0.05);
+    EXPECT_GT(result.min_unknown_m, 0.05);
   }
 }
 

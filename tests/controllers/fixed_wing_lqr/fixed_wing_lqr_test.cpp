@@ -62,7 +62,7 @@ TEST(FixedWingLqr, WeightsAreHeard) {
 TEST(FixedWingLqr, StaysWithItsModelForSmallOffsets) {
   // Without the lags that the model leaves out, the nonlinear aircraft goes as x+ = (A + B K) x.
   AircraftSetup setup = make_setup();
-  setup.told = setup.numbers;
+  setup.assumed = setup.numbers;
   setup.numbers.throttle_lag_s = setup.numbers.elevon_lag_s = 6e-3;
   setup.higher_m = 0.02;
   setup.faster_mps = 0.01;

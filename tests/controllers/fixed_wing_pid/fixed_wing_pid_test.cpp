@@ -16,7 +16,7 @@ TEST(FixedWingPid, LearnsWhatItIsNotToldOf) {
   // Heavier, crooked and with a weaker propeller than told: nothing is left.
   AircraftSetup setup;
   setup.controller.type = "fixed_wing_pid";
-  setup.told = setup.numbers;
+  setup.assumed = setup.numbers;
   setup.numbers.mass_kg *= 1.08;
   setup.numbers.Cm0 += 0.004;
   setup.numbers.motor_mps *= 0.97;
@@ -78,15 +78,15 @@ TEST(FixedWingPidLaw, DoesNotWindUpAtAStop) {
   controllers::AircraftDeviation slow;
   slow.lon(0) = -8.0;
   for (int i = 0; i < 200; ++i) {
-    const controllers::AircraftControls asked = law.step(slow, 0.0);
-    controllers::AircraftControls left = asked;
+    const controllers::AircraftControls requested = law.step(slow, 0.0);
+    controllers::AircraftControls left = requested;
     left.throttle = 0.4;
-    law.learn(asked, left);
+    law.learn(requested, left);
   }
   EXPECT_EQ(law.step({}, 0.0).throttle, 0.0);
   // Where the actuator follows, it learns.
-  const controllers::AircraftControls asked = law.step(slow, 0.0);
-  law.learn(asked, asked);
+  const controllers::AircraftControls requested = law.step(slow, 0.0);
+  law.learn(requested, requested);
   EXPECT_NEAR(law.step({}, 0.0).throttle, 0.02 * 0.05 * 8.0, 1e-12);
 }
 

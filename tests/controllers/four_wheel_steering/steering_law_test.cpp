@@ -125,9 +125,9 @@ TEST(SteeringLaw, LetsSmallErrorsDieOutPerMetreDriven) {
   for (const auto& [lateral, heading] : {std::pair{0.6, 1.2}, {1.0, 2.0}, {2.0, 0.5}}) {
     const controllers::SteeringParams params = with_gains(lateral, heading);
     const double length = 2.0, small = 1e-4;
-    const Rolled beside = roll_along(params, {small, 0.0}, length);
-    EXPECT_NEAR(-std::log(beside.lateral_m / small) / length, lateral, 2e-3 * lateral);
-    EXPECT_NEAR(beside.heading_rad, 0.0, 1e-12);
+    const Rolled shifted = roll_along(params, {small, 0.0}, length);
+    EXPECT_NEAR(-std::log(shifted.lateral_m / small) / length, lateral, 2e-3 * lateral);
+    EXPECT_NEAR(shifted.heading_rad, 0.0, 1e-12);
     const Rolled askew = roll_along(params, {0.0, small}, length);
     EXPECT_NEAR(-std::log(askew.heading_rad / small) / length, heading, 2e-3 * heading);
     // d' = theta - K_s d driven by theta = e^(-K_theta s).

@@ -39,10 +39,10 @@ TEST(WheelSpeedQp, ChoosesTheRollingSpeedsWhereTheyAreAllowed) {
   for (int n = 0; n < 1000; ++n) {
     const controllers::AxleAngles axles{random.uniform(-kLimit_rad, kLimit_rad),
                                         random.uniform(-kLimit_rad, kLimit_rad)};
-    const double asked = random.uniform(-1.6, 1.6);
+    const double requested = random.uniform(-1.6, 1.6);
     const controllers::Rolling rolling = controllers::calc_rolling({}, axles);
-    const double speed = controllers::limit_speed(rolling, asked, 1.6);
-    unsaturated += speed == asked;
+    const double speed = controllers::limit_speed(rolling, requested, 1.6);
+    unsaturated += speed == requested;
     ASSERT_EQ(qp.solve(rolling, speed), controllers::QpStatus::kSolved);
     const Eigen::Vector4d v = qp.rim_mps();
     EXPECT_LT((v - rolling.rim_mps(speed)).cwiseAbs().maxCoeff(), 1e-8);

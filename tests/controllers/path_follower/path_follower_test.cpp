@@ -116,10 +116,10 @@ TEST(SpeedProfile, TakesTheSlowestOfPathAndLimits) {
 
 TEST(PathFollowerLaw, LeadsTheHeadingOfAVehicleThatSlides) {
   // The vehicle turns about a point 0.25 m ahead of its centre and crabs by 0.03 rad: its centre
-  // moves along yaw + beta. Told so, the law keeps the centre on the arc; told nothing, it runs
-  // beside it.
+  // moves along yaw + beta. With that side slip the law keeps the centre on the arc;
+  // without it, the centre runs beside it.
   double error_m[2] = {};
-  for (const bool told : {false, true}) {
+  for (const bool compensated : {false, true}) {
     PathFollowerParams params = make_params();
     params.speed.speed_mps = 0.8;
     PathFollowerLaw law(params);
@@ -129,13 +129,13 @@ TEST(PathFollowerLaw, LeadsTheHeadingOfAVehicleThatSlides) {
     const Sideslip slide = {0.25, 0.03};
     Pose2 pose;
     for (int i = 0; i < 720; ++i) {
-      const VelocityCommand c = law.step(pose, told ? slide : Sideslip{});
+      const VelocityCommand c = law.step(pose, compensated ? slide : Sideslip{});
       const Eigen::Vector2d v_B(c.v_mps,
                                 -slide.arm_m * c.yaw_rate_radps + slide.drift_rad * c.v_mps);
       pose.p += Eigen::Rotation2Dd(pose.yaw_rad) * v_B * params.cycle_s;
       pose.yaw_rad += c.yaw_rate_radps * params.cycle_s;
     }
-    error_m[told] = std::abs(law.state().lateral_error_m);
+    error_m[compensated] = std::abs(law.state().lateral_error_m);
   }
   EXPECT_GT(error_m[0], 0.05);
   EXPECT_LT(error_m[1], 0.01);
@@ -148,9 +148,9 @@ SlipEstimate learn(double share, const Sideslip& slide) {
   SlipEstimate slip(params);
   double driven = 0.0;
   for (int i = 0; i < 4000; ++i) {
-    const double asked = 0.8 * std::sin(0.005 * i);
-    slip.update(asked, driven, {1.0, -slide.arm_m * driven + slide.drift_rad}, 0.025);
-    driven = share * asked;
+    const double requested = 0.8 * std::sin(0.005 * i);
+    slip.update(requested, driven, {1.0, -slide.arm_m * driven + slide.drift_rad}, 0.025);
+    driven = share * requested;
   }
   return slip;
 }

@@ -116,7 +116,7 @@ TEST(QuadrotorMpcFlight, FliesThePlusLayoutAndAnotherVehicle) {
 // A vehicle that is not what the controller was told: mass + 15 %, inertia + 20 %, lag + 40 %.
 TEST(QuadrotorMpcFlight, BearsAWrongModel) {
   MpcSetup wrong;
-  wrong.told = wrong.numbers;
+  wrong.assumed = wrong.numbers;
   wrong.numbers.mass_kg = 2.3;
   wrong.numbers.inertia_kgm2 *= 1.2;
   wrong.numbers.lag_s = 0.07;

@@ -64,11 +64,11 @@ AirCourse fly_lanes(int lanes, double bank_rad) {
       ++corner;
       since_s = 0.0;
     }
-    const double asked =
+    const double requested_rad =
         std::clamp(-std::atan(kSpeed_mps * kGain_per_s * wrap_angle(goal_rad - at.heading_rad) /
                               kGravity_mps2),
                    -bank_rad, bank_rad);
-    wanted_rad += std::clamp(asked - wanted_rad, -kRate_radps * kDt_s, kRate_radps * kDt_s);
+    wanted_rad += std::clamp(requested_rad - wanted_rad, -kRate_radps * kDt_s, kRate_radps * kDt_s);
     lagged_rad += kDt_s / kLag_s * (wanted_rad - lagged_rad);
     at.bank_rad = wanted_rad;
     at.heading_rate_radps = -kGravity_mps2 * std::tan(lagged_rad) / kSpeed_mps;
@@ -89,7 +89,7 @@ namespace {
 LoopSetup make_loop_setup(const AircraftSetup& setup) {
   LoopSetup loop;
   loop.vehicle = "plane";
-  loop.description = describe(setup.told.value_or(setup.numbers));
+  loop.description = describe(setup.assumed.value_or(setup.numbers));
   const PartSpec& spec = parts().spec(PartKind::kController, setup.controller.type);
   loop.tick = period_of_rate(setup.rate_Hz > 0.0 ? setup.rate_Hz : spec.default_rate_Hz);
   loop.physics = setup.physics;

@@ -28,7 +28,7 @@ AirCourse fly_lanes(int lanes, double bank_rad = 35.0 * M_PI / 180.0);
 
 struct AircraftSetup {
   AircraftNumbers numbers;
-  std::optional<AircraftNumbers> told;  ///< description for the controller; default: the truth
+  std::optional<AircraftNumbers> assumed;  ///< description for the controller; default: the truth
   PartChoice controller{"fixed_wing_pid", {}};
   double rate_Hz = 0.0;  ///< of the controller and of the loop; 0: its own
   Duration physics{5'000'000};

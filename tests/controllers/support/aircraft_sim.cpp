@@ -174,9 +174,10 @@ void AircraftSim::start(const Vector3d& p_W, double phi, double theta, double ps
 }
 
 void AircraftSim::step(const std::vector<double>& actuators, double dt_s) {
-  const double most = numbers_.max_elevon_rad;
-  const Vector3d wanted(std::clamp(actuators[0], 0.0, 1.0), std::clamp(actuators[2], -most, most),
-                        std::clamp(actuators[1], -most, most));
+  const double max_rad = numbers_.max_elevon_rad;
+  const Vector3d wanted(std::clamp(actuators[0], 0.0, 1.0),
+                        std::clamp(actuators[2], -max_rad, max_rad),
+                        std::clamp(actuators[1], -max_rad, max_rad));
   const auto moved = [&](double s, const Rate& rate) {
     AircraftState x = state_;
     x.velocity += s * rate.velocity;

@@ -36,22 +36,22 @@ bool crosses(const Vec& a, const Vec& b, const Vec& c, const Vec& d) {
 
 double gap_between(const Polygon& one, const Polygon& other) {
   if (contains(one, other[0]) || contains(other, one[0])) return 0.0;
-  double least = 1e9;
+  double nearest_m = 1e9;
   for (std::size_t i = 0; i < one.size(); ++i) {
     const Vec &a = one[i], &b = one[(i + 1) % one.size()];
     for (std::size_t k = 0; k < other.size(); ++k) {
       const Vec &c = other[k], &d = other[(k + 1) % other.size()];
       if (crosses(a, b, c, d)) return 0.0;
-      least = std::min({least, distance_to_segment(a, c, d), distance_to_segment(c, a, b)});
+      nearest_m = std::min({nearest_m, distance_to_segment(a, c, d), distance_to_segment(c, a, b)});
     }
   }
-  return least;
+  return nearest_m;
 }
 
 }  // namespace
 
-double distance_to_cells(const Polygon& outline_B, const controllers::Pose2& pose, const OccupancyGrid& grid,
-                         double reach_m) {
+double distance_to_cells(const Polygon& outline_B, const controllers::Pose2& pose,
+                         const OccupancyGrid& grid, double reach_m) {
   Polygon outline;
   Eigen::AlignedBox2d box;
   for (const Vec& p_B : outline_B) {
@@ -66,7 +66,7 @@ double distance_to_cells(const Polygon& outline_B, const controllers::Pose2& pos
   const int first_j = std::max(0, static_cast<int>(low.y() - reach));
   const int last_i = std::min(grid.columns - 1, static_cast<int>(high.x() + reach));
   const int last_j = std::min(grid.rows - 1, static_cast<int>(high.y() + reach));
-  double least = reach_m;
+  double nearest_m = reach_m;
   for (int j = first_j; j <= last_j; ++j) {
     for (int i = first_i; i <= last_i; ++i) {
       if (!grid.occupied(i, j)) continue;
@@ -74,13 +74,14 @@ double distance_to_cells(const Polygon& outline_B, const controllers::Pose2& pos
       const double c = grid.cell_m;
       // Squares farther from the box around the outline than the least so far need no look.
       const Eigen::AlignedBox2d square(corner, corner + Vec(c, c));
-      if (box.squaredExteriorDistance(square) >= least * least) continue;
-      least = std::min(least, gap_between(outline, {corner, corner + Vec(c, 0),
-                                                    corner + Vec(c, c), corner + Vec(0, c)}));
-      if (least <= 0.0) return 0.0;
+      if (box.squaredExteriorDistance(square) >= nearest_m * nearest_m) continue;
+      nearest_m =
+          std::min(nearest_m, gap_between(outline, {corner, corner + Vec(c, 0), corner + Vec(c, c),
+                                                    corner + Vec(0, c)}));
+      if (nearest_m <= 0.0) return 0.0;
     }
   }
-  return least;
+  return nearest_m;
 }
 
 SweptVerdict check_swept(const PlannedPath& path, const Polygon& outline_B,

@@ -271,9 +271,9 @@ TEST(RowFlight, TellsWhyThereIsNoPlan) {
             "is 0.60 m wide; straight up and down needs 0.55 m to the canopy on every side");
   FlightBench narrow({.alleys = 2, .row_length_m = 20.0, .headland_m = 3.0});
   narrow.values = {{"first_iterations", std::int64_t{200}}};
-  const std::string no_room = failure_of(narrow, 1.25, -1.0);
-  EXPECT_THAT(no_room, HasSubstr("the turn from alley 0 to alley 1 needs"));
-  EXPECT_THAT(no_room, HasSubstr("more clearance at the turning radius of 1.77 m"));
+  const std::string too_narrow = failure_of(narrow, 1.25, -1.0);
+  EXPECT_THAT(too_narrow, HasSubstr("the turn from alley 0 to alley 1 needs"));
+  EXPECT_THAT(too_narrow, HasSubstr("more clearance at the turning radius of 1.77 m"));
   FlightBench closed({.alleys = 2, .row_length_m = 20.0, .canopy_m = 1.6});
   closed.values = {{"turns", std::string("dubins")}};
   EXPECT_THAT(

@@ -99,9 +99,9 @@ TEST(TimeLaw, FliesAStraightAsFastAsItMay) {
   const controllers::TrajectoryLimits limits;
   const controllers::TimeLaw law(run, limits, 1e9);
   // v / a to speed up, the same to slow down, and what the easing adds.
-  const double least_s = 100.0 / 3.0 + 3.0 / limits.acceleration_mps2;
-  EXPECT_GT(law.duration_s(), least_s);
-  EXPECT_LT(law.duration_s(), least_s + limits.ease_s + 0.3);
+  const double min_s = 100.0 / 3.0 + 3.0 / limits.acceleration_mps2;
+  EXPECT_GT(law.duration_s(), min_s);
+  EXPECT_LT(law.duration_s(), min_s + limits.ease_s + 0.3);
   EXPECT_NEAR(law.at(law.duration_s() / 2).value, 50.0, 0.05);
   EXPECT_NEAR(law.at(law.duration_s() / 2).first, 3.0, 1e-9);
   EXPECT_EQ(law.at(0.0).value, 0.0);
@@ -137,10 +137,10 @@ TEST(YawMove, TakesTheShortWayWithinBothLimits) {
 TEST(LandingWatch, FeelsTheGroundOnlyNearTheEndAndOnlyWhileSinking) {
   constexpr double kTick_s = 0.05;
   controllers::LandingWatch watch;
-  const auto ticks_until = [&](controllers::LandingWatch::Seen seen) {
+  const auto ticks_until = [&](controllers::LandingWatch::Observation observation) {
     watch = controllers::LandingWatch(controllers::LandingWatch::Params{});
     int ticks = 0;
-    while (ticks < 100 && !watch.has_landed(seen, kTick_s)) ++ticks;
+    while (ticks < 100 && !watch.has_landed(observation, kTick_s)) ++ticks;
     return ticks;
   };
   EXPECT_NEAR(ticks_until({-0.3, 0.0, 0.1, false}), 9, 1);  // half a second

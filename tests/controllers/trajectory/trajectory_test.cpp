@@ -184,9 +184,10 @@ TEST(Trajectory, StaysOnThePlannedCurve) {
       Vec3 off = Vec3::Constant(1e9), along = Vec3::Zero();
       const std::size_t from = near;
       for (std::size_t i = from; i < std::min(from + 60, samples.size() - 1); ++i) {
-        const Vec3 chord = samples[i + 1].p_W - samples[i].p_W, way = tick.at.p_W - samples[i].p_W;
+        const Vec3 chord = samples[i + 1].p_W - samples[i].p_W,
+                   offset = tick.at.p_W - samples[i].p_W;
         const double length2 = std::max(chord.squaredNorm(), 1e-18);
-        const Vec3 away = way - std::clamp(way.dot(chord) / length2, 0.0, 1.0) * chord;
+        const Vec3 away = offset - std::clamp(offset.dot(chord) / length2, 0.0, 1.0) * chord;
         if (away.norm() >= off.norm()) continue;
         off = away;
         along = chord;
@@ -298,7 +299,7 @@ TEST(Trajectory, WaitsForAVehicleThatFallsBehind) {
   ASSERT_EQ(reference->phase, Phase::kRow);
   ASSERT_NEAR(reference->points[0].v_W.norm(), 3.0, 1e-6);
   const Vec3 held = estimate.X_WB.p;  // a gust holds it here
-  const std::size_t told = bench.events().size();
+  const std::size_t event_count = bench.events().size();
   double deepest = 0.0;
   for (int i = 0; i < 300; ++i) {
     reference = &bench.step(estimate);
@@ -312,7 +313,7 @@ TEST(Trajectory, WaitsForAVehicleThatFallsBehind) {
   const double ahead_m = (reference->points[0].p_W - held).norm();
   EXPECT_GT(ahead_m, 1.0);
   EXPECT_LT(ahead_m, 6.0);
-  ASSERT_EQ(bench.events().size(), told + 1);
+  ASSERT_EQ(bench.events().size(), event_count + 1);
   EXPECT_THAT(bench.events().back().text, HasSubstr("waits for it"));
   EXPECT_EQ(bench.events().back().level, Event::Level::kWarning);
   for (int i = 0; i < 200; ++i) {  // it comes back at 6 m/s
@@ -322,7 +323,7 @@ TEST(Trajectory, WaitsForAVehicleThatFallsBehind) {
     reference = &bench.step(estimate);
   }
   EXPECT_NEAR(reference->points[0].v_W.norm(), 3.0, 1e-6);
-  EXPECT_EQ(bench.events().size(), told + 1);
+  EXPECT_EQ(bench.events().size(), event_count + 1);
 }
 
 TEST(Trajectory, WritesTheSameBitsTwice) {
@@ -344,10 +345,10 @@ TEST(Trajectory, AllocatesOnlyToTakeThePlanAndToTell) {
   bench.step(estimate);
   std::size_t allocations = 0;
   for (int i = 0; i < 3000; ++i) {
-    const std::size_t told = bench.events().size();
+    const std::size_t event_count = bench.events().size();
     AllocationCounter counter;
     const ReferenceTrajectory& reference = bench.step(estimate);
-    if (bench.events().size() == told) allocations += counter.count();
+    if (bench.events().size() == event_count) allocations += counter.count();
     estimate.X_WB.p = reference.points[1].p_W;
     estimate.v_WB_B = reference.points[1].v_W;
   }

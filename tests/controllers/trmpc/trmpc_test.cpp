@@ -98,16 +98,16 @@ TEST(Trmpc, LawsWithoutTheTubeFailTheStress) {
 
 TEST(Trmpc, TurbulenceOfOneMetrePerSecondViolatesNothing) {
   AircraftLoop loop(WingSetup{});
-  double most = 0.0;
+  double max_share = 0.0;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     GaussMarkovGust gust(seed);
     for (int k = 0; k < 400; ++k) {
       tick(loop, gust.next());
-      most = std::max(most, loop.deviation("limit_share"));
+      max_share = std::max(max_share, loop.deviation("limit_share"));
     }
   }
-  EXPECT_LT(most, 1.0);
-  EXPECT_GT(most, 0.2);
+  EXPECT_LT(max_share, 1.0);
+  EXPECT_GT(max_share, 0.2);
 }
 
 TEST(Trmpc, IsTheLqrToTheLastDigitsWhileNothingIsActive) {
@@ -150,7 +150,7 @@ TEST(Trmpc, NeitherTakesHeapNorDependsOnAnythingButItsCalls) {
     for (int k = 0; k < 120; ++k) {
       const Eigen::Vector3d blow = gust.next();
       std::size_t allocations = 0;
-      const std::size_t told = first.events().size();
+      const std::size_t event_count = first.events().size();
       first.sense();
       {
         AllocationCounter counter;
@@ -160,7 +160,8 @@ TEST(Trmpc, NeitherTakesHeapNorDependsOnAnythingButItsCalls) {
       first.sim().set_body_gust(blow);
       first.move();
       tick(second, blow);
-      if (k > 0 && first.events().size() == told) {  // a text and a signal's first value take heap
+      if (k > 0 &&
+          first.events().size() == event_count) {  // a text and a signal's first value take heap
         EXPECT_EQ(allocations, 0u) << "tick " << k;
       }
       ASSERT_EQ(first.actuators(), second.actuators());

@@ -167,11 +167,11 @@ TEST(AirCourse, MirroredPlanGivesMirroredTrack) {
 }
 
 TEST(AirCourse, PaperLawSwingsButStaysBounded) {
-  PlaneOptions beside = in_the_air(0.0);
-  beside.start_W.y() = 10.0;
+  PlaneOptions displaced = in_the_air(0.0);
+  displaced.start_W.y() = 10.0;
   const PlannedPath plan = make_waypoints({{0, 0, 100}, {600, 0, 100}});
-  const Course smooth = fly(plan, kStop, beside);
-  const Course paper = fly(plan, with(kStop, "law", std::string("paper")), beside);
+  const Course smooth = fly(plan, kStop, displaced);
+  const Course paper = fly(plan, with(kStop, "law", std::string("paper")), displaced);
   EXPECT_LT(std::abs(smooth.cross_m.back()), 0.01);
   EXPECT_TRUE(paper.ended);
   EXPECT_LE(paper.straight_max_m, 10.0 + 1e-9);
@@ -197,8 +197,8 @@ TEST(AirCourse, WindThatNobodyTellsOfShiftsTheTrackByAKnownLength) {
   const Course course = fly(make_waypoints({{0, 0, 100}, {600, 0, 100}}), kStop, options);
   EXPECT_NEAR(course.cross_m.back(), 15.0 * std::tan(std::asin(3.0 / 12.0)), 0.05);
   options.has_air_data = true;
-  const Course told = fly(make_waypoints({{0, 0, 100}, {600, 0, 100}}), kStop, options);
-  EXPECT_NEAR(told.cross_m.back(), 0.0, 0.01);
+  const Course informed = fly(make_waypoints({{0, 0, 100}, {600, 0, 100}}), kStop, options);
+  EXPECT_NEAR(informed.cross_m.back(), 0.0, 0.01);
 }
 
 TEST(AirCourse, TurnByFormulaBeginsWhereTheFormulaSays) {

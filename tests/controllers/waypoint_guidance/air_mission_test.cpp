@@ -264,12 +264,12 @@ TEST(AirMission, LandsAtItsStartAgainstTheWind) {
     AirBench bench({}, options);
     bench.give_plan(make_waypoints({{200, 200, 80}, {500, 200, 80}, {500, 400, 80}}));
     Phases phases;
-    double power_off_m = -1.0, least_climb_mps = 0.0, touch_climb_mps = 0.0, glide_yaw_rad = 0.0;
+    double power_off_m = -1.0, min_climb_mps = 0.0, touch_climb_mps = 0.0, glide_yaw_rad = 0.0;
     Eigen::Vector2d touch(1e9, 1e9);
     bench.fly(600.0, [&](double, const Odometry& seen, const AirReference& reference) {
       phases.add(reference.phase);
       const double climb_mps = (seen.X_WB.q * seen.v_WB_B).z();
-      least_climb_mps = std::min(least_climb_mps, climb_mps);
+      min_climb_mps = std::min(min_climb_mps, climb_mps);
       if (reference.phase != AirPhase::kLand) return;
       if (!reference.power && power_off_m < 0.0) power_off_m = seen.X_WB.p.z() - 0.05;
       if (seen.X_WB.p.z() > 0.06) {
@@ -284,7 +284,7 @@ TEST(AirMission, LandsAtItsStartAgainstTheWind) {
     EXPECT_EQ(phases.seen[phases.seen.size() - 3], AirPhase::kLoiter);
     EXPECT_NEAR(power_off_m, 0.1, 0.06);
     EXPECT_GT(touch_climb_mps, -0.6);
-    EXPECT_GT(least_climb_mps, -12.0 * std::sin(rad_from_deg(12.0)));
+    EXPECT_GT(min_climb_mps, -12.0 * std::sin(rad_from_deg(12.0)));
     EXPECT_LT((touch - Eigen::Vector2d(5, -3)).norm(), 25.0) << wind.transpose();
     EXPECT_NEAR(wrap_angle(glide_yaw_rad - (wind.norm() > 0.0 ? 0.5 * kPi : 0.3)), 0.0,
                 rad_from_deg(3.0));

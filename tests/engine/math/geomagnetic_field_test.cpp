@@ -40,8 +40,8 @@ TEST(GeomagneticField, IsThatOfThePublishedTestValues) {
 
 TEST(GeomagneticField, IsFiniteAndSteadyAtThePoles) {
   for (const double latitude_deg : {90.0, -90.0}) {
-    const auto at = [&](double beside_deg) -> Eigen::Vector3d {
-      return calc_geomagnetic_field_T(rad_from_deg(latitude_deg + beside_deg), 1.0, 0.0, 2025.0);
+    const auto at = [&](double offset_deg) -> Eigen::Vector3d {
+      return calc_geomagnetic_field_T(rad_from_deg(latitude_deg + offset_deg), 1.0, 0.0, 2025.0);
     };
     ASSERT_TRUE(at(0.0).allFinite());
     const double inwards_deg = latitude_deg > 0.0 ? -1e-3 : 1e-3;  // 111 m, 1 nT

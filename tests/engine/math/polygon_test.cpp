@@ -56,8 +56,8 @@ TEST(Polygon, LinesRunInsideFromEdgeToEdge) {
   EXPECT_DOUBLE_EQ(diagonal[0], 1.0);
   EXPECT_DOUBLE_EQ(diagonal[1], 2.0);
   for (const Vector2d& d : {Vector2d(1, 0), Vector2d(1, 0.1), Vector2d(-1, 0.1)}) {
-    const Vector2d beside = clip_line(kUnit, {-1.0, 1.5}, d);
-    EXPECT_GE(beside[0], beside[1]) << d.transpose();
+    const Vector2d missed = clip_line(kUnit, {-1.0, 1.5}, d);
+    EXPECT_GE(missed[0], missed[1]) << d.transpose();
   }
 }
 

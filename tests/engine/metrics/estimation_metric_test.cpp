@@ -147,8 +147,8 @@ TEST(EstimationMetric, JudgesByTheTurnedCovariance) {
   EXPECT_EQ(bench.result("estimate_consistent"), 0.0);
 }
 
-/// Errors of 1 sigma with correlation exp(-1 / ticks), told with `told` times that sigma.
-Bench run_noise(double ticks, double told, int samples, int seed, double bias = 0.0) {
+/// Errors of 1 sigma with correlation exp(-1 / ticks), stated with `std_factor` times that sigma.
+Bench run_noise(double ticks, double std_factor, int samples, int seed, double bias = 0.0) {
   Bench bench;
   RandomStream random(seed, "test", "noise");
   const double keep = ticks > 0.0 ? std::exp(-1.0 / ticks) : 0.0;
@@ -157,7 +157,8 @@ Bench run_noise(double ticks, double told, int samples, int seed, double bias = 
     const double a = random.normal(), b = random.normal();
     e = keep * e + std::sqrt(1 - keep * keep) * Vector3d(a, b, 0);
     bench.write_truth({0, 0, 0}, 0.0);
-    bench.write_estimate(e + Vector3d(bias, 0, 0), 0, told * told * Eigen::Matrix3d::Identity());
+    bench.write_estimate(e + Vector3d(bias, 0, 0), 0,
+                         std_factor * std_factor * Eigen::Matrix3d::Identity());
     bench.look();
   }
   return bench;

@@ -123,7 +123,7 @@ TEST(BoxDistance, NoSampleOfTheSurfacesIsNearer) {
     const Pose X_WA = random_pose(random, 2.0), X_WB = random_pose(random, 2.0);
     const Vector3d a = random_half(random), b = random_half(random);
     const double distance = box_distance_m(X_WA, a, X_WB, b);
-    double least = 1e9;
+    double min_distance = 1e9;
     for (int face = 0; face < 6; ++face) {
       for (int i = 0; i <= 40; ++i) {
         for (int j = 0; j <= 40; ++j) {
@@ -132,14 +132,14 @@ TEST(BoxDistance, NoSampleOfTheSurfacesIsNearer) {
           p[(face + 1) % 3] = 0.05 * i - 1.0;
           p[(face + 2) % 3] = 0.05 * j - 1.0;
           const Vector3d p_W = X_WA * Vector3d(p.cwiseProduct(a));
-          least = std::min(least, (onto_box(X_WB, b, p_W) - p_W).norm());
+          min_distance = std::min(min_distance, (onto_box(X_WB, b, p_W) - p_W).norm());
         }
       }
     }
-    ASSERT_LE(distance, least + 1e-12);
+    ASSERT_LE(distance, min_distance + 1e-12);
     // The grid is 0.06 m wide at most: half its diagonal is how far it can miss.
     if (distance > 0.0) {
-      ASSERT_GT(distance, least - 0.045);
+      ASSERT_GT(distance, min_distance - 0.045);
     }
   }
 }

@@ -1,7 +1,7 @@
 /// The proof that a body is clear of the terrain, and what it must never hide: a contact.
 
-#include "engine/api/world_model.h"
 #include "engine/physics/terrain_gate.h"
+#include "engine/api/world_model.h"
 
 #include <gtest/gtest.h>
 
@@ -81,9 +81,9 @@ TEST(TerrainGate, ABoxAlongASlopeTouchesWhereItsGapCloses) {
       EXPECT_FALSE(touches(model, box_at(gap_m))) << slope_deg << " deg, gap " << gap_m;
     }
     for (const double depth_m : {1e-3, 0.02}) {
-      double told_m = 0.0;
-      EXPECT_TRUE(touches(model, box_at(-depth_m), &told_m)) << slope_deg << " deg";
-      EXPECT_NEAR(told_m, depth_m, 1e-4) << slope_deg << " deg";
+      double reported_m = 0.0;
+      EXPECT_TRUE(touches(model, box_at(-depth_m), &reported_m)) << slope_deg << " deg";
+      EXPECT_NEAR(reported_m, depth_m, 1e-4) << slope_deg << " deg";
     }
   }
 }

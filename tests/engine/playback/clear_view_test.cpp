@@ -89,11 +89,11 @@ TEST(ClearView, AVehicleInFrontOfAnotherCannotBeToldFromIt) {
 }
 
 TEST(ClearView, TheCameraStaysWhereItWasAskedForIfThatSees) {
-  render::ChaseOptions asked;
-  asked.side_rad = rad_from_deg(25.0);
-  const std::vector<render::ChaseOptions> candidates = chase_candidates(asked);
-  EXPECT_EQ(candidates.front().side_rad, asked.side_rad);
-  EXPECT_EQ(candidates.front().height_m, asked.height_m);
+  render::ChaseOptions requested;
+  requested.side_rad = rad_from_deg(25.0);
+  const std::vector<render::ChaseOptions> candidates = chase_candidates(requested);
+  EXPECT_EQ(candidates.front().side_rad, requested.side_rad);
+  EXPECT_EQ(candidates.front().height_m, requested.height_m);
   EXPECT_EQ(candidates.size(), 25u);
   const WorldModel world = walled(50.0, 1.0);
   const physics::WorldScene scene(world);
@@ -103,13 +103,13 @@ TEST(ClearView, TheCameraStaysWhereItWasAskedForIfThatSees) {
 }
 
 TEST(ClearView, TheCameraRisesOverAWallThatHidesTheVehicle) {
-  render::ChaseOptions asked;
-  asked.distance_m = 5.0;
-  asked.height_m = 1.0;
+  render::ChaseOptions requested;
+  requested.distance_m = 5.0;
+  requested.height_m = 1.0;
   const WorldModel world = walled(-2.5, 1.5);
   const physics::WorldScene scene(world);
   std::vector<render::Camera> cameras;
-  for (const auto& options : chase_candidates(asked)) {
+  for (const auto& options : chase_candidates(requested)) {
     cameras.push_back(render::chase_camera(Pose{}, options));
   }
   EXPECT_LT(judge_view(cameras[0], kAspect, column(), scene).seen, 0.1);

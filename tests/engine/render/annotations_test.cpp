@@ -26,7 +26,7 @@ Frame named(double radius_m) {
 }
 
 /// Where the name is, beside something seen in the given box.
-Eigen::AlignedBox2i name_beside(const Frame& frame, const Eigen::AlignedBox2i& seen_px) {
+Eigen::AlignedBox2i name_box_next_to(const Frame& frame, const Eigen::AlignedBox2i& seen_px) {
   Image image{frame.width, frame.height, std::vector<std::uint8_t>(800 * 400 * 3, 120)};
   annotate(frame, {SeenMark{0.01, seen_px}}, image);
   return test::box_of(image, is_ink);
@@ -34,7 +34,7 @@ Eigen::AlignedBox2i name_beside(const Frame& frame, const Eigen::AlignedBox2i& s
 
 TEST(Annotations, ANameStandsBesideWhatIsSeenOfItsVehicle) {
   const Eigen::AlignedBox2i narrow(Eigen::Vector2i(370, 120), Eigen::Vector2i(430, 280));
-  const Eigen::AlignedBox2i name = name_beside(named(1.0), narrow);
+  const Eigen::AlignedBox2i name = name_box_next_to(named(1.0), narrow);
   if (name.isEmpty()) GTEST_SKIP() << "no DejaVu fonts";
   const int text_px = caption_text_px(400);
   EXPECT_GT(name.min().x(), narrow.max().x());
@@ -43,7 +43,7 @@ TEST(Annotations, ANameStandsBesideWhatIsSeenOfItsVehicle) {
 }
 
 TEST(Annotations, ANameStaysClearOfAllThatMayBeThereWhereNothingIsSeen) {
-  const Eigen::AlignedBox2i name = name_beside(named(1.0), Eigen::AlignedBox2i());
+  const Eigen::AlignedBox2i name = name_box_next_to(named(1.0), Eigen::AlignedBox2i());
   if (name.isEmpty()) GTEST_SKIP() << "no DejaVu fonts";
   EXPECT_GT(name.min().x(), 400 + 100);
   EXPECT_LT(name.min().x(), 400 + 100 + caption_text_px(400));

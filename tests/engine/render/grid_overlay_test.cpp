@@ -1,6 +1,6 @@
+#include "engine/render/grid_overlay.h"
 #include "engine/api/messages/grid.h"
 #include "engine/api/world_model.h"
-#include "engine/render/grid_overlay.h"
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ void take(OccupancyGrid& grid, double x0, double x1, double y0, double y1) {
   }
 }
 
-std::uint8_t taken_at(const GridLevel& level, int x, int y) {
+std::uint8_t occupancy_at(const GridLevel& level, int x, int y) {
   return level.texels[2 * (static_cast<std::size_t>(y) * level.width + x)];
 }
 std::uint8_t depth_at(const GridLevel& level, int x, int y) {
@@ -48,9 +48,9 @@ TEST(GridOverlay, AWallOfOneCellIsSeenAtEveryLevel) {
   EXPECT_EQ(levels[0].width, 128);
   // Softened by 1 2 1: half.
   for (std::size_t k = 0; k < levels.size(); ++k)
-    EXPECT_EQ(taken_at(levels[k], 0, 50 >> k), 127) << k;
-  EXPECT_EQ(taken_at(levels[0], 20, 51), 63);
-  EXPECT_EQ(taken_at(levels[0], 20, 53), 0);
+    EXPECT_EQ(occupancy_at(levels[k], 0, 50 >> k), 127) << k;
+  EXPECT_EQ(occupancy_at(levels[0], 20, 51), 63);
+  EXPECT_EQ(occupancy_at(levels[0], 20, 53), 0);
 }
 
 // The depth of a cell in a wide block is its centre's distance from the edge: 0.05 m, 0.15 m, ...
@@ -79,8 +79,8 @@ TEST(GridOverlay, LargerGridsAreJoined) {
   const std::vector<GridLevel> levels = make_grid_levels(grid, cells_a_texel);
   EXPECT_EQ(cells_a_texel, 4);
   EXPECT_EQ(levels[0].width, 5056);  // 5000, up to a multiple of 64
-  EXPECT_GT(taken_at(levels[0], 4999, 0), 127);
-  EXPECT_EQ(taken_at(levels[0], 4997, 0), 0);
+  EXPECT_GT(occupancy_at(levels[0], 4999, 0), 127);
+  EXPECT_EQ(occupancy_at(levels[0], 4997, 0), 0);
 }
 
 /// Bluer than ground ever is.

@@ -47,16 +47,16 @@ TEST(Ribbon, FadesEvenlyBetweenItsPoints) {
   line.points_W = {{-2, 0, 1}, {2, 0, 1}};
   line.fade = {0.0f, 1.0f};
   line.alpha = 0.5f;
-  int least = 255, most = 0;
+  int min_alpha = 255, max_alpha = 0;
   for (const RibbonVertex& v : make_ribbon(line, &field, clip_from_world, camera, 400, 200)) {
     const Eigen::Vector4d p_W =
         clip_from_world.inverse() * Eigen::Vector4d(v.clip[0], v.clip[1], v.clip[2], v.clip[3]);
     EXPECT_NEAR(v.colour[3], 127.5 * (p_W.x() / p_W.w() + 2.0) / 4.0, 4.0);
-    least = std::min<int>(least, v.colour[3]);
-    most = std::max<int>(most, v.colour[3]);
+    min_alpha = std::min<int>(min_alpha, v.colour[3]);
+    max_alpha = std::max<int>(max_alpha, v.colour[3]);
   }
-  EXPECT_EQ(least, 0);
-  EXPECT_EQ(most, 128);
+  EXPECT_EQ(min_alpha, 0);
+  EXPECT_EQ(max_alpha, 128);
 }
 
 // From 1 m behind the eye, where nothing is drawn, to 1 m before it: half faded at the eye.
@@ -66,11 +66,11 @@ TEST(Ribbon, FadesWhereItIsCut) {
   Polyline line;
   line.points_W = {{-1, 0.1, 1}, {1, 0.1, 1}};
   line.fade = {0.0f, 1.0f};
-  int least = 255;
+  int min_alpha = 255;
   for (const RibbonVertex& v : make_ribbon(line, nullptr, clip_from_world, camera, 400, 200)) {
-    least = std::min<int>(least, v.colour[3]);
+    min_alpha = std::min<int>(min_alpha, v.colour[3]);
   }
-  EXPECT_NEAR(least, 128, 10);
+  EXPECT_NEAR(min_alpha, 128, 10);
 }
 
 TEST(Ribbon, OddInputMakesNoOddTriangles) {

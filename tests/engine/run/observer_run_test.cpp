@@ -11,9 +11,9 @@ namespace vinerow::run::observer_run_test {
 namespace {
 
 /// The truth and so much to the east, with a covariance of one; tells its offset once.
-class Beside final : public Estimator {
+class OffsetEstimator final : public Estimator {
  public:
-  explicit Beside(double offset_m) : offset_m_(offset_m) {}
+  explicit OffsetEstimator(double offset_m) : offset_m_(offset_m) {}
   void connect(Ports& ports) override {
     truth_ = ports.read<Odometry>("truth");
     estimate_ = ports.write<Odometry>("estimate");
@@ -56,14 +56,15 @@ metrics: {estimation: {type: estimation, from_s: 0}}
 class ObserverRun : public test::RunFixture {
  protected:
   ObserverRun() : RunFixture(kScenario) {
-    PartSpec beside;
-    beside.name = "beside";
-    beside.parameters = {
+    PartSpec offset_part;
+    offset_part.name = "beside";
+    offset_part.parameters = {
         number_parameter("offset_m", "m", 0.0, -10.0, 10.0, "to the east"),
         choice_parameter("heading", "gyro", {"gyro", "truth"}, "where it is from")};
-    registry_.add_estimator(beside, [](const ParameterSet& parameters, const EstimatorContext&) {
-      return std::make_unique<Beside>(parameters.number("offset_m"));
-    });
+    registry_.add_estimator(
+        offset_part, [](const ParameterSet& parameters, const EstimatorContext&) {
+          return std::make_unique<OffsetEstimator>(parameters.number("offset_m"));
+        });
   }
 };
 
@@ -95,11 +96,11 @@ TEST_F(ObserverRun, WritesUnderItsOwnNameAndIsJudgedByIt) {
   EXPECT_EQ(nears, 21) << "at 40 Hz, in the log as often as the truth";
   EXPECT_EQ(states, 41);
   EXPECT_EQ(exacts, 21) << "as often as a controller would, where no rate is said";
-  std::vector<std::string> told;
+  std::vector<std::string> sources;
   log.read<Event>("/run/events", [&](Time, const Event& event) {
-    if (event.text == "looks on") told.push_back(event.source);
+    if (event.text == "looks on") sources.push_back(event.source);
   });
-  EXPECT_EQ(told, (std::vector<std::string>{"rover.estimator", "rover.observers.near"}));
+  EXPECT_EQ(sources, (std::vector<std::string>{"rover.estimator", "rover.observers.near"}));
 }
 
 TEST_F(ObserverRun, TheSummarySaysWhatAVehicleTakesFromTheTruth) {
@@ -134,7 +135,7 @@ TEST_F(ObserverRun, NamesTheObserverThatWritesNaN) {
         return spec;
       }(),
       [](const ParameterSet&, const EstimatorContext&) {
-        return std::make_unique<Beside>(std::nan(""));
+        return std::make_unique<OffsetEstimator>(std::nan(""));
       });
   const RunResult result = run({"rover.observers.wild.type=mad"});
   EXPECT_EQ(result.status, RunStatus::kBrokenOff);

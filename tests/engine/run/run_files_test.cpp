@@ -7,8 +7,8 @@
 #include "engine/core/error.h"
 #include "engine/record/cdr.h"
 #include "engine/record/log_reader.h"
-#include "engine/sensors/register_sensors.h"
 #include "engine/run/folder_lock.h"
+#include "engine/sensors/register_sensors.h"
 #include "tests/engine/record/raw_messages.h"
 #include "tests/engine/sim/small_run.h"
 
@@ -91,9 +91,9 @@ TEST_F(RunFiles, TheVerdictIsThereBeforeAPictureIsDrawn) {
 TEST_F(RunFiles, AnInterruptWhileDrawingKeepsTheVerdict) {
   options_.pictures = true;
   bool over = false;
-  int asked = 0;
+  int queries = 0;
   options_.judged = [&](const RunResult&) { over = true; };
-  options_.interrupted = [&] { return over && ++asked > 1; };  // when all is ready to draw
+  options_.interrupted = [&] { return over && ++queries > 1; };  // when all is ready to draw
   const RunResult result = run();
   if (result.picture_note.find("OSMesa") != std::string::npos) GTEST_SKIP() << result.picture_note;
   EXPECT_EQ(result.status, RunStatus::kAllMet);
@@ -122,32 +122,31 @@ TEST_F(RunFiles, SensorsStandInTheTreeOfFrames) {
   };
   std::vector<Found> found;
   std::map<std::string, std::string> frames;  // of readings, by topic
-  test::read_raw(
-      folder_ / "log.mcap",
-      [&](Time t, const record::ChannelInfo& channel, const std::vector<std::uint8_t>& bytes) {
-        record::CdrReader in(bytes);
-        const auto skip_time = [&] { in.read<std::int32_t>(), in.read<std::uint32_t>(); };
-        if (channel.topic == "/tf_static") {
-          EXPECT_EQ(t.ns, 0);
-          EXPECT_EQ(channel.schema, "tf2_msgs/msg/TFMessage");
-          EXPECT_NE(channel.metadata.at("offered_qos_profiles").find("durability: 1"),
-                    std::string::npos)
-              << "transient local: who subscribes later still gets it";
-          found.resize(in.read_count(1));
-          for (Found& one : found) {
-            skip_time();
-            one.parent = in.read_text();
-            one.child = in.read_text();
-            in.read(one.X_PC.p);
-            in.read_doubles(one.X_PC.q.coeffs().data(), 4);
-          }
-          EXPECT_TRUE(in.ok());
-        } else if (channel.topic == "/rover/lidar" || channel.topic == "/rover/gps" ||
-                   channel.topic == "/rover/gps_truth") {
-          skip_time();
-          frames[channel.topic] = in.read_text();
-        }
-      });
+  test::read_raw(folder_ / "log.mcap", [&](Time t, const record::ChannelInfo& channel,
+                                           const std::vector<std::uint8_t>& bytes) {
+    record::CdrReader in(bytes);
+    const auto skip_time = [&] { in.read<std::int32_t>(), in.read<std::uint32_t>(); };
+    if (channel.topic == "/tf_static") {
+      EXPECT_EQ(t.ns, 0);
+      EXPECT_EQ(channel.schema, "tf2_msgs/msg/TFMessage");
+      EXPECT_NE(channel.metadata.at("offered_qos_profiles").find("durability: 1"),
+                std::string::npos)
+          << "transient local: who subscribes later still gets it";
+      found.resize(in.read_count(1));
+      for (Found& one : found) {
+        skip_time();
+        one.parent = in.read_text();
+        one.child = in.read_text();
+        in.read(one.X_PC.p);
+        in.read_doubles(one.X_PC.q.coeffs().data(), 4);
+      }
+      EXPECT_TRUE(in.ok());
+    } else if (channel.topic == "/rover/lidar" || channel.topic == "/rover/gps" ||
+               channel.topic == "/rover/gps_truth") {
+      skip_time();
+      frames[channel.topic] = in.read_text();
+    }
+  });
   ASSERT_EQ(found.size(), 2u);
   EXPECT_EQ(found[0].parent, "rover/base_link");
   EXPECT_EQ(found[0].child, "rover/lidar");

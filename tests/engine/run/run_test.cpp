@@ -40,22 +40,25 @@ TEST_F(SmallRun, APartsEventReachesTheRunsEventsOnce) {
   run();
   // The file: one line each, at its time, with the part as source where it names none.
   std::ifstream lines(folder_ / "events.jsonl");
-  std::vector<nlohmann::json> told;
+  std::vector<nlohmann::json> reported;
   for (std::string line; std::getline(lines, line);) {
     const auto event = nlohmann::json::parse(line);
-    if (event["text"] == "blocked" || event["text"] == "goes on") told.push_back(event);
+    if (event["text"] == "blocked" || event["text"] == "goes on") reported.push_back(event);
   }
-  ASSERT_EQ(told.size(), 2u);
-  EXPECT_DOUBLE_EQ(told[0]["t_s"], 0.1);
-  EXPECT_EQ(told[0]["level"], "warning");
-  EXPECT_EQ(told[0]["source"], "rover.controller");
-  EXPECT_DOUBLE_EQ(told[1]["t_s"], 0.3);
-  EXPECT_EQ(told[1]["source"], "rover.dwa");
+  ASSERT_EQ(reported.size(), 2u);
+  EXPECT_DOUBLE_EQ(reported[0]["t_s"], 0.1);
+  EXPECT_EQ(reported[0]["level"], "warning");
+  EXPECT_EQ(reported[0]["source"], "rover.controller");
+  EXPECT_DOUBLE_EQ(reported[1]["t_s"], 0.3);
+  EXPECT_EQ(reported[1]["source"], "rover.dwa");
   // The log: on "run/events" and, as it was written, on the part's own channel.
   int in_run = 0, own = 0;
-  const auto is_told = [](const Event& e) { return e.text == "blocked" || e.text == "goes on"; };
-  log().read<Event>("/run/events", [&](Time, const Event& e) { in_run += is_told(e); });
-  log().read<Event>("/rover/controller_event", [&](Time, const Event& e) { own += is_told(e); });
+  const auto is_reported = [](const Event& e) {
+    return e.text == "blocked" || e.text == "goes on";
+  };
+  log().read<Event>("/run/events", [&](Time, const Event& e) { in_run += is_reported(e); });
+  log().read<Event>("/rover/controller_event",
+                    [&](Time, const Event& e) { own += is_reported(e); });
   EXPECT_EQ(in_run, 2);
   EXPECT_EQ(own, 2);
 }

@@ -103,14 +103,14 @@ TEST_P(ImuDataSheet, AnHoursRecordHasItsAllanDeviation) {
                 0.1)
         << n;
   }
-  double least_gyro = 1e9, least_accelerometer = 1e9;
+  double min_gyro = 1e9, min_accelerometer = 1e9;
   for (std::size_t n = 1; n <= 32'768; n *= 2) {  // 328 s: eleven clusters of an hour
-    least_gyro = std::min(least_gyro, hour.gyro(n));
-    least_accelerometer = std::min(least_accelerometer, hour.accelerometer(n));
+    min_gyro = std::min(min_gyro, hour.gyro(n));
+    min_accelerometer = std::min(min_accelerometer, hour.accelerometer(n));
   }
   // IEEE 952, equation C.5: the least value is sqrt(2 ln 2 / pi) = 0.664 times the instability.
-  EXPECT_NEAR(least_gyro / 0.664 / rad * 3600.0 / sheet.gyro_instability_dph, 1.0, 0.1);
-  EXPECT_NEAR(least_accelerometer / 0.664 / ug / sheet.accelerometer_instability_ug, 1.0, 0.1);
+  EXPECT_NEAR(min_gyro / 0.664 / rad * 3600.0 / sheet.gyro_instability_dph, 1.0, 0.1);
+  EXPECT_NEAR(min_accelerometer / 0.664 / ug / sheet.accelerometer_instability_ug, 1.0, 0.1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, ImuDataSheet,

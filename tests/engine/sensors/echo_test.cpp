@@ -34,9 +34,9 @@ bool hears(const PlainScene& scene) {
 /// A smooth wall whose nearest point is `distance_m` away, `aslant_deg` left of x.
 PlainScene wall(double distance_m, double aslant_deg, SurfaceClass surface) {
   const double a = rad_from_deg(aslant_deg);
-  const Eigen::Vector3d way(std::cos(a), std::sin(a), 0.0);
+  const Eigen::Vector3d direction(std::cos(a), std::sin(a), 0.0);
   PlainScene scene;
-  scene.panels.push_back({distance_m * way, -way, surface});
+  scene.panels.push_back({distance_m * direction, -direction, surface});
   return scene;
 }
 

@@ -22,7 +22,7 @@ struct Bench {
     sensor = sensor_registry().make_sensor("gnss_heading",
                                            sensor_parameters("gnss_heading", values), context);
     bench.connect(*sensor);
-    told = bench.bus.subscribe<GnssHeading>("rover/s", "test");
+    reading = bench.bus.subscribe<GnssHeading>("rover/s", "test");
     exact = bench.bus.subscribe<GnssHeading>("rover/s_truth", "test");
     truth.X_WB.p = {0, 0, 1};
   }
@@ -30,13 +30,13 @@ struct Bench {
     bench.truth.write(next, truth);
     sensor->step(next);
     next = next + period;
-    return told.value();
+    return reading.value();
   }
 
   SensorBench bench;
   Duration period;
   std::unique_ptr<Sensor> sensor;
-  SignalReader<GnssHeading> told, exact;
+  SignalReader<GnssHeading> reading, exact;
   Odometry truth;
   Time next{0};
 };
@@ -67,12 +67,12 @@ Moments moments_of(double baseline_m) {
   for (int seed = 1; seed <= kRuns; ++seed) {
     Bench bench(open, {{"baseline_m", baseline_m}}, static_cast<std::uint64_t>(seed));
     for (int i = 0; i < kSteps; ++i) {
-      const GnssHeading& told = bench.step();
-      EXPECT_TRUE(told.valid);
-      const double heading = wrap_angle(told.heading_rad - bench.exact.value().heading_rad);
+      const GnssHeading& reading = bench.step();
+      EXPECT_TRUE(reading.valid);
+      const double heading = wrap_angle(reading.heading_rad - bench.exact.value().heading_rad);
       sum.heading_deg += std::pow(deg_from_rad(heading), 2);
-      sum.slope_deg += std::pow(deg_from_rad(told.baseline_W.z() / baseline_m), 2);
-      sum.normalised += std::pow(heading / told.heading_std_rad, 2);
+      sum.slope_deg += std::pow(deg_from_rad(reading.baseline_W.z() / baseline_m), 2);
+      sum.normalised += std::pow(heading / reading.heading_std_rad, 2);
     }
   }
   constexpr double kCount = kRuns * kSteps;
@@ -99,9 +99,9 @@ TEST(GnssHeading, IsSilentUnderARoofAndNeedsTimeToSpeakAgain) {
   for (int i = 0; i < 10; ++i) EXPECT_TRUE(bench.step().valid);
   scene.boxes.push_back({{-50, -50, 3}, {50, 50, 4}, SurfaceClass::kPost});
   bench.step();
-  EXPECT_FALSE(bench.told.value().valid);
-  EXPECT_EQ(bench.told.value().baseline_W, Vector3d(0, 0, 0));
-  EXPECT_LT(bench.told.value().satellites, 6);
+  EXPECT_FALSE(bench.reading.value().valid);
+  EXPECT_EQ(bench.reading.value().baseline_W, Vector3d(0, 0, 0));
+  EXPECT_LT(bench.reading.value().satellites, 6);
   EXPECT_TRUE(bench.exact.value().valid);
   scene.boxes.clear();
   int waited = 0;

@@ -116,8 +116,8 @@ TEST(GnssTracking, AfterABlockageCodeComesBackBeforePhase) {
   const PlainScene open;
   GnssTracking tracking(gnss_signal_table().read(parameters, "s"), sky_of_barolo(), open, 0.2, true,
                         RandomStream(1, "rover", "s"));
-  const auto counts = [&](bool deaf) {
-    const GnssView view = tracking.look(0.0, {0, 0, 1}, deaf, 0.0);
+  const auto counts = [&](bool in_outage) {
+    const GnssView view = tracking.look(0.0, {0, 0, 1}, in_outage, 0.0);
     return std::pair(view.code.count() > 0, view.carrier.count() > 0);
   };
   EXPECT_EQ(counts(false), std::pair(true, true));

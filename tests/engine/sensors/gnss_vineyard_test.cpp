@@ -23,13 +23,13 @@ struct Quality {
 Quality drive(const WorldModel& world, const SceneQuery& scene, double height_m,
               double leaves_dB_per_m) {
   const auto& line = world.rows->alleys.at(world.rows->alleys.size() / 2).line_W;
-  const Eigen::Vector3d way = (line.back() - line.front()).normalized();
+  const Eigen::Vector3d direction = (line.back() - line.front()).normalized();
   Quality quality;
   for (const char* epoch : {"2024-06-15T02:00:00", "2024-06-15T10:00:00", "2024-06-15T18:00:00"}) {
     GnssBench bench(scene, GnssBench::parameters({{"epoch_utc", std::string(epoch)},
                                                   {"leaves_dB_per_m", leaves_dB_per_m}}));
     for (int i = 0; i < 200; ++i) {
-      Eigen::Vector3d p_W = line.front() + (5.0 + 0.2 * i) * way;
+      Eigen::Vector3d p_W = line.front() + (5.0 + 0.2 * i) * direction;
       p_W.z() = scene.ground_height_m(p_W.x(), p_W.y(), 1e4).value() + height_m;
       bench.place(p_W);
       const GnssFix& fix = bench.step();

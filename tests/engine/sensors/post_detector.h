@@ -33,10 +33,10 @@ class PostDetector {
   }
 
   /// Seen at least so often.
-  std::vector<Post> posts(int least_sightings) const {
+  std::vector<Post> posts(int min_sightings) const {
     std::vector<Post> result;
     std::copy_if(posts_.begin(), posts_.end(), std::back_inserter(result),
-                 [&](const Post& post) { return post.sightings >= least_sightings; });
+                 [&](const Post& post) { return post.sightings >= min_sightings; });
     return result;
   }
 

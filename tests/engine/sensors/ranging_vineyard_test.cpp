@@ -42,10 +42,11 @@ const Riseholme& riseholme() {
 Pose in_alley(std::size_t alley, double share, double height_m, double aside_m = 0.0) {
   const auto& line = riseholme().world->rows->alleys.at(alley).line_W;
   const Eigen::Vector2d a = line.front().head<2>(), b = line.back().head<2>();
-  const Eigen::Vector2d way = (b - a).normalized();
-  const Eigen::Vector2d p = a + share * (b - a) + aside_m * Eigen::Vector2d(-way.y(), way.x());
+  const Eigen::Vector2d direction = (b - a).normalized();
+  const Eigen::Vector2d p =
+      a + share * (b - a) + aside_m * Eigen::Vector2d(-direction.y(), direction.x());
   const double ground_m = riseholme().world->terrain->height_m(p.x(), p.y());
-  return {quaternion_from_rpy({0, 0, std::atan2(way.y(), way.x())}),
+  return {quaternion_from_rpy({0, 0, std::atan2(direction.y(), direction.x())}),
           {p.x(), p.y(), ground_m + height_m}};
 }
 

@@ -24,9 +24,9 @@ constexpr double kNothing_m = std::numeric_limits<double>::infinity();
 PlainScene wall(double distance_m, double aslant_deg = 0.0,
                 SurfaceClass surface = SurfaceClass::kCanopy) {
   const double a = rad_from_deg(aslant_deg);
-  const Eigen::Vector3d way(std::cos(a), std::sin(a), 0.0);
+  const Eigen::Vector3d direction(std::cos(a), std::sin(a), 0.0);
   PlainScene scene;
-  scene.panels.push_back({distance_m * way, -way, surface});
+  scene.panels.push_back({distance_m * direction, -direction, surface});
   return scene;
 }
 
@@ -75,9 +75,9 @@ TEST(Ultrasound, ARoundPostReturnsFromItsFront) {
   for (const double aside_deg : {3.0, 7.0, 11.0, 14.0}) {
     const double a = rad_from_deg(aside_deg);
     scene.posts[0].axis_W = {std::cos(a), std::sin(a)};
-    Bench beside("ultrasound", {{"noise_std_m", 0.0}, {"rings", std::int64_t{15}}}, scene);
-    EXPECT_GE(beside.step().range_m, 0.97);
-    EXPECT_LE(beside.step().range_m, 0.9714) << aside_deg;
+    Bench off_axis("ultrasound", {{"noise_std_m", 0.0}, {"rings", std::int64_t{15}}}, scene);
+    EXPECT_GE(off_axis.step().range_m, 0.97);
+    EXPECT_LE(off_axis.step().range_m, 0.9714) << aside_deg;
   }
 }
 

@@ -50,12 +50,12 @@ void add_point(PlannedPath& plan, double x, double y, PathKind kind, int alley =
   plan.points.push_back(point);
 }
 
-/// @param way_m  of the transit before the first leg and after the last, 0: none
-Tour make_tour(const std::vector<int>& order, double way_m = kApproach_m) {
+/// @param transit_m  of the transit before the first leg and after the last, 0: none
+Tour make_tour(const std::vector<int>& order, double transit_m = kApproach_m) {
   Tour tour;
   double at_m = 0.0, x = 0.0;
-  if (way_m > 0.0) add_point(tour.plan, -way_m, kSpacing_m * order[0], PathKind::kTransit);
-  at_m += way_m;
+  if (transit_m > 0.0) add_point(tour.plan, -transit_m, kSpacing_m * order[0], PathKind::kTransit);
+  at_m += transit_m;
   for (std::size_t i = 0; i < order.size(); ++i) {
     const double y = kSpacing_m * order[i], far = kLength_m - x;
     tour.occupied.push_back({at_m, at_m + kLength_m, {order[i]}});
@@ -77,9 +77,9 @@ Tour make_tour(const std::vector<int>& order, double way_m = kApproach_m) {
   }
   const double y = kSpacing_m * order.back();
   add_point(tour.plan, x, y, PathKind::kTransit);
-  if (way_m > 0.0) {
-    add_point(tour.plan, x > 0.0 ? x + way_m : -way_m, y, PathKind::kTransit);
-    at_m += way_m;
+  if (transit_m > 0.0) {
+    add_point(tour.plan, x > 0.0 ? x + transit_m : -transit_m, y, PathKind::kTransit);
+    at_m += transit_m;
   }
   tour.length_m = at_m;
   return tour;
@@ -181,9 +181,9 @@ struct Yard {
 };
 
 Mover make_mover(const std::vector<int>& order, double speed_mps = 1.0,
-                 double way_m = kApproach_m) {
+                 double transit_m = kApproach_m) {
   Mover mover;
-  mover.tour = make_tour(order, way_m);
+  mover.tour = make_tour(order, transit_m);
   mover.speed_mps = speed_mps;
   return mover;
 }

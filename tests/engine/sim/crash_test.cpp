@@ -54,11 +54,12 @@ TEST_F(CrashRun, EndsAtTheCrashUnlessTheScenarioSaysOtherwise) {
   EXPECT_FALSE(result.finished);
   EXPECT_EQ(result.error, "drone crashed at 0.200 s: hit the ground at 2.3 m/s");
 
-  const nlohmann::json told = summary();
-  EXPECT_EQ(told["exit_status"], 1);
-  EXPECT_EQ(told["status"], "a vehicle crashed");
-  EXPECT_EQ(told["error"], result.error);
-  EXPECT_EQ(told["crashes"], nlohmann::json::parse(R"([{"vehicle": "drone", "time_s": 0.2, "kind": "crashed",
+  const nlohmann::json written = summary();
+  EXPECT_EQ(written["exit_status"], 1);
+  EXPECT_EQ(written["status"], "a vehicle crashed");
+  EXPECT_EQ(written["error"], result.error);
+  EXPECT_EQ(written["crashes"],
+            nlohmann::json::parse(R"([{"vehicle": "drone", "time_s": 0.2, "kind": "crashed",
                                        "text": "hit the ground at 2.3 m/s"}])"));
   const auto crashed = events("crashed: hit the ground at 2.3 m/s");
   ASSERT_EQ(crashed.size(), 1u);

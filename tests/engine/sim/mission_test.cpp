@@ -67,7 +67,7 @@ class MissionRun : public test::RunFixture {
     return last;
   }
   /// State, begin and end of every phase: "survey succeeded 0.0-2.0".
-  static std::vector<std::string> told(const run::RunResult& result) {
+  static std::vector<std::string> phase_lines(const run::RunResult& result) {
     std::vector<std::string> lines;
     for (const PhaseReport& phase : result.phases) {
       std::ostringstream line;
@@ -97,7 +97,7 @@ TEST_F(MissionRun, PhasesBeginWhenWhatTheyWaitForIsDone) {
   EXPECT_EQ(result.status, run::RunStatus::kAllMet);
   EXPECT_TRUE(result.finished);
   // A controller says at its tick that it has finished; the next instant, 1 ms later, acts on it.
-  EXPECT_EQ(told(result),
+  EXPECT_EQ(phase_lines(result),
             (std::vector<std::string>{"survey succeeded 0.00-2.00", "build_map succeeded 2.00-5.00",
                                       "spray succeeded 5.00-9.00", "scout succeeded 5.00-6.00"}));
   EXPECT_NEAR(result.simulated_s, 9.0, 0.01);
@@ -142,16 +142,16 @@ TEST_F(MissionRun, AFailedJobBlocksWhatWaitsForItAndEndsTheMission) {
 TEST_F(MissionRun, ATimeoutFailsItsPhaseAloneWhereOthersMayContinue) {
   const run::RunResult result = run(
       {"rover.controller.work_s=1000", "phases.spray.timeout_s=2", "drone.controller.work_s=6"});
-  EXPECT_EQ(told(result)[2], "spray failed 5.00-7.00");
+  EXPECT_EQ(phase_lines(result)[2], "spray failed 5.00-7.00");
   EXPECT_EQ(phase(result, "spray").reason, "rover had not finished within its timeout of 2 s");
-  EXPECT_EQ(told(result)[3], "scout succeeded 5.00-11.00");
+  EXPECT_EQ(phase_lines(result)[3], "scout succeeded 5.00-11.00");
   EXPECT_EQ(result.status, run::RunStatus::kCriterionFailed);
 }
 
 TEST_F(MissionRun, AnAbortStopsWhatRuns) {
   const run::RunResult result = run({"rover.controller.work_s=1000", "phases.spray.timeout_s=2",
                                      "phases.spray.on_failure=abort", "drone.controller.work_s=6"});
-  EXPECT_EQ(told(result)[3], "scout stopped 5.00-7.00");
+  EXPECT_EQ(phase_lines(result)[3], "scout stopped 5.00-7.00");
   EXPECT_EQ(phase(result, "scout").reason, "'spray' failed, which ends the mission");
 }
 
@@ -161,12 +161,12 @@ TEST_F(MissionRun, WhatFailsInTheAirIsLeftToItsController) {
                                          "phases.scout.timeout_s=1"};
   std::vector<std::string> flies = late;
   flies.push_back("drone.type=flyer");
-  EXPECT_EQ(told(run(flies))[3], "scout failed 5.00-6.00");
+  EXPECT_EQ(phase_lines(run(flies))[3], "scout failed 5.00-6.00");
   EXPECT_GT(last_work("drone").s(), 8.9) << "it is not parked in mid-air";
-  EXPECT_EQ(told(run(late))[3], "scout failed 5.00-6.00");
+  EXPECT_EQ(phase_lines(run(late))[3], "scout failed 5.00-6.00");
   EXPECT_LT(last_work("drone").s(), 6.01) << "what stands on the ground is";
   // What has finished, or lies on the ground, is parked, whether it flies or not.
-  EXPECT_EQ(told(run({"drone.type=flyer"}))[3], "scout succeeded 5.00-6.00");
+  EXPECT_EQ(phase_lines(run({"drone.type=flyer"}))[3], "scout succeeded 5.00-6.00");
   EXPECT_LT(last_work("drone").s(), 6.01);
 }
 
@@ -174,7 +174,7 @@ TEST_F(MissionRun, ACrashLeavesTheOthersAtWork) {
   const run::RunResult result = run({"drone.crash_s=5.5", "phases.scout.on_failure=continue"});
   EXPECT_EQ(phase(result, "scout").state, PhaseState::kFailed);
   EXPECT_THAT(phase(result, "scout").reason, HasSubstr("drone crashed at 5.500 s"));
-  EXPECT_EQ(told(result)[2], "spray succeeded 5.00-9.00");
+  EXPECT_EQ(phase_lines(result)[2], "spray succeeded 5.00-9.00");
   EXPECT_EQ(result.status, run::RunStatus::kCriterionFailed);
 }
 
@@ -233,7 +233,7 @@ TEST_F(MissionRun, TimesOfAPhaseCountFromItsBegin) {
 TEST_F(MissionRun, AVehicleMayWorkInSeveralPhasesOneAfterTheOther) {
   const run::RunResult result =
       run({"phases.again={vehicles: [plane], after: [scout]}", "drone.controller.work_s=1"});
-  EXPECT_EQ(told(result).back(), "again succeeded 6.00-8.00");
+  EXPECT_EQ(phase_lines(result).back(), "again succeeded 6.00-8.00");
   EXPECT_EQ(result.status, run::RunStatus::kAllMet);
 }
 

@@ -60,12 +60,12 @@ TEST(ProgressWatch, LeavesThoseAloneWhoStandOrPivotOrFly) {
 
 TEST(ProgressWatch, SaysHowFar) {
   ProgressWatch watch(rover());
-  std::string told;
-  for (int i = 0; i <= 300 && told.empty(); ++i) {
-    told = watch.update(Time{i * 125'000'000ll}, {0.12 * (i > 0), 0, 0}, {0, 5, 5},
-                        Duration{125'000'000});
+  std::string reason;
+  for (int i = 0; i <= 300 && reason.empty(); ++i) {
+    reason = watch.update(Time{i * 125'000'000ll}, {0.12 * (i > 0), 0, 0}, {0, 5, 5},
+                          Duration{125'000'000});
   }
-  EXPECT_EQ(told, "its wheels were driven for 20.0 m in 20.0 s and it moved 0.12 m");
+  EXPECT_EQ(reason, "its wheels were driven for 20.0 m in 20.0 s and it moved 0.12 m");
 }
 
 }  // namespace

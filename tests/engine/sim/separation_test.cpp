@@ -34,11 +34,11 @@ TEST(Separation, OfTwoThatPassEachOtherIsTheGapBetweenTheirCorners) {
     separation.update(tick(i));
   }
   for (const int vehicle : {0, 1}) {
-    const Separation::MinDistance& least = separation.least(vehicle);
-    EXPECT_NEAR(least.distance_m, 5.0 - 2.0 * std::sqrt(2.0), 1e-12);
-    EXPECT_EQ(least.other, 1 - vehicle);
-    EXPECT_NEAR(least.time.s(), 10.0, 1e-9);
-    EXPECT_NEAR((least.p_W - Vector3d(10.0, vehicle == 0 ? 0.0 : 5.0, 0.0)).norm(), 0.0, 1e-9);
+    const Separation::MinDistance& closest = separation.closest(vehicle);
+    EXPECT_NEAR(closest.distance_m, 5.0 - 2.0 * std::sqrt(2.0), 1e-12);
+    EXPECT_EQ(closest.other, 1 - vehicle);
+    EXPECT_NEAR(closest.time.s(), 10.0, 1e-9);
+    EXPECT_NEAR((closest.p_W - Vector3d(10.0, vehicle == 0 ? 0.0 : 5.0, 0.0)).norm(), 0.0, 1e-9);
   }
 }
 
@@ -48,22 +48,22 @@ TEST(Separation, TellsWhoOfManyAndEveryPair) {
   separation.place(1, at(5, 0), Vector3d::Zero(), kHalf_m);
   separation.place(2, at(5, 4), Vector3d::Zero(), kHalf_m);
   separation.update(tick(0));
-  EXPECT_EQ(separation.least(0).other, 1);
-  EXPECT_DOUBLE_EQ(separation.least(0).distance_m, 3.0);
-  EXPECT_DOUBLE_EQ(separation.least(2).distance_m, 3.0);
-  EXPECT_NEAR(separation.least(0, 2).distance_m, std::hypot(3.0, 3.0), 1e-12);
-  EXPECT_EQ(separation.least(0, 2).other, 2);
-  EXPECT_EQ(separation.least(2, 0).other, 0);
-  EXPECT_EQ(separation.least(2, 0).p_W, Vector3d(5, 4, 0));
+  EXPECT_EQ(separation.closest(0).other, 1);
+  EXPECT_DOUBLE_EQ(separation.closest(0).distance_m, 3.0);
+  EXPECT_DOUBLE_EQ(separation.closest(2).distance_m, 3.0);
+  EXPECT_NEAR(separation.closest(0, 2).distance_m, std::hypot(3.0, 3.0), 1e-12);
+  EXPECT_EQ(separation.closest(0, 2).other, 2);
+  EXPECT_EQ(separation.closest(2, 0).other, 0);
+  EXPECT_EQ(separation.closest(2, 0).p_W, Vector3d(5, 4, 0));
   // The fourth was never there.
-  EXPECT_EQ(separation.least(3).other, -1);
-  EXPECT_TRUE(std::isinf(separation.least(3).distance_m));
+  EXPECT_EQ(separation.closest(3).other, -1);
+  EXPECT_TRUE(std::isinf(separation.closest(3).distance_m));
   // The first goes; what comes near its place is not near it.
   separation.remove(0);
   separation.place(3, at(0, 0), Vector3d::Zero(), kHalf_m);
   separation.update(tick(1));
-  EXPECT_DOUBLE_EQ(separation.least(0).distance_m, 3.0);
-  EXPECT_DOUBLE_EQ(separation.least(3).distance_m, 3.0);
+  EXPECT_DOUBLE_EQ(separation.closest(0).distance_m, 3.0);
+  EXPECT_DOUBLE_EQ(separation.closest(3).distance_m, 3.0);
 }
 
 TEST(Separation, TheBoxSitsWhereItIsOnTheVehicle) {
@@ -71,16 +71,16 @@ TEST(Separation, TheBoxSitsWhereItIsOnTheVehicle) {
   separation.place(0, at(0, 0, 0.5 * kPi), {2, 0, 0}, kHalf_m);  // its box is at y = 2
   separation.place(1, at(0, 6), Vector3d::Zero(), kHalf_m);
   separation.update(tick(0));
-  EXPECT_NEAR(separation.least(0).distance_m, 2.5, 1e-12);
-  EXPECT_NEAR((separation.least(0).p_W - Vector3d(0, 2, 0)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR(separation.closest(0).distance_m, 2.5, 1e-12);
+  EXPECT_NEAR((separation.closest(0).p_W - Vector3d(0, 2, 0)).norm(), 0.0, 1e-12);
 }
 
 TEST(Separation, IsTheLeastOfAllTicksWithoutHeap) {
   RandomStream random(1, "", "walk");
   Separation separation(3);
   Pose poses[3] = {at(0, 0), at(4, 0), at(0, 4)};
-  double least[3][3];
-  for (auto& row : least) std::fill(std::begin(row), std::end(row), 1e9);
+  double closest[3][3];
+  for (auto& row : closest) std::fill(std::begin(row), std::end(row), 1e9);
   std::size_t allocations = 0;
   for (int i = 0; i < 3000; ++i) {
     for (int v = 0; v < 3; ++v) {
@@ -94,8 +94,8 @@ TEST(Separation, IsTheLeastOfAllTicksWithoutHeap) {
     for (int a = 0; a < 3; ++a) {
       for (int b = 0; b < 3; ++b) {
         if (a == b) continue;
-        least[a][b] =
-            std::min(least[a][b], physics::box_distance_m(poses[a], kHalf_m, poses[b], kHalf_m));
+        closest[a][b] =
+            std::min(closest[a][b], physics::box_distance_m(poses[a], kHalf_m, poses[b], kHalf_m));
       }
     }
   }
@@ -104,10 +104,10 @@ TEST(Separation, IsTheLeastOfAllTicksWithoutHeap) {
     double own = 1e9;
     for (int b = 0; b < 3; ++b) {
       if (a == b) continue;
-      EXPECT_NEAR(separation.least(a, b).distance_m, least[a][b], 1e-12);
-      own = std::min(own, least[a][b]);
+      EXPECT_NEAR(separation.closest(a, b).distance_m, closest[a][b], 1e-12);
+      own = std::min(own, closest[a][b]);
     }
-    EXPECT_NEAR(separation.least(a).distance_m, own, 1e-12);
+    EXPECT_NEAR(separation.closest(a).distance_m, own, 1e-12);
   }
 }
 

@@ -104,10 +104,10 @@ class StraightAhead final : public Planner {
 
 /// Writes an event of its own at 0.1 s and, with another source, at 0.3 s, where `tells` says so.
 /// Has finished from `finish_s` on where that is given, and then says so as a follower.
-class Teller final : public Controller {
+class EventReporter final : public Controller {
  public:
-  explicit Teller(const ParameterSet& parameters)
-      : tells_(parameters.boolean("tells")), finish_s_(parameters.number("finish_s")) {}
+  explicit EventReporter(const ParameterSet& parameters)
+      : reports_events_(parameters.boolean("tells")), finish_s_(parameters.number("finish_s")) {}
   void connect(Ports& ports) override {
     plan_ = ports.read_optional<PlannedPath>("plan");
     actuators_ = ports.write<NamedValues>("actuators");
@@ -118,13 +118,13 @@ class Teller final : public Controller {
   void step(Time now) override {
     finished_ = finish_s_ > 0.0 && now.s() >= finish_s_;
     if (finished_) follower_.write(now, {.finished = true});
-    if (!tells_) return;
+    if (!reports_events_) return;
     if (now.ns == 100'000'000) event_.write(now, {Event::Level::kWarning, "", "blocked"});
     if (now.ns == 300'000'000) event_.write(now, {Event::Level::kInfo, "rover.dwa", "goes on"});
   }
 
  private:
-  bool tells_;
+  bool reports_events_;
   double finish_s_;
   bool finished_ = false;
   SignalReader<PlannedPath> plan_;
@@ -163,7 +163,7 @@ inline Registry small_registry() {
       spec("teller", {boolean_parameter("tells", true, "whether it writes events"),
                       number_parameter("finish_s", "s", 0.0, 0.0, 1e3, "finished from then on")}),
       [](const ParameterSet& parameters, const ControllerContext&) {
-        return std::make_unique<Teller>(parameters);
+        return std::make_unique<EventReporter>(parameters);
       });
   return registry;
 }

@@ -100,7 +100,7 @@ TEST(Spawn, StandsOnMeshesBelowZero) {
 }
 
 TEST(Spawn, IsTiltedByTheGroundAndNotByWhatStandsOnIt) {
-  const auto tilt_beside = [](const MeshInstance& thing) {
+  const auto tilt_next_to = [](const MeshInstance& thing) {
     Start start;
     start.world.meshes.push_back(instance_of("ground", sheet(-2.0f, 0.0f), SurfaceClass::kTerrain));
     start.world.meshes.push_back(thing);
@@ -108,12 +108,12 @@ TEST(Spawn, IsTiltedByTheGroundAndNotByWhatStandsOnIt) {
   };
   // Half a metre ahead: what the slope was measured on.
   const TriangleMesh crate = block({0.45f, -1.0f, -2.0f}, {1.5f, 1.0f, -1.4f});
-  EXPECT_LT(tilt_beside(instance_of("crate", crate, SurfaceClass::kObstacle)), 1e-6);
-  EXPECT_LT(tilt_beside(instance_of("canopy", crate, SurfaceClass::kCanopy)), 1e-6);
+  EXPECT_LT(tilt_next_to(instance_of("crate", crate, SurfaceClass::kObstacle)), 1e-6);
+  EXPECT_LT(tilt_next_to(instance_of("canopy", crate, SurfaceClass::kCanopy)), 1e-6);
   // A wall that is part of the terrain rises by more than 45 deg; a step of 0.3 m does not.
-  EXPECT_LT(tilt_beside(instance_of("wall", crate, SurfaceClass::kTerrain)), 1e-6);
+  EXPECT_LT(tilt_next_to(instance_of("wall", crate, SurfaceClass::kTerrain)), 1e-6);
   const TriangleMesh step = block({0.45f, -9.0f, -2.0f}, {9.0f, 9.0f, -1.7f});
-  EXPECT_NEAR(tilt_beside(instance_of("step", step, SurfaceClass::kTerrain)),
+  EXPECT_NEAR(tilt_next_to(instance_of("step", step, SurfaceClass::kTerrain)),
               deg_from_rad(std::atan(0.3 / 1.0)), 1e-4);
 }
 
@@ -151,8 +151,8 @@ TEST(Spawn, RefusesAStartInContactByName) {
   // A low crate reaches the wheels alone; beside the box there is room.
   const TriangleMesh low = block({0.6f, -0.2f, 0.0f}, {1.0f, 0.2f, 0.1f});
   EXPECT_THAT(fault_with(instance_of("low", low, SurfaceClass::kObstacle)), HasSubstr("'low'"));
-  const TriangleMesh beside = block({0.76f, -0.2f, 0.0f}, {1.0f, 0.2f, 1.0f});
-  EXPECT_EQ(fault_with(instance_of("beside", beside, SurfaceClass::kObstacle)), "none");
+  const TriangleMesh adjacent = block({0.76f, -0.2f, 0.0f}, {1.0f, 0.2f, 1.0f});
+  EXPECT_EQ(fault_with(instance_of("beside", adjacent, SurfaceClass::kObstacle)), "none");
 }
 
 TEST(Spawn, RefusesTwoVehiclesOnOneSpot) {

@@ -11,8 +11,8 @@
 
 #include "engine/core/error.h"
 #include "engine/metrics/register_metrics.h"
-#include "engine/sim/truth_estimator.h"
 #include "engine/sim/simulation.h"
+#include "engine/sim/truth_estimator.h"
 #include "tests/engine/sim/small_parts.h"
 
 namespace vinerow::traffic_control_test {
@@ -221,10 +221,10 @@ TEST(TrafficControl, WhoWaitsStandsWithItsFrontBeforeTheAlley) {
   run.until(20.0);
   EXPECT_NEAR(run.distance_m("first"), 20.0, 0.11);
   EXPECT_TRUE(std::isinf(run.authority("first").stop_at_m));
-  const MovementAuthority& told = run.authority("second");
-  EXPECT_DOUBLE_EQ(told.stop_at_m, kStand_m);
-  EXPECT_EQ(told.alley, 7);
-  EXPECT_EQ(told.holder, "first");
+  const MovementAuthority& second_authority = run.authority("second");
+  EXPECT_DOUBLE_EQ(second_authority.stop_at_m, kStand_m);
+  EXPECT_EQ(second_authority.alley, 7);
+  EXPECT_EQ(second_authority.holder, "first");
   EXPECT_DOUBLE_EQ(run.distance_m("second"), kStand_m);
 }
 

@@ -1,5 +1,6 @@
 /// Summaries, quantiles, intervals and paired differences against published examples and scipy.
 
+#include "engine/math/statistics.h"
 #include "tools/study/statistics.h"
 
 #include <gtest/gtest.h>
@@ -42,8 +43,8 @@ TEST(Summary, OfAFewNumbers) {
   EXPECT_EQ(summary.count, 8u);
   EXPECT_DOUBLE_EQ(summary.mean, 5.0);
   EXPECT_DOUBLE_EQ(summary.deviation, std::sqrt(32.0 / 7.0));
-  EXPECT_EQ(summary.least, 2.0);
-  EXPECT_EQ(summary.greatest, 9.0);
+  EXPECT_EQ(summary.minimum, 2.0);
+  EXPECT_EQ(summary.maximum, 9.0);
 }
 
 TEST(Summary, SurvivesALargeMean) {
@@ -66,12 +67,12 @@ TEST(Summary, SaysWhatTooFewValuesDoNotDefine) {
   const Summary none = summarise({});
   EXPECT_EQ(none.count, 0u);
   EXPECT_TRUE(std::isnan(none.mean) && std::isnan(none.deviation));
-  EXPECT_TRUE(std::isnan(none.least) && std::isnan(none.greatest));
+  EXPECT_TRUE(std::isnan(none.minimum) && std::isnan(none.maximum));
   const Summary one = summarise(std::vector<double>{-3.5});
   EXPECT_EQ(one.mean, -3.5);
   EXPECT_TRUE(std::isnan(one.deviation));
-  EXPECT_EQ(one.least, -3.5);
-  EXPECT_EQ(one.greatest, -3.5);
+  EXPECT_EQ(one.minimum, -3.5);
+  EXPECT_EQ(one.maximum, -3.5);
 }
 
 TEST(Quantile, IsThatOfNumpy) {

@@ -43,8 +43,8 @@ TEST(StudyLogarithmicAxis, MapsEqualRatiosToEqualLengths) {
 }
 
 TEST(StudyLogarithmicAxis, TakesAsManyTicksAsAreAllowed) {
-  const auto texts = [](double low, double high, int most) {
-    return texts_of(Axis({low, high}, 0.0, 1.0, most, AxisScale::kLogarithmic));
+  const auto texts = [](double low, double high, int max_ticks) {
+    return texts_of(Axis({low, high}, 0.0, 1.0, max_ticks, AxisScale::kLogarithmic));
   };
   EXPECT_THAT(texts(0.01, 1.0, 10), ElementsAre("0.01", "0.02", "0.05", "0.1", "0.2", "0.5", "1"));
   EXPECT_THAT(texts(0.01, 1.0, 5), ElementsAre("0.01", "0.1", "1"));

@@ -81,7 +81,7 @@ BoxPlot boxes_of(const std::vector<std::vector<double>>& levels) {
   return plot;
 }
 
-ParallelPlot ways_of(const std::vector<std::vector<double>>& lines) {
+ParallelPlot plot_of_lines(const std::vector<std::vector<double>>& lines) {
   ParallelPlot plot;
   plot.texts = {"settings", "A caption."};
   plot.axes = {{{"controller", ""}, {"a", "b", "c"}}, {{"speed", "m/s"}, {}}, {{"error", "m"}, {}}};
@@ -302,7 +302,7 @@ TEST(StudyBoxPlot, TakesAnyLevelsAndValues) {
 
 TEST(StudyParallelPlot, DrawsALineThroughEveryAxis) {
   const std::string figure =
-      parallel_plot(ways_of({{0.0, 1.0, 5.0}, {2.0, 3.0, 10.0}, {1.0, 2.0, 0.0}}));
+      parallel_plot(plot_of_lines({{0.0, 1.0, 5.0}, {2.0, 3.0, 10.0}, {1.0, 2.0, 0.0}}));
   const Document svg = checked(figure);
   const std::vector<Element> paths = svg.with_class("way");
   ASSERT_EQ(paths.size(), 3u);
@@ -318,12 +318,12 @@ TEST(StudyParallelPlot, DrawsALineThroughEveryAxis) {
 
 TEST(StudyParallelPlot, LeavesGapsAndDrawsNoMoreLinesThanAllowed) {
   const Document svg =
-      checked(parallel_plot(ways_of({{0.0, kNoValue, 1.0}, {1.0, 2.0, kNoValue}})));
+      checked(parallel_plot(plot_of_lines({{0.0, kNoValue, 1.0}, {1.0, 2.0, kNoValue}})));
   const std::string path = svg.with_class("way")[0].attributes.at("d");
   EXPECT_EQ(std::count(path.begin(), path.end(), 'M'), 2);
   EXPECT_EQ(std::count(path.begin(), path.end(), 'L'), 0);
   EXPECT_TRUE(svg.with_class("way")[1].is("uncoloured"));
-  ParallelPlot many = ways_of(std::vector<std::vector<double>>(100, {0.0, 1.0, 2.0}));
+  ParallelPlot many = plot_of_lines(std::vector<std::vector<double>>(100, {0.0, 1.0, 2.0}));
   many.max_lines = 10;
   const std::string figure = parallel_plot(many);
   const std::vector<Element> few = checked(figure).with_cell();
@@ -334,8 +334,8 @@ TEST(StudyParallelPlot, LeavesGapsAndDrawsNoMoreLinesThanAllowed) {
 
 TEST(StudyParallelPlot, TakesAnyAxesAndValues) {
   EXPECT_EQ(parallel_plot({}), "");
-  EXPECT_EQ(parallel_plot(ways_of({})), "");
-  checked(parallel_plot(ways_of({{0.0, 1e300, kNoValue}, {0.0, -1e300, kInfinite}})));
+  EXPECT_EQ(parallel_plot(plot_of_lines({})), "");
+  checked(parallel_plot(plot_of_lines({{0.0, 1e300, kNoValue}, {0.0, -1e300, kInfinite}})));
   ParallelPlot plot;
   plot.texts = {"many axes", ""};
   for (int i = 0; i < 12; ++i) {
@@ -350,7 +350,7 @@ TEST(StudyParallelPlot, TakesAnyAxesAndValues) {
 
 TEST(StudyIntervalPlot, PutsDotsAndIntervalsInRows) {
   IntervalPlot plot = rows_of({{"a", 0.5, 0.25, 1.0, "", 3}, {"b", 1.0, 0.5, 1.0, "", 4}});
-  plot.value.least = 0.0, plot.value.most = 1.0;
+  plot.value.minimum = 0.0, plot.value.maximum = 1.0;
   plot.reference = {0.0, "none"};
   const Document svg = checked(interval_plot(plot));
   const Element axis = level_axis(svg);
@@ -413,7 +413,7 @@ std::vector<std::string> plots_of_text(const std::string& text) {
   boxes.texts = {text, text};
   boxes.x = boxes.y = quantity;
   for (BoxLevel& level : boxes.levels) level.label = level.values[0].note = text;
-  ParallelPlot paths = ways_of({{0.0, 1.0, 2.0}, {1.0, 5.0, 3.0}});
+  ParallelPlot paths = plot_of_lines({{0.0, 1.0, 2.0}, {1.0, 5.0, 3.0}});
   paths.texts = {text, text};
   for (ParallelAxis& axis : paths.axes) axis.quantity = quantity;
   paths.axes[0].levels = paths.axes[2].levels = std::vector<std::string>(4, text);

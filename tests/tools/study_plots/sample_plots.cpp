@@ -172,7 +172,7 @@ std::string all_settings(int count) {
   return parallel_plot(plot);
 }
 
-std::string small_ways() {
+std::string small_parallel_plot() {
   ParallelPlot plot;
   plot.texts = {"Twelve settings", ""};
   plot.axes = {{{"cover of the soil", ""}, {"bare soil", "grass", "clover and rye, mown"}},
@@ -250,9 +250,9 @@ std::string sample_page() {
   };
   const std::string plots = success_map(false) + success_rows() + deviation_bands(Spread::kBand) +
                             deviation_bands(Spread::kWhiskers) + deviation_boxes(5, 20, true) +
-                            effect_rows() + all_settings(5000) + small_ways() + controller_map() +
-                            deviation_boxes(24, 120, false) + success_map(true) + huge_values() +
-                            deviation_boxes(1, 20, false);
+                            effect_rows() + all_settings(5000) + small_parallel_plot() +
+                            controller_map() + deviation_boxes(24, 120, false) + success_map(true) +
+                            huge_values() + deviation_boxes(1, 20, false);
   return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/>\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
          "<title>sample of a study</title>\n<style>" +

@@ -58,10 +58,10 @@ TEST(FixedWingLanding, BreaksWhenItSinksTooFast) {
   rig.fly(over_ground(3.0, 3.5, 0.0, 0.0, 0.2), {0.0, 0.0, 0.0});
   rig.run(0.5);
   EXPECT_EQ(rig.crash().substr(0, 39), "hit the ground with its belly, sinking ");
-  const std::string told = rig.crash();
+  const std::string cause = rig.crash();
   rig.actuate(1.0, 0.0, 0.0);
   rig.run(1.0);
-  EXPECT_EQ(rig.crash(), told);                       // once told it stays
+  EXPECT_EQ(rig.crash(), cause);                      // the first cause stays
   EXPECT_LT(rig.vehicle.actuator_states()[0], 1e-3);  // and the motor is off
 }
 

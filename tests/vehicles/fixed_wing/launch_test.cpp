@@ -15,8 +15,9 @@ namespace {
 using namespace test;
 using Eigen::Vector3d;
 
-struct Told {
-  explicit Told(WingRig& rig) : event(bus.subscribe<Event>("plane/vehicle_event", "test")) {
+struct EventRecorder {
+  explicit EventRecorder(WingRig& rig)
+      : event(bus.subscribe<Event>("plane/vehicle_event", "test")) {
     Ports ports(bus, "plane", "plane");
     rig.vehicle.connect(ports);
   }
@@ -44,7 +45,7 @@ TEST(FixedWingLaunch, IsPushedEvenlyToItsSpeed) {
     params.launch.length_m = 2.0;
     params.launch.elevation_rad = rad_from_deg(20.0);
     WingRig rig(params, make_flat_world(), 1'000'000, rad_from_deg(30.0));
-    Told told(rig);
+    EventRecorder recorder(rig);
     rig.actuate(1.0, 0.0, 0.0);
     const Vector3d along(std::cos(rad_from_deg(20.0)) * std::cos(rad_from_deg(30.0)),
                          std::cos(rad_from_deg(20.0)) * std::sin(rad_from_deg(30.0)),
@@ -66,7 +67,7 @@ TEST(FixedWingLaunch, IsPushedEvenlyToItsSpeed) {
     EXPECT_NEAR(rig.body().v_WB_W.norm(), speed, 1e-9);
     EXPECT_LT((rig.body().v_WB_W.normalized() - along).norm(), 1e-9);
     EXPECT_NEAR((rig.body().X_WB.p - Vector3d(0, 0, 1.7)).norm(), 2.0, 0.5e-3 * speed);
-    EXPECT_EQ(told.event.value().text,
+    EXPECT_EQ(recorder.event.value().text,
               speed == 10.0 ? "launched at 10.0 m/s" : "launched at 14.0 m/s");
     rig.run(1.0);
     EXPECT_GT(rig.body().X_WB.p.z(), 3.0);  // and climbs on
@@ -137,39 +138,39 @@ TEST(FixedWingFaults, MotorStopsAtItsTime) {
   FixedWingParams params = plain_params();
   params.faults.push_back({FixedWingFault::Kind::kMotorFailure, 0.5});
   Flying rig(params);
-  Told told(rig);
+  EventRecorder recorder(rig);
   rig.run(0.5);
   EXPECT_NEAR(rig.vehicle.actuator_states()[0], 0.5828, 1e-9);
   rig.run(0.2);
   EXPECT_NEAR(rig.vehicle.actuator_states()[0], 0.5828 * std::exp(-2.0), 1e-9);  // lag 0.1 s
-  EXPECT_EQ(told.event.value().text, "the motor fails");
+  EXPECT_EQ(recorder.event.value().text, "the motor fails");
 }
 
 TEST(FixedWingFaults, ElevonSticksWhereItStands) {
   FixedWingParams params = plain_params();
   params.faults.push_back({FixedWingFault::Kind::kElevonStuck, 0.02, false});
   Flying rig(params);
-  Told told(rig);
+  EventRecorder recorder(rig);
   rig.actuate(0.5828, 0.2, 0.2);
   rig.run(0.3);
   const double left = rad_from_deg(-0.83), stuck = 0.2 + (left - 0.2) * std::exp(-0.5);
   EXPECT_NEAR(rig.vehicle.actuator_states()[1], 0.2, 1e-3);
   EXPECT_NEAR(rig.vehicle.actuator_states()[2], stuck, 1e-9);
-  EXPECT_EQ(told.event.value().text, "the right elevon is stuck at 4.0 deg");
+  EXPECT_EQ(recorder.event.value().text, "the right elevon is stuck at 4.0 deg");
 }
 
 TEST(FixedWingFaults, BatteryRunsEmptyAndStopsTheMotor) {
   FixedWingParams params = plain_params();
   params.battery.initial_charge = 1e-3;  // 80 J: two seconds at 40 W
   Flying rig(params);
-  Told told(rig);
+  EventRecorder recorder(rig);
   rig.run(0.01);
   // T (k d + V) / 2 over the efficiency of a half, and the electronics.
   const double thrust = 0.0192325 * (std::pow(25.0 * 0.5828, 2) - 144.0);
   EXPECT_NEAR(rig.vehicle.battery().power_W, thrust * (25.0 * 0.5828 + 12.0) + 6.0, 0.05);
   rig.run(2.5);
   EXPECT_EQ(rig.vehicle.battery().charge, 0.0);
-  EXPECT_EQ(told.event.value().text, "battery empty: the motor stops");
+  EXPECT_EQ(recorder.event.value().text, "battery empty: the motor stops");
   EXPECT_LT(rig.vehicle.actuator_states()[0], 0.2);
 }
 

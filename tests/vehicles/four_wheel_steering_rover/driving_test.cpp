@@ -94,9 +94,9 @@ TEST(FourWheelSteeringRover, CrabGoesAlongItsAngleWithoutYaw) {
   const Eigen::Vector3d start = rig.body().X_WB.p;
   rig.actuate(10.0, 10.0, {4, 4, 4, 4});
   rig.run(10.0);
-  const Eigen::Vector3d way = rig.body().X_WB.p - start;
-  EXPECT_GT(way.norm(), 7.5);
-  EXPECT_NEAR(deg_from_rad(std::atan2(way.y(), way.x())), 10.0, 0.05);
+  const Eigen::Vector3d displacement = rig.body().X_WB.p - start;
+  EXPECT_GT(displacement.norm(), 7.5);
+  EXPECT_NEAR(deg_from_rad(std::atan2(displacement.y(), displacement.x())), 10.0, 0.05);
   EXPECT_NEAR(deg_from_rad(rig.yaw_rad()), 0.0, 0.01);
 }
 
@@ -119,13 +119,13 @@ TEST(FourWheelSteeringRover, EnergyIsRollingResistanceOverEfficiency) {
   rig.run(5.0);
   const double energy0 = rig.energy_J(), x0 = rig.body().X_WB.p.x();
   rig.run(20.0);
-  const double way = rig.body().X_WB.p.x() - x0;
-  EXPECT_NEAR(way, 20.0, 0.02);
+  const double distance_m = rig.body().X_WB.p.x() - x0;
+  EXPECT_NEAR(distance_m, 20.0, 0.02);
   // Dry grass 0.06, 240 kg: 141 N; efficiency 0.85. Beside it 60 W of electronics and the copper
   // loss of four motors, 0.02 W/Nm2 times the square of a quarter of the torque each.
   const double resistance_N = 0.06 * 240.0 * kGravity;
   const double copper_W = 4.0 * 0.02 * std::pow(0.25 * resistance_N * 0.2, 2);
-  const double expected = resistance_N * way / 0.85 + (60.0 + copper_W) * 20.0;
+  const double expected = resistance_N * distance_m / 0.85 + (60.0 + copper_W) * 20.0;
   EXPECT_NEAR(rig.energy_J() - energy0, expected, 0.002 * expected);
 }
 

@@ -63,12 +63,12 @@ TEST(FourWheelSteeringRover, DriftsAlongASideSlopeAsTheTyreModelSays) {
     const Eigen::Vector3d start = rig.body().X_WB.p;
     const double yaw0 = rig.yaw_rad();
     rig.run(10.0);
-    const Eigen::Vector3d way = rig.body().X_WB.p - start;
+    const Eigen::Vector3d displacement = rig.body().X_WB.p - start;
     // Along the contour and down the fall line, measured in the slope's plane; the drift is the
     // angle from the heading. The heading itself swings downhill by 0.03 (dry) to 0.14 deg/s (wet):
     // the motors' torque against the rolling resistance loads the rear axle by 1.5 % more, and the
     // front one needs more slip for its share.
-    const double along = way.y(), down = -way.x() / std::cos(slope_rad);
+    const double along = displacement.y(), down = -displacement.x() / std::cos(slope_rad);
     const double heading = 0.5 * (yaw0 + rig.yaw_rad()) - rad_from_deg(90.0);
     // All wheels have the same slip and forces proportional to their loads, so the load transfer
     // to the lower wheels cancels: the sum is m g sin = m g cos * (F_y / N).
@@ -91,7 +91,7 @@ TEST(FourWheelSteeringRover, DriftsAlongASideSlopeAsTheTyreModelSays) {
 TEST(FourWheelSteeringRover, ABatteryLastsEightHoursOfRowsOnFourteenDegrees) {
   // Parcel F rises 30 m over rows of 118 m and a width of 40 m, 12 deg off the rows: 13.6 deg.
   const double slope_rad = rad_from_deg(14.0);
-  double energy_J = 0.0, way_m = 0.0, time_s = 0.0;
+  double energy_J = 0.0, distance_m = 0.0, time_s = 0.0;
   for (const double yaw_deg : {0.0, 180.0}) {
     FourWheelRig rig(make_slope_world(slope_rad), rad_from_deg(yaw_deg));
     rig.actuate(0, 0, {5, 5, 5, 5});
@@ -100,12 +100,12 @@ TEST(FourWheelSteeringRover, ABatteryLastsEightHoursOfRowsOnFourteenDegrees) {
     const Eigen::Vector3d start = rig.body().X_WB.p;
     rig.run(20.0);
     energy_J += rig.energy_J() - energy0;
-    way_m += (rig.body().X_WB.p - start).norm();
+    distance_m += (rig.body().X_WB.p - start).norm();
     time_s += 20.0;
   }
   const double mean_W = energy_J / time_s;
   RecordProperty("mean_power_W", static_cast<int>(std::lround(mean_W)));
-  EXPECT_NEAR(way_m / time_s, 1.0, 0.03);
+  EXPECT_NEAR(distance_m / time_s, 1.0, 0.03);
   // By hand, without slip: up the motors drive at their efficiency, down half of the braking power
   // comes back.
   const double mg = 240.0 * kGravity;

@@ -101,11 +101,12 @@ TEST(FourWheelSteeringRover, TellsBothReadingsOfTheSteeringRange) {
   EXPECT_NEAR(as_wheel.description().min_turning_radius_m.value(), 2.19, 5e-3);
   EXPECT_NEAR(deg_from_rad(as_wheel.description().actuators[0].max), 18.9, 0.05);
   // No pair of axle angles inside that limit turns a wheel beyond 23 deg.
-  const double most = params.max_axle_steer_rad();
+  const double max_rad = params.max_axle_steer_rad();
   double largest = 0.0;
   for (int i = -20; i <= 20; ++i) {
     for (int j = -20; j <= 20; ++j) {
-      for (const double angle : calc_wheel_angles(params.axles(), i * most / 20, j * most / 20)) {
+      for (const double angle :
+           calc_wheel_angles(params.axles(), i * max_rad / 20, j * max_rad / 20)) {
         largest = std::max(largest, std::abs(angle));
       }
     }

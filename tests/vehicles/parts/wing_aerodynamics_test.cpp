@@ -101,17 +101,17 @@ TEST(WingAerodynamics, IsNothingAtRestAndContinuousThere) {
 
 TEST(WingAerodynamics, LiftHasAMaximumEitherSide) {
   const WingParams p;
-  double best = 0.0, best_deg = 0.0, least = 0.0, least_deg = 0.0;
+  double best = 0.0, best_deg = 0.0, lowest = 0.0, lowest_deg = 0.0;
   for (double deg = -90.0; deg <= 90.0; deg += 0.1) {
     const double lift = calc_lift_drag(p, rad_from_deg(deg), {}).lift;
     if (std::abs(deg) > 35.0) continue;
     if (lift > best) best = lift, best_deg = deg;
-    if (lift < least) least = lift, least_deg = deg;
+    if (lift < lowest) lowest = lift, lowest_deg = deg;
   }
   EXPECT_NEAR(best, 1.17, 0.02);
   EXPECT_NEAR(best_deg, 19.5, 0.5);
-  EXPECT_NEAR(least, -1.08, 0.02);
-  EXPECT_NEAR(least_deg, -19.5, 0.5);
+  EXPECT_NEAR(lowest, -1.08, 0.02);
+  EXPECT_NEAR(lowest_deg, -19.5, 0.5);
   // Beyond, less lift than straight before, and in the end a plate's.
   EXPECT_LT(calc_lift_drag(p, rad_from_deg(26.0), {}).lift, 0.5 * best);
   // With the elevons that hold it there it carries 1.0: stall at 8.4 m/s (reference, section 2).

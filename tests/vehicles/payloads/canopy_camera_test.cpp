@@ -42,7 +42,7 @@ TEST(CanopyCamera, OnAWallAcrossTheAxisTheGsdIsDepthTimesPixel) {
   rig.tick(10.0, 0.0, 0.0, 1.0);
   // Everywhere in the picture, off the axis too.
   EXPECT_NEAR(rig.result("gsd_mean_mm"), 2.25, 1e-6);
-  EXPECT_NEAR(rig.told_value("gsd_mm"), 2.25, 1e-6);
+  EXPECT_NEAR(rig.signal_value("gsd_mm"), 2.25, 1e-6);
   EXPECT_EQ(rig.result("pictures"), 1.0);
 }
 
@@ -53,7 +53,7 @@ TEST(CanopyCamera, AslantTheGsdGrowsByTheRootOfTheCosine) {
     rig.z_m = 1.25;
     rig.tick(10.0, 0.0, rad_from_deg(angle_deg), 1.0);
     const double cosine = std::cos(rad_from_deg(angle_deg));
-    EXPECT_NEAR(rig.told_value("gsd_mm"), 2.25 / cosine / std::sqrt(cosine), 1e-6);
+    EXPECT_NEAR(rig.signal_value("gsd_mm"), 2.25 / cosine / std::sqrt(cosine), 1e-6);
   }
 }
 

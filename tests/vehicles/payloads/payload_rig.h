@@ -97,31 +97,36 @@ struct PayloadRig {
     Ports ports(bus, "rover", "rover.p");
     payload->connect(ports);
     bus.check_connected();
-    told = bus.subscribe<NamedValues>("rover/p", "test");
-    news = bus.subscribe_optional<Event>("rover/p_event", "test");
+    signal = bus.subscribe<NamedValues>("rover/p", "test");
+    event = bus.subscribe_optional<Event>("rover/p_event", "test");
   }
 
-  /// One tick with B's origin 0.4 m above the ground at (x, y). @param seen_x_m  estimate - truth
-  void tick(double x_m, double y_m, double yaw_rad, double speed_mps, double seen_x_m = 0.0) {
+  /// One tick with B's origin 0.4 m above the ground at (x, y). @param estimate_error_x_m  estimate
+  /// - truth
+  void tick(double x_m, double y_m, double yaw_rad, double speed_mps,
+            double estimate_error_x_m = 0.0) {
     Odometry odometry;
     odometry.X_WB.p = {x_m, y_m, z_m};
     odometry.X_WB.q = quaternion_from_rpy({0.0, 0.0, yaw_rad});
     odometry.v_WB_B = {speed_mps, 0.0, 0.0};
     truth.write(now, odometry);
-    odometry.X_WB.p.x() += seen_x_m;
+    odometry.X_WB.p.x() += estimate_error_x_m;
     estimate.write(now, odometry);
     payload->step(now);
     now = now + period;
   }
   /// A straight pass along x at a constant speed.
-  void pass(double from_x_m, double to_x_m, double y_m, double speed_mps, double seen_x_m = 0.0) {
+  void pass(double from_x_m, double to_x_m, double y_m, double speed_mps,
+            double estimate_error_x_m = 0.0) {
     const double sign = to_x_m > from_x_m ? 1.0 : -1.0;
-    for (double way = 0.0; way <= std::abs(to_x_m - from_x_m); way += speed_mps * period.s()) {
-      tick(from_x_m + sign * way, y_m, sign > 0.0 ? 0.0 : kPi, speed_mps, seen_x_m);
+    for (double distance_m = 0.0; distance_m <= std::abs(to_x_m - from_x_m);
+         distance_m += speed_mps * period.s()) {
+      tick(from_x_m + sign * distance_m, y_m, sign > 0.0 ? 0.0 : kPi, speed_mps,
+           estimate_error_x_m);
     }
   }
-  double told_value(const std::string& name) const {
-    const NamedValues& values = told.value();
+  double signal_value(const std::string& name) const {
+    const NamedValues& values = signal.value();
     for (std::size_t i = 0; i < values.names.size(); ++i) {
       if (values.names[i] == name) return values.values[i];
     }
@@ -138,8 +143,8 @@ struct PayloadRig {
   SignalWriter<Odometry> truth = bus.advertise<Odometry>("rover/truth", "rover");
   SignalWriter<Odometry> estimate = bus.advertise<Odometry>("rover/estimate", "rover.estimator");
   SignalWriter<PlannedPath> plan = bus.advertise<PlannedPath>("rover/plan", "rover.planner");
-  SignalReader<NamedValues> told;
-  SignalReader<Event> news;
+  SignalReader<NamedValues> signal;
+  SignalReader<Event> event;
   std::unique_ptr<Payload> payload;
   Duration period;
   Time now;

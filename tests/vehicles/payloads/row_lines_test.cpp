@@ -38,17 +38,17 @@ TEST(RowLines, FindsTheNearestRowAsASearchByHandDoes) {
   for (int n = 0; n < 2000; ++n) {
     const Vector2d p(random.uniform(10.0, 60.0), random.uniform(-10.0, 45.0));
     int nearest = 0;
-    double least = std::numeric_limits<double>::infinity();
+    double min_m = std::numeric_limits<double>::infinity();
     for (const PlantRow& row : rows) {
       for (std::size_t i = 0; i + 1 < row.line_W.size(); ++i) {
-        const Vector2d a = row.line_W[i].head<2>(), way = row.line_W[i + 1].head<2>() - a;
-        const double share = std::clamp((p - a).dot(way) / way.squaredNorm(), 0.0, 1.0);
-        const double distance = (p - a - share * way).norm();
-        if (distance < least) least = distance, nearest = row.id;
+        const Vector2d a = row.line_W[i].head<2>(), edge = row.line_W[i + 1].head<2>() - a;
+        const double share = std::clamp((p - a).dot(edge) / edge.squaredNorm(), 0.0, 1.0);
+        const double distance = (p - a - share * edge).norm();
+        if (distance < min_m) min_m = distance, nearest = row.id;
       }
     }
     const RowPlace at = lines.nearest(p);
-    ASSERT_NEAR(at.distance_m, least, 1e-12);
+    ASSERT_NEAR(at.distance_m, min_m, 1e-12);
     ASSERT_EQ(at.row, nearest);
   }
 }
@@ -79,11 +79,11 @@ TEST(RowLines, GoesStraightOnBeyondTheEnds) {
 TEST(RowLines, KnowsLeftFromRightInBothDirections) {
   const RowLines lines({{0, {{0, 0, 0}, {10, 0, 0}}, 0.6, 0.5, 2.0},
                         {1, {{10, 2.5, 0}, {0, 2.5, 0}}, 0.6, 0.5, 2.0}});  // runs the other way
-  const AdjacentRows east = lines.beside({5.0, 1.0}, 0.0, 2.0, 0.3, 0.0);
+  const AdjacentRows east = lines.adjacent({5.0, 1.0}, 0.0, 2.0, 0.3, 0.0);
   ASSERT_TRUE(east.left && east.right);
   EXPECT_EQ(east.left->row, 1);
   EXPECT_EQ(east.right->row, 0);
-  const AdjacentRows west = lines.beside({5.0, 1.0}, kPi, 2.0, 0.3, 0.0);
+  const AdjacentRows west = lines.adjacent({5.0, 1.0}, kPi, 2.0, 0.3, 0.0);
   ASSERT_TRUE(west.left && west.right);
   EXPECT_EQ(west.left->row, 0);
   EXPECT_EQ(west.right->row, 1);
@@ -92,7 +92,7 @@ TEST(RowLines, KnowsLeftFromRightInBothDirections) {
 TEST(RowLines, NothingIsBesideAVehicleThatTurnsIsFarOrBeyondTheEnd) {
   const RowLines lines({{0, {{0, 0, 0}, {10, 0, 0}}, 0.6, 0.5, 2.0}});
   const auto count = [&](const Vector2d& p, double heading_rad, double beyond_m = 0.0) {
-    const AdjacentRows found = lines.beside(p, heading_rad, 2.0, rad_from_deg(20.0), beyond_m);
+    const AdjacentRows found = lines.adjacent(p, heading_rad, 2.0, rad_from_deg(20.0), beyond_m);
     return found.left.has_value() + found.right.has_value();
   };
   EXPECT_EQ(count({5.0, 1.0}, rad_from_deg(19.0)), 1);

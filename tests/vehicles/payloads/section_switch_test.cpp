@@ -18,12 +18,13 @@ struct Stretch {
 };
 
 /// Where the left section is open on a pass along rows from 0 to 20 m.
-Stretch open_stretch(const PayloadValues& values, double speed_mps, double seen_x_m = 0.0) {
+Stretch open_stretch(const PayloadValues& values, double speed_mps,
+                     double estimate_error_x_m = 0.0) {
   PayloadRig rig("sprayer", make_box_rows({{.y_m = 1.25}}), values);
   Stretch stretch;
   for (double x = -3.0; x < 23.0; x += speed_mps * rig.period.s()) {
-    rig.tick(x, 0.0, 0.0, speed_mps, seen_x_m);
-    if (rig.told_value("left_on") == 0.0) continue;
+    rig.tick(x, 0.0, 0.0, speed_mps, estimate_error_x_m);
+    if (rig.signal_value("left_on") == 0.0) continue;
     stretch.from_x_m = std::min(stretch.from_x_m, x);
     stretch.to_x_m = std::max(stretch.to_x_m, x);
   }
@@ -80,29 +81,29 @@ TEST(SectionSwitch, KnowsTheMapNotTheTruth) {
   const RowMap map = make_box_rows({{.y_m = -1.25}}).rows;
   PayloadRig rig("sprayer", make_box_rows({{.y_m = 1.25}}), {}, 1, &map);
   rig.pass(2.0, 10.0, 0.0, 1.0);
-  EXPECT_EQ(rig.told_value("left_on"), 0.0);
-  EXPECT_EQ(rig.told_value("right_on"), 1.0);
+  EXPECT_EQ(rig.signal_value("left_on"), 0.0);
+  EXPECT_EQ(rig.signal_value("right_on"), 1.0);
   EXPECT_EQ(rig.result("litres_off_row"), rig.result("litres_sprayed"));
 }
 
 TEST(SectionSwitch, LeftAndRightAreApart) {
   PayloadRig rig("sprayer", make_box_rows({{.y_m = 1.25}, {.y_m = -1.25, .from_x_m = 10.0}}));
   rig.pass(5.0, 6.0, 0.0, 1.0);
-  EXPECT_EQ(rig.told_value("left_on"), 1.0);
-  EXPECT_EQ(rig.told_value("right_on"), 0.0);
+  EXPECT_EQ(rig.signal_value("left_on"), 1.0);
+  EXPECT_EQ(rig.signal_value("right_on"), 0.0);
   rig.pass(12.0, 13.0, 0.0, 1.0);
-  EXPECT_EQ(rig.told_value("left_on"), 1.0);
-  EXPECT_EQ(rig.told_value("right_on"), 1.0);
+  EXPECT_EQ(rig.signal_value("left_on"), 1.0);
+  EXPECT_EQ(rig.signal_value("right_on"), 1.0);
   rig.pass(6.0, 5.0, 0.0, 1.0);
-  EXPECT_EQ(rig.told_value("left_on"), 0.0);
-  EXPECT_EQ(rig.told_value("right_on"), 1.0);
+  EXPECT_EQ(rig.signal_value("left_on"), 0.0);
+  EXPECT_EQ(rig.signal_value("right_on"), 1.0);
 }
 
 TEST(SectionSwitch, ClosesInTurnsAndAtAHalt) {
   PayloadRig rig("sprayer", make_box_rows({{.y_m = 1.25}, {.y_m = -1.25}}));
   const auto open_after = [&](double yaw_rad, double speed_mps) {
     for (int i = 0; i < 20; ++i) rig.tick(10.0, 0.0, yaw_rad, speed_mps);
-    return rig.told_value("left_on") + rig.told_value("right_on");
+    return rig.signal_value("left_on") + rig.signal_value("right_on");
   };
   EXPECT_EQ(open_after(0.0, 1.0), 2.0);
   EXPECT_EQ(open_after(rad_from_deg(45.0), 1.0), 0.0);
@@ -115,7 +116,7 @@ TEST(SectionSwitch, ClosesInTurnsAndAtAHalt) {
 TEST(SectionSwitch, OnLegsOnlyWhereThePlanHasOne) {
   PayloadRig rig("sprayer", make_box_rows({{.y_m = 1.25}}), {{"switching", std::string("legs")}});
   rig.pass(1.0, 5.0, 0.0, 1.0);
-  EXPECT_EQ(rig.told_value("left_on"), 0.0) << "without a plan";
+  EXPECT_EQ(rig.signal_value("left_on"), 0.0) << "without a plan";
   PlannedPath plan;
   plan.points.resize(3);
   plan.points[0].kind = PathKind::kLeg;
@@ -124,9 +125,9 @@ TEST(SectionSwitch, OnLegsOnlyWhereThePlanHasOne) {
   plan.points[2].p_W = {20, 0, 0};
   rig.plan.write(rig.now, plan);
   rig.pass(1.0, 5.0, 0.0, 1.0);
-  EXPECT_EQ(rig.told_value("left_on"), 1.0);
+  EXPECT_EQ(rig.signal_value("left_on"), 1.0);
   rig.pass(11.0, 15.0, 0.0, 1.0);
-  EXPECT_EQ(rig.told_value("left_on"), 0.0);
+  EXPECT_EQ(rig.signal_value("left_on"), 0.0);
 }
 
 }  // namespace

@@ -253,23 +253,23 @@ TEST(Sprayer, AnEmptyTankClosesTheNozzlesAndSaysSo) {
   EXPECT_NEAR(rig.result("litres_sprayed"), 0.2, 1e-12);
   EXPECT_EQ(rig.result("litres_left"), 0.0);
   EXPECT_NEAR(rig.result("spray_time_s"), 0.2 / (2.0 * side_flow_lps()), 1e-9);
-  EXPECT_EQ(rig.told_value("left_on"), 0.0);
-  EXPECT_EQ(rig.told_value("flow_lps"), 0.0);
-  ASSERT_EQ(rig.news.sequence(), 1u);
-  EXPECT_EQ(rig.news.value().level, Event::Level::kWarning);
-  EXPECT_EQ(rig.news.value().text.find("the tank is empty after 0.2 l at ("), 0u)
-      << rig.news.value().text;
+  EXPECT_EQ(rig.signal_value("left_on"), 0.0);
+  EXPECT_EQ(rig.signal_value("flow_lps"), 0.0);
+  ASSERT_EQ(rig.event.sequence(), 1u);
+  EXPECT_EQ(rig.event.value().level, Event::Level::kWarning);
+  EXPECT_EQ(rig.event.value().text.find("the tank is empty after 0.2 l at ("), 0u)
+      << rig.event.value().text;
   expect_balance(rig);
 }
 
 TEST(Sprayer, TellsWhatItDoesWhileItDoesIt) {
   PayloadRig rig("sprayer", make_box_rows({{.y_m = 1.25}}), ideal());
   rig.tick(10.0, 0.0, 0.0, 1.0);
-  EXPECT_EQ(rig.told_value("left_on"), 1.0);
-  EXPECT_EQ(rig.told_value("right_on"), 0.0);
-  EXPECT_NEAR(rig.told_value("flow_lps"), side_flow_lps(), 1e-12);
-  EXPECT_NEAR(rig.told_value("tank_l"), 60.0 - 0.05 * side_flow_lps(), 1e-12);
-  EXPECT_NEAR(rig.told_value("sprayed_l"), 0.05 * side_flow_lps(), 1e-15);
+  EXPECT_EQ(rig.signal_value("left_on"), 1.0);
+  EXPECT_EQ(rig.signal_value("right_on"), 0.0);
+  EXPECT_NEAR(rig.signal_value("flow_lps"), side_flow_lps(), 1e-12);
+  EXPECT_NEAR(rig.signal_value("tank_l"), 60.0 - 0.05 * side_flow_lps(), 1e-12);
+  EXPECT_NEAR(rig.signal_value("sprayed_l"), 0.05 * side_flow_lps(), 1e-15);
 }
 
 TEST(Sprayer, BadParametersAreToldInASentence) {

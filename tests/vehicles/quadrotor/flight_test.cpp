@@ -113,17 +113,17 @@ TEST(QuadrotorFlight, KeepsAngularMomentumOfBodyAndRotors) {
   state.w_WB_W = {2.0, -1.0, 3.0};
   rig.fly(state, {0.0, 0.0, 0.0, 0.0});
   const Vector3d before = rig.vehicle.angular_momentum_W();
-  double most_rotors = 0.0, worst = 0.0;
+  double max_rotors_Nms = 0.0, worst = 0.0;
   for (int i = 0; i < 8; ++i) {
     const double odd = i % 2 == 0 ? 600.0 : 100.0, even = i % 3 == 0 ? 200.0 : 0.0;
     rig.actuate({odd, even, odd, even});
     for (int k = 0; k < 250; ++k) {
       rig.step();
-      most_rotors = std::max(most_rotors, std::abs(rig.vehicle.rotor_momentum_Nms()));
+      max_rotors_Nms = std::max(max_rotors_Nms, std::abs(rig.vehicle.rotor_momentum_Nms()));
       worst = std::max(worst, (rig.vehicle.angular_momentum_W() - before).norm());
     }
   }
-  EXPECT_GT(most_rotors, 3.0 * before.norm());
+  EXPECT_GT(max_rotors_Nms, 3.0 * before.norm());
   EXPECT_LT(worst, 1e-5 * before.norm());
 }
 

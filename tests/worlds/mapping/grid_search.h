@@ -16,19 +16,19 @@ inline Eigen::Vector2i cell_of(const OccupancyGrid& grid, const Eigen::Vector2d&
   return {static_cast<int>(std::floor(q.x())), static_cast<int>(std::floor(q.y()))};
 }
 
-inline bool taken_at(const OccupancyGrid& grid, const Eigen::Vector2d& p_W) {
+inline bool occupied_at(const OccupancyGrid& grid, const Eigen::Vector2d& p_W) {
   const Eigen::Vector2i c = cell_of(grid, p_W);
   if (c.x() < 0 || c.y() < 0 || c.x() >= grid.columns || c.y() >= grid.rows) return true;
   return grid.occupied(c.x(), c.y());
 }
 
-/// Length of the shortest way over free cells from one point to another, steps to all eight
+/// Length of the shortest path over free cells from one point to another, steps to all eight
 /// neighbours, m; infinite where there is none.
-inline double way_m(const OccupancyGrid& grid, const Eigen::Vector2d& from_W,
-                    const Eigen::Vector2d& to_W) {
+inline double path_length_m(const OccupancyGrid& grid, const Eigen::Vector2d& from_W,
+                            const Eigen::Vector2d& to_W) {
   const Eigen::Vector2i from = cell_of(grid, from_W), to = cell_of(grid, to_W);
   const double infinite = std::numeric_limits<double>::infinity();
-  if (taken_at(grid, from_W) || taken_at(grid, to_W)) return infinite;
+  if (occupied_at(grid, from_W) || occupied_at(grid, to_W)) return infinite;
   std::vector<double> cost(grid.cells.size(), infinite);
   using Entry = std::pair<double, std::size_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;

@@ -16,7 +16,7 @@ using tools::report::Svg;
 constexpr double kBandHeight_px = 340.0, kBandTop_px = 12.0, kBandBottom_px = 50.0,
                  kBandRight_px = 20.0;
 /// Horizontal offset between groups, so that their whiskers do not cover each other.
-constexpr double kBeside_px = 5.0;
+constexpr double kGroupOffset_px = 5.0;
 
 bool on_axis(double value, AxisScale scale) {
   return can_draw(value) && (scale == AxisScale::kLinear || value > 0.0);
@@ -60,8 +60,8 @@ class GroupDrawing {
     std::stable_sort(points_.begin(), points_.end(),
                      [](const auto* a, const auto* b) { return a->x < b->x; });
     if (plot.spread == Spread::kWhiskers) {
-      beside_px_ = kBeside_px * (static_cast<double>(group) -
-                                 0.5 * (static_cast<double>(plot.groups.size()) - 1.0));
+      group_offset_px_ = kGroupOffset_px * (static_cast<double>(group) -
+                                            0.5 * (static_cast<double>(plot.groups.size()) - 1.0));
     }
   }
 
@@ -100,7 +100,7 @@ class GroupDrawing {
   static bool has_interval(const BandPoint& point) {
     return !std::isnan(point.low) && !std::isnan(point.high);
   }
-  double x_px(const BandPoint& point) const { return axes_.x.px(point.x) + beside_px_; }
+  double x_px(const BandPoint& point) const { return axes_.x.px(point.x) + group_offset_px_; }
   double y_px(const BandPoint& point) const { return axes_.y.px(point.value); }
 
   /// Runs of points without a gap.
@@ -144,7 +144,7 @@ class GroupDrawing {
   const BandGroup& group_;
   const BandAxes& axes_;
   std::size_t index_;
-  double beside_px_ = 0.0;
+  double group_offset_px_ = 0.0;
   std::vector<const BandPoint*> points_;
 };
 

@@ -3,21 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/math/statistics.h"
 #include "tools/study/plots/quantity.h"
 
 namespace vinerow::study {
-namespace {
-
-/// @param sorted  not empty
-double quantile(const std::vector<double>& sorted, double share) {
-  const double at = share * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(at);
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (at - static_cast<double>(below)) * (sorted[above] - sorted[below]);
-}
-
-}  // namespace
-
 std::optional<BoxNumbers> calc_box_numbers(std::vector<double> values) {
   std::erase_if(values, [](double value) { return !can_draw(value); });
   if (values.empty()) return std::nullopt;

@@ -20,7 +20,7 @@ constexpr double kMinScale = 9.0 / kTick_px;
 constexpr double kMaxScale = 15.0 / kTick_px;
 constexpr double kTitleSpace_px = 26.0;
 /// Minimum space to the right of an axis.
-constexpr double kBesideAxis_px = 20.0;
+constexpr double kRightOfAxis_px = 20.0;
 
 double widest_tick_px(const Axis& axis) {
   double widest = 0.0;
@@ -68,7 +68,7 @@ void draw_upright_axis(const Axis& y, double left_px, double right_px, const std
     svg.text(left_px - 7, y.px(tick) + 4, y.short_text(tick), "tick end");
   }
   svg.line(left_px, y.from_px(), left_px, y.to_px(), "axis");
-  draw_title_beside(y.to_px(), y.from_px(), title, svg);
+  draw_title_left(y.to_px(), y.from_px(), title, svg);
 }
 
 void draw_level_axis(const Axis& x, double axis_px, double grid_to_px, const std::string& title,
@@ -80,7 +80,7 @@ void draw_level_axis(const Axis& x, double axis_px, double grid_to_px, const std
     const double at = x.px(tick), half = 0.5 * widest_px(x.short_text(tick), kTick_px);
     if (grid_to_px != axis_px) svg.line(at, axis_px, at, grid_to_px, "grid");
     svg.line(at, axis_px, at, axis_px + 5, "axis");
-    if (at - half < free_from || at + half > x.to_px() + kBesideAxis_px) continue;
+    if (at - half < free_from || at + half > x.to_px() + kRightOfAxis_px) continue;
     svg.text(at, axis_px + 19, x.short_text(tick), "tick mid");
     free_from = at + half + 6.0;
   }
@@ -94,7 +94,7 @@ void draw_title_below(double from_px, double to_px, double baseline_px, const st
   svg.text(0.5 * (from_px + to_px), baseline_px, shortened(title, width, kLabel_px), "label mid");
 }
 
-void draw_title_beside(double from_px, double to_px, const std::string& title, Svg& svg) {
+void draw_title_left(double from_px, double to_px, const std::string& title, Svg& svg) {
   svg.turned_text(15, 0.5 * (from_px + to_px), -90, shortened(title, to_px - from_px, kLabel_px),
                   "label mid");
 }

@@ -48,8 +48,8 @@ void draw_level_axis(const tools::report::Axis& x, double axis_px, double grid_t
 /// Titles below and at the side of a plot, shortened to the length of their axis.
 void draw_title_below(double from_px, double to_px, double baseline_px, const std::string& title,
                       tools::report::Svg& svg);
-void draw_title_beside(double from_px, double to_px, const std::string& title,
-                       tools::report::Svg& svg);
+void draw_title_left(double from_px, double to_px, const std::string& title,
+                     tools::report::Svg& svg);
 
 /// Number of ticks that fit along a length. @param wide  whether their labels are in one line
 int ticks_for(double length_px, bool wide);

@@ -51,8 +51,8 @@ HeatLayout lay_out_tiles(const HeatMap& map, const Range& range) {
   // Half of the page if the values fit into the tiles, otherwise the full width.
   const double around = at.left + kRight_px, wanted = std::max(value_px + 10.0, 36.0);
   const bool half = columns * wanted <= kHalfWidth_px - around;
-  const double room = (half ? kHalfWidth_px : kFullWidth_px) - around;
-  at.tile_width = std::clamp(room / columns, kMinTile_px, kMaxWidth_px);
+  const double available_px = (half ? kHalfWidth_px : kFullWidth_px) - around;
+  at.tile_width = std::clamp(available_px / columns, kMinTile_px, kMaxWidth_px);
   at.tile_height = std::clamp(kTallest_px / rows, kMinTile_px, kMaxHeight_px);
   at.plot_width = columns * at.tile_width;
   at.plot_height = rows * at.tile_height;
@@ -139,9 +139,9 @@ std::string heat_map(const HeatMap& map) {
   const HeatLayout at = lay_out_tiles(map, range);
   Svg svg = study_svg(at.width, at.height, map.texts.title);
   if (!values.empty()) {
-    const double room = at.width - at.left - 6.0;
-    const double length = std::min(std::clamp(at.plot_width, 220.0, 320.0), room - 12.0);
-    draw_lying_bar(range, map.value, at.left, 2.0, length, room, svg);
+    const double available_px = at.width - at.left - 6.0;
+    const double length = std::min(std::clamp(at.plot_width, 220.0, 320.0), available_px - 12.0);
+    draw_lying_bar(range, map.value, at.left, 2.0, length, available_px, svg);
   }
   for (std::size_t y = 0; y < map.y_levels.size(); ++y) {
     for (std::size_t x = 0; x < map.x_levels.size(); ++x) draw_tile(map, at, range, x, y, svg);
@@ -150,7 +150,7 @@ std::string heat_map(const HeatMap& map) {
   draw_y_labels(map, at, svg);
   draw_level_labels(at.x_labels, at.left + 0.5 * at.tile_width, at.tile_width, bottom, svg);
   draw_title_below(at.left, right, at.height - 9.0, map.x.title(), svg);
-  draw_title_beside(at.top, bottom, map.y.title(), svg);
+  draw_title_left(at.top, bottom, map.y.title(), svg);
   const std::string legend =
       missing ? tools::report::legend_key("area missing", "no value") : std::string();
   return study_figure(map.texts, legend, svg.finish(), at.width);

@@ -46,11 +46,11 @@ LevelLabels fit_level_labels(const std::vector<std::string>& levels, double pitc
   double longest = 0.0;
   for (std::size_t i = 0; i < levels.size(); i += stride) {
     // A slanted label ends below its level and starts to the left of it.
-    const double room =
+    const double available_px =
         (space_px + static_cast<double>(i) * pitch_px - kGap_px) * std::numbers::sqrt2;
-    labels.texts[i] = labels.slanted
-                          ? shortened(levels[i], std::min(kLongestSlanted_px, room), kTick_px)
-                          : levels[i];
+    labels.texts[i] =
+        labels.slanted ? shortened(levels[i], std::min(kLongestSlanted_px, available_px), kTick_px)
+                       : levels[i];
     longest = std::max(longest, widest_px(labels.texts[i], kTick_px));
   }
   labels.height_px = labels.slanted ? 14.0 + longest / std::numbers::sqrt2 : 22.0;

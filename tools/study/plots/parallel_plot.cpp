@@ -88,10 +88,10 @@ ParallelLayout lay_out_axes(const ParallelPlot& plot) {
     at.uprights.push_back({&plot.axes[i], Axis(parallel_range(plot, i), kPathsTop_px + kPaths_px,
                                                kPathsTop_px, ticks_for(kPaths_px, false))});
   }
-  const auto room = [&](const Upright& upright) {
+  const auto space_px = [&](const Upright& upright) {
     return std::max(60.0, std::min(widest_side_px(upright), kMaxSide_px) + 16.0);
   };
-  const double left = room(at.uprights.front()), right = room(at.uprights.back()) + kBar_px;
+  const double left = space_px(at.uprights.front()), right = space_px(at.uprights.back()) + kBar_px;
   const double gaps = static_cast<double>(plot.axes.size()) - 1.0;
   const double page = plot.axes.size() <= kHalfAxes ? kHalfWidth_px : kFullWidth_px;
   at.pitch = std::max((page - left - right) / gaps, kMinPitch_px);
@@ -107,10 +107,11 @@ ParallelLayout lay_out_axes(const ParallelPlot& plot) {
 void draw_upright_title(const Quantity& quantity, double middle_px, double edge_px, double pitch,
                         Svg& svg) {
   // Limit the width so that titles touch neither each other nor the edge.
-  const double room = std::min(pitch - 14.0, 2.0 * std::abs(middle_px - edge_px) - 4.0);
+  const double space_px = std::min(pitch - 14.0, 2.0 * std::abs(middle_px - edge_px) - 4.0);
   const std::size_t for_unit = quantity.unit.empty() ? 0 : 1;
-  std::vector<std::string> lines = wrapped(quantity.label, room, kLabel_px, kTitleLines - for_unit);
-  if (for_unit > 0) lines.push_back(shortened(quantity.unit, room, kLabel_px));
+  std::vector<std::string> lines =
+      wrapped(quantity.label, space_px, kLabel_px, kTitleLines - for_unit);
+  if (for_unit > 0) lines.push_back(shortened(quantity.unit, space_px, kLabel_px));
   double y = kPathsTop_px - 14.0 - kTitleLine_px * (static_cast<double>(lines.size()) - 1.0);
   for (std::size_t i = 0; i < lines.size(); ++i, y += kTitleLine_px) {
     const bool unit = for_unit > 0 && i + 1 == lines.size();
@@ -119,9 +120,9 @@ void draw_upright_title(const Quantity& quantity, double middle_px, double edge_
 }
 
 void draw_side(const Upright& upright, double pitch, bool first, bool last, Svg& svg) {
-  const double room = first ? upright.x - 12.0 : last ? 140.0 : pitch - 26.0;
+  const double space_px = first ? upright.x - 12.0 : last ? 140.0 : pitch - 26.0;
   for (const SideText& side : side_texts(upright)) {
-    const std::string text = shortened(side.text, room, kTick_px);
+    const std::string text = shortened(side.text, space_px, kTick_px);
     if (last) {
       svg.line(upright.x + kBar_px, side.y, upright.x + kBar_px + 4, side.y, "axis");
       svg.text(upright.x + kBar_px + 8, side.y + 4.3, text, "tick");
@@ -132,7 +133,7 @@ void draw_side(const Upright& upright, double pitch, bool first, bool last, Svg&
   }
 }
 
-std::string told(const Upright& upright, double value) {
+std::string tip_line(const Upright& upright, double value) {
   const auto& [quantity, levels] = *upright.what;
   if (!levels.empty()) {
     const auto index = static_cast<std::size_t>(std::max(0.0, std::round(value)));
@@ -148,7 +149,7 @@ void draw_path(const ParallelLine& line, const ParallelLayout& at, Svg& svg) {
   for (std::size_t i = 0; i < at.uprights.size(); ++i) {
     const Upright& upright = at.uprights[i];
     const double value = line.values[i];
-    tip += told(upright, value) + "\n";
+    tip += tip_line(upright, value) + "\n";
     if (can_draw(value)) {
       path += fmt::format("{}{} {}", joined ? "L" : "M", px(upright.x), px(upright.axis.px(value)));
     }

@@ -47,8 +47,8 @@ Range axis_range(const Range& values, const Quantity& quantity, double share) {
   const bool equal = values.span() <= kRounding * size || values.span() < kSmallest;
   Range range = values.padded(share, 0.0);
   if (equal) range = values.padded(0.0, size < kSmallest ? 1.0 : kMargin * size);
-  if (values.low >= quantity.least) range.low = std::max(range.low, quantity.least);
-  if (values.high <= quantity.most) range.high = std::min(range.high, quantity.most);
+  if (values.low >= quantity.minimum) range.low = std::max(range.low, quantity.minimum);
+  if (values.high <= quantity.maximum) range.high = std::min(range.high, quantity.maximum);
   return range;
 }
 

@@ -16,8 +16,8 @@ struct Quantity {
   std::string label;
   std::string unit;  ///< "m/s"; empty without a unit
   /// Possible values, which limit an axis: 0 to 1 for a probability.
-  double least = -std::numeric_limits<double>::infinity();
-  double most = std::numeric_limits<double>::infinity();
+  double minimum = -std::numeric_limits<double>::infinity();
+  double maximum = std::numeric_limits<double>::infinity();
 
   /// "row speed, m/s".
   std::string title() const;

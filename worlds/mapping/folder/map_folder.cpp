@@ -47,18 +47,19 @@ void load_all_meshes(const fs::path& folder, const MapFiles& files, CloudMap& ma
 }
 
 /// @param file  "terrain.tif"
-void check_size(const fs::path& folder, const char* file, const MapFiles::Grid& told, int columns,
-                int rows, double cell_m, const Eigen::Vector2d& corner_W) {
-  const double near = 1e-6 * told.cell_m;
-  if (columns == told.columns && rows == told.rows && std::abs(cell_m - told.cell_m) <= near &&
-      (corner_W - told.corner_W).norm() <= 1e-6 + 1e-9 * told.corner_W.norm()) {
+void check_size(const fs::path& folder, const char* file, const MapFiles::Grid& expected,
+                int columns, int rows, double cell_m, const Eigen::Vector2d& corner_W) {
+  const double near = 1e-6 * expected.cell_m;
+  if (columns == expected.columns && rows == expected.rows &&
+      std::abs(cell_m - expected.cell_m) <= near &&
+      (corner_W - expected.corner_W).norm() <= 1e-6 + 1e-9 * expected.corner_W.norm()) {
     return;
   }
   throw ConfigError(fmt::format(
       "map '{}': {} has {} x {} places of {:g} m from ({:.3f}, {:.3f}), by map.json they are {} x "
       "{} of {:g} m from ({:.3f}, {:.3f})",
-      folder.string(), file, columns, rows, cell_m, corner_W.x(), corner_W.y(), told.columns,
-      told.rows, told.cell_m, told.corner_W.x(), told.corner_W.y()));
+      folder.string(), file, columns, rows, cell_m, corner_W.x(), corner_W.y(), expected.columns,
+      expected.rows, expected.cell_m, expected.corner_W.x(), expected.corner_W.y()));
 }
 
 }  // namespace

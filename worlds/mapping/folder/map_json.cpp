@@ -164,12 +164,12 @@ json grid_json(const char* file, int columns, int rows, double cell_m,
           {"corner_m", json_of(corner_W)}};
 }
 
-std::optional<MapFiles::Grid> read_grid(const JsonReader& in, const std::string& key, int least) {
+std::optional<MapFiles::Grid> read_grid(const JsonReader& in, const std::string& key, int minimum) {
   const auto given = in.optional_at(key);
   if (!given) return std::nullopt;
   MapFiles::Grid grid;
-  grid.columns = static_cast<int>(given->at("columns").whole(least));
-  grid.rows = static_cast<int>(given->at("rows").whole(least));
+  grid.columns = static_cast<int>(given->at("columns").whole(minimum));
+  grid.rows = static_cast<int>(given->at("rows").whole(minimum));
   grid.cell_m = given->at("cell_m").number_above(0.0);
   grid.corner_W = given->at("corner_m").vector<2>();
   return grid;

@@ -25,8 +25,8 @@ json share(const char* description) {
   spec["maximum"] = 1;
   return spec;
 }
-json whole(const char* description, int least = 0) {
-  return {{"type", "integer"}, {"minimum", least}, {"description", description}};
+json whole(const char* description, int minimum = 0) {
+  return {{"type", "integer"}, {"minimum", minimum}, {"description", description}};
 }
 json text(const char* description) {
   return {{"type", "string"}, {"description", description}};
@@ -38,8 +38,8 @@ json point(int size, const char* description) {
           {"maxItems", size},
           {"description", description}};
 }
-json list(const json& items, int least, const char* description) {
-  return {{"type", "array"}, {"items", items}, {"minItems", least}, {"description", description}};
+json list(const json& items, int minimum, const char* description) {
+  return {{"type", "array"}, {"items", items}, {"minItems", minimum}, {"description", description}};
 }
 /// Every key is there and there is no other.
 json object(const json& properties, const char* description) {
@@ -118,10 +118,10 @@ json head(const char* title) {
   return {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", title}};
 }
 
-json grid(const char* file, int least, const char* description) {
+json grid(const char* file, int minimum, const char* description) {
   return or_null(object({{"file", {{"const", file}}},
-                         {"columns", whole("along x", least)},
-                         {"rows", whole("along y", least)},
+                         {"columns", whole("along x", minimum)},
+                         {"rows", whole("along y", minimum)},
                          {"cell_m", positive("distance between places")},
                          {"corner_m", point(2, "x, y in W, m")}},
                         description));

@@ -35,18 +35,18 @@ std::vector<VirtualWall> walls_of(const RowMap& map) {
 
 /// Most of every wall's middle half is taken: free cells there mean that there is no wall.
 bool holds_walls(const OccupancyGrid& grid, const std::vector<VirtualWall>& walls) {
-  int taken = 0, asked = 0;
+  int occupied_count = 0, checked = 0;
   for (const VirtualWall& wall : walls) {
     for (double share = 0.25; share <= 0.75; share += 0.05) {
       const Vector2d at =
           (wall.from_W + share * (wall.to_W - wall.from_W) - grid.corner_W) / grid.cell_m;
       const int i = static_cast<int>(std::floor(at.x())), j = static_cast<int>(std::floor(at.y()));
       if (i < 0 || j < 0 || i >= grid.columns || j >= grid.rows) continue;
-      ++asked;
-      taken += grid.occupied(i, j);
+      ++checked;
+      occupied_count += grid.occupied(i, j);
     }
   }
-  return asked > 0 && taken > 0.9 * asked;
+  return checked > 0 && occupied_count > 0.9 * checked;
 }
 
 bool same_places(const std::vector<VirtualWall>& a, const std::vector<VirtualWall>& b) {

@@ -162,7 +162,7 @@ SectionChain measure(const Scanner& scanner, const Stretch& stretch,
 }  // namespace
 
 std::vector<double> draw_stations(double from_m, double to_m, const CanopySurveyOptions& options,
-                                  std::size_t least, RandomStream& random) {
+                                  std::size_t min_count, RandomStream& random) {
   std::vector<double> stations{0.0};
   while (stations.back() < to_m - from_m) {
     stations.push_back(stations.back() +
@@ -173,7 +173,7 @@ std::vector<double> draw_stations(double from_m, double to_m, const CanopySurvey
       stations.back() - (to_m - from_m) > (to_m - from_m) - stations[stations.size() - 2]) {
     stations.pop_back();
   }
-  while (stations.size() < least) {
+  while (stations.size() < min_count) {
     stations.push_back(stations.back() +
                        random.uniform(options.spacing_low_m, options.spacing_high_m));
   }

@@ -33,8 +33,8 @@ std::vector<SectionChain> survey_canopy(const SceneQuery& scene, const RowCurve&
                                         const CanopySurveyOptions& options, RandomStream& random);
 
 /// Positions of sections from `from_m` to `to_m`, both included: steps drawn from the options'
-/// range, then scaled to fit. @param least  minimum number of sections
+/// range, then scaled to fit. @param min_count  minimum number of sections
 std::vector<double> draw_stations(double from_m, double to_m, const CanopySurveyOptions& options,
-                                  std::size_t least, RandomStream& random);
+                                  std::size_t min_count, RandomStream& random);
 
 }  // namespace vinerow::mapping

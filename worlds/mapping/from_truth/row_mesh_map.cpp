@@ -160,29 +160,30 @@ class Surveyor {
     // Evenly over all places where a gap fits into canopy.
     struct FreeSpace {
       int row;
-      double from_m, room_m;
+      double from_m, free_m;
     };
-    std::vector<FreeSpace> rooms;
+    std::vector<FreeSpace> free_spaces;
     double all_m = 0.0;
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       for (const SectionChain& chain : chains[k]) {
-        const double room_m = chain.back().s_m - chain.front().s_m - length_m;
-        if (room_m <= 0.0) continue;
-        rooms.push_back({rows_[k].id, chain.front().s_m, room_m});
-        all_m += room_m;
+        const double free_m = chain.back().s_m - chain.front().s_m - length_m;
+        if (free_m <= 0.0) continue;
+        free_spaces.push_back({rows_[k].id, chain.front().s_m, free_m});
+        all_m += free_m;
       }
     }
     RandomStream random = stream("missing");
     for (int n = 0; n < params_.random_missing->count; ++n) {
-      if (rooms.empty()) {
+      if (free_spaces.empty()) {
         throw ConfigError(fmt::format(
             "random_missing: length_m = {} m, no row has canopy of that length", length_m));
       }
       double at_m = random.uniform(0.0, all_m);
       std::size_t k = 0;
-      while (k + 1 < rooms.size() && at_m > rooms[k].room_m) at_m -= rooms[k++].room_m;
-      report.missing.push_back(
-          {rooms[k].row, rooms[k].from_m + at_m, rooms[k].from_m + at_m + length_m});
+      while (k + 1 < free_spaces.size() && at_m > free_spaces[k].free_m)
+        at_m -= free_spaces[k++].free_m;
+      report.missing.push_back({free_spaces[k].row, free_spaces[k].from_m + at_m,
+                                free_spaces[k].from_m + at_m + length_m});
     }
   }
 

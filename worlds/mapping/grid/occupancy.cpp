@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr std::uint8_t kFree = 0, kTaken = 1;
+constexpr std::uint8_t kFree = 0, kOccupied = 1;
 
 /// A strip around a polyline: a rectangle per stretch, and at each bend the mitre that closes the
 /// outer side.
@@ -29,7 +29,7 @@ void fill_strip(OccupancyGrid& grid, const std::vector<Eigen::Vector3d>& line_W,
     const Vector2d left = half_m * Vector2d(-d.y(), d.x());
     const Vector2d a = line_W[k].head<2>() - (k == 0 ? margin_m : 0.0) * d;
     const Vector2d b = line_W[k + 1].head<2>() + (k + 1 == last ? margin_m : 0.0) * d;
-    fill_polygon(grid, {a + left, a - left, b - left, b + left}, kTaken);
+    fill_polygon(grid, {a + left, a - left, b - left, b + left}, kOccupied);
     if (k + 1 == last) continue;
     const Vector2d next = (line_W[k + 2] - line_W[k + 1]).head<2>().normalized();
     const double turn = d.x() * next.y() - d.y() * next.x();
@@ -43,7 +43,7 @@ void fill_strip(OccupancyGrid& grid, const std::vector<Eigen::Vector3d>& line_W,
     if (reach * middle.norm() <= kMitreLimit * half_m) {
       wedge = {b, from, b + reach * middle, to};
     }
-    fill_polygon(grid, wedge, kTaken);
+    fill_polygon(grid, wedge, kOccupied);
   }
 }
 
@@ -82,18 +82,18 @@ OccupancyGrid make_occupancy_grid(const RowMap& map, const OccupancyOptions& opt
                     static_cast<double>(options.cell_limit) * 1e-6,
                     cell_that_fits_m(map.boundary_W, options.cell_m, options.cell_limit)));
   }
-  OccupancyGrid grid = make_grid_over(box, options.cell_m, kTaken);
+  OccupancyGrid grid = make_grid_over(box, options.cell_m, kOccupied);
   fill_polygon(grid, map.boundary_W, kFree);
   for (std::size_t k = 0; k < corners; ++k) {
-    mark_segment(grid, map.boundary_W[k], map.boundary_W[(k + 1) % corners], kTaken);
+    mark_segment(grid, map.boundary_W[k], map.boundary_W[(k + 1) % corners], kOccupied);
   }
   for (const PlantRow& row : map.rows) {
     fill_strip(grid, row.line_W, 0.5 * row.canopy_width_m, options.row_end_margin_m);
   }
   for (const VirtualWall& wall : report.walls) {
-    mark_segment(grid, wall.from_W, wall.to_W, kTaken);
+    mark_segment(grid, wall.from_W, wall.to_W, kOccupied);
   }
-  for (const auto& obstacle : options.obstacles_W) fill_polygon(grid, obstacle, kTaken);
+  for (const auto& obstacle : options.obstacles_W) fill_polygon(grid, obstacle, kOccupied);
   return grid;
 }
 

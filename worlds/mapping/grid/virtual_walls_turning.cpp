@@ -121,8 +121,8 @@ std::vector<TurningArea> make_turning_areas(const RowMap& map,
     if (count > 1) {
       const int neighbour = k + 1 < count ? k + 1 : k - 1;
       const Vector2d there = end_point(map.rows[static_cast<std::size_t>(neighbour)], open);
-      const double way = k + 1 < count ? 1.0 : -1.0;
-      if (way * towards_next.dot(there - open_W) < 0.0) towards_next = -towards_next;
+      const double sign = k + 1 < count ? 1.0 : -1.0;
+      if (sign * towards_next.dot(there - open_W) < 0.0) towards_next = -towards_next;
     }
     const auto before =
         k > 0 ? wall_of(k - 1) : side_wall(row, open, -towards_next, map.boundary_W);

@@ -180,14 +180,14 @@ void HullFit::improve(int j, int k, double price_m3, double tolerance_m, double 
   // shorter than kMinSide_m. Moving in by d shortens the neighbours by d inverse_sin, moving out
   // shortens the side itself by d shrink.
   const int before = directions_.before(k), behind = directions_.behind(k);
-  const auto room = [&](double side_m, double per_m) {
+  const auto max_move = [&](double side_m, double per_m) {
     return per_m > kNoShrink ? std::max(0.0, side_m - kMinSide_m) / per_m : max_m;
   };
   double low =
       -std::min({max_m, std::max(0.0, h(j)[k] - floor_[static_cast<std::size_t>(j) * c_ + k]),
-                 room(directions_.side_m(h(j), before), directions_.inverse_sin(before)),
-                 room(directions_.side_m(h(j), behind), directions_.inverse_sin(k))});
-  const double high = std::min(max_m, room(directions_.side_m(h(j), k), directions_.shrink(k)));
+                 max_move(directions_.side_m(h(j), before), directions_.inverse_sin(before)),
+                 max_move(directions_.side_m(h(j), behind), directions_.inverse_sin(k))});
+  const double high = std::min(max_m, max_move(directions_.side_m(h(j), k), directions_.shrink(k)));
   const double slope = slope_m2(j, k);
   if (directions_.normal(k).y() < options_.looks_down) price_m3 *= options_.down_price;
   // Breaks between low and high.
@@ -210,7 +210,7 @@ void HullFit::improve(int j, int k, double price_m3, double tolerance_m, double 
   }
   // Going inwards from high, every break passed costs one point. More breaks than `enough` cost
   // more than all the volume that can be won, so that only the outermost of them are sorted.
-  double best = high, least = slope * high;
+  double best = high, min_cost = slope * high;
   const auto enough = static_cast<std::size_t>(slope * (high - low) / price_m3) + 1;
   const bool may_stop = breaks_.size() > enough;
   if (may_stop) {
@@ -221,12 +221,13 @@ void HullFit::improve(int j, int k, double price_m3, double tolerance_m, double 
   std::sort(breaks_.begin(), breaks_.end(), std::greater<>());
   for (std::size_t n = 0; n < breaks_.size(); ++n) {
     const double value = slope * breaks_[n] + price_m3 * static_cast<double>(n);
-    if (value < least) {
-      least = value;
+    if (value < min_cost) {
+      min_cost = value;
       best = breaks_[n];
     }
   }
-  if (!may_stop && slope * low + price_m3 * static_cast<double>(breaks_.size()) < least) best = low;
+  if (!may_stop && slope * low + price_m3 * static_cast<double>(breaks_.size()) < min_cost)
+    best = low;
   h(j)[k] += best;
 }
 
@@ -247,7 +248,7 @@ void HullFit::smooth_lower_edge() {
   const auto level_m = [&](int j) { return before[static_cast<std::size_t>(j) * c_ + k]; };
   const Eigen::Vector2f n = directions_.normal(k).cast<float>();
   const int reach = std::max(1, static_cast<int>(std::lround(reach_m / stretch_.slice_m())));
-  const auto few_were_seen = [&](int j) {
+  const auto has_few_points = [&](int j) {
     const int from = std::max(0, j - reach), to = std::min(stretch_.slices(), j + reach);
     const double min_m = level_m(j) - options_.edge_band_m;
     std::int64_t seen = 0;
@@ -259,7 +260,7 @@ void HullFit::smooth_lower_edge() {
     return static_cast<double>(seen) <= few;
   };
   for (int j = 0; j >= 0; j = next_[j]) {
-    if (!few_were_seen(j)) continue;
+    if (!has_few_points(j)) continue;
     double lowest_m = level_m(j);
     for (int i = prev_[j]; i >= 0 && knots_[j] - knots_[i] <= reach_m; i = prev_[i]) {
       lowest_m = std::max(lowest_m, level_m(i));
@@ -267,10 +268,10 @@ void HullFit::smooth_lower_edge() {
     for (int i = next_[j]; i >= 0 && knots_[i] - knots_[j] <= reach_m; i = next_[i]) {
       lowest_m = std::max(lowest_m, level_m(i));
     }
-    const double room_m = directions_.side_m(h(j), k) - kMinSide_m;
+    const double spare_m = directions_.side_m(h(j), k) - kMinSide_m;
     const double shrink = directions_.shrink(k);
     const double max_m =
-        shrink > kNoShrink ? std::max(0.0, room_m) / shrink : lowest_m - level_m(j);
+        shrink > kNoShrink ? std::max(0.0, spare_m) / shrink : lowest_m - level_m(j);
     h(j)[k] += std::min(lowest_m - level_m(j), max_m);
   }
 }
@@ -292,17 +293,17 @@ void HullFit::count_excess(ExcessCounts& counts) const {
     for (std::size_t p = stretch_.first[a]; p < stretch_.first[b]; ++p) {
       const Eigen::Vector3f& point = stretch_.points[p];
       const float s = std::clamp(point.x() - from_m, 0.0f, to_m);
-      float most = kBelowAll_m;
+      float max_excess = kBelowAll_m;
       int side = 0;
       for (int k = 0; k < c_; ++k) {
         const float excess = sides.value(k, point) - sides.at[k] - sides.rise[k] * s;
-        if (excess > most) {
-          most = excess;
+        if (excess > max_excess) {
+          max_excess = excess;
           side = k;
         }
       }
       const double step =
-          (static_cast<double>(most) - ExcessCounts::kLow_m) / ExcessCounts::kStep_m;
+          (static_cast<double>(max_excess) - ExcessCounts::kLow_m) / ExcessCounts::kStep_m;
       const int bin =
           static_cast<int>(std::clamp(step, 0.0, static_cast<double>(ExcessCounts::kSteps - 1)));
       ++counts.all[bin];

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/math/statistics.h"
+
 namespace vinerow::mapping {
 namespace {
 
@@ -34,7 +36,7 @@ class CellFilter {
 
   bool is_sparse(const Eigen::Vector3f& p) const {
     const std::size_t cell = cell_of(p);
-    return static_cast<float>(sums_[cell]) < least_[cell / layer()];
+    return static_cast<float>(sums_[cell]) < thresholds_[cell / layer()];
   }
 
  private:
@@ -87,7 +89,7 @@ class CellFilter {
     for (const auto& sums : layers) gathered.insert(gathered.end(), sums.begin(), sums.end());
     const float row_median = median(gathered);
     for (std::size_t i = 0; i < count_[0]; ++i) medians[i] = median(layers[i]);
-    least_.resize(count_[0]);
+    thresholds_.resize(count_[0]);
     const auto reach = static_cast<std::size_t>(std::ceil(per_m_[0]));
     std::vector<float> near;
     for (std::size_t i = 0; i < count_[0]; ++i) {
@@ -96,31 +98,23 @@ class CellFilter {
            ++k) {
         if (medians[k] > 0.0f) near.push_back(medians[k]);
       }
-      float local = 0.0f;
-      if (!near.empty()) {
-        const auto middle = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2);
-        std::nth_element(near.begin(), middle, near.end());
-        local = *middle;
-      }
-      least_[i] = std::max({static_cast<float>(thresholds.local) * local,
-                            static_cast<float>(thresholds.row) * row_median,
-                            std::min(static_cast<float>(thresholds.stray),
-                                     static_cast<float>(thresholds.stray_row) * row_median)});
+      const float local = near.empty() ? 0.0f : upper_median(near);
+      thresholds_[i] = std::max({static_cast<float>(thresholds.local) * local,
+                                 static_cast<float>(thresholds.row) * row_median,
+                                 std::min(static_cast<float>(thresholds.stray),
+                                          static_cast<float>(thresholds.stray_row) * row_median)});
     }
   }
 
   Eigen::Vector3f low_, high_, per_m_;
   std::size_t count_[3] = {};
   std::vector<std::uint32_t> cells_, sums_;  // points of each, and with its neighbours
-  std::vector<float> least_;                 // of each layer along the row
+  std::vector<float> thresholds_;            // of each layer along the row
 };
 
 double median_of_positive(std::vector<std::uint32_t> counts) {
   std::erase(counts, 0u);
-  if (counts.empty()) return 0.0;
-  const auto middle = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2);
-  std::nth_element(counts.begin(), middle, counts.end());
-  return *middle;
+  return counts.empty() ? 0.0 : upper_median(counts);
 }
 
 /// Steps along the row with canopy: enough points, and not only those of a post where vines are
@@ -128,10 +122,10 @@ double median_of_positive(std::vector<std::uint32_t> counts) {
 std::vector<std::uint8_t> occupied_steps(const std::vector<std::uint32_t>& counts, double share) {
   constexpr std::size_t kPost = 6;   // steps that it takes up at most, with the points' noise
   constexpr std::size_t kApart = 2;  // empty ones on both sides
-  const double least = share * median_of_positive(counts);
+  const double min_count = share * median_of_positive(counts);
   std::vector<std::uint8_t> occupied(counts.size());
   for (std::size_t i = 0; i < counts.size(); ++i) {
-    occupied[i] = counts[i] > 0 && static_cast<double>(counts[i]) >= least ? 1 : 0;
+    occupied[i] = counts[i] > 0 && static_cast<double>(counts[i]) >= min_count ? 1 : 0;
   }
   std::vector<std::uint8_t> canopy = occupied;
   const auto is_empty = [&](std::size_t from, std::size_t to) {

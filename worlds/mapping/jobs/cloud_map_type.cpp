@@ -63,8 +63,9 @@ const ParameterTable<CloudMapParams>& cloud_map_table() {
 }
 
 /// "1.24 km", "63 m".
-std::string shown_path(double way_m) {
-  return way_m < 1000.0 ? fmt::format("{:.0f} m", way_m) : fmt::format("{:.2f} km", way_m / 1000.0);
+std::string format_distance(double distance_m) {
+  return distance_m < 1000.0 ? fmt::format("{:.0f} m", distance_m)
+                             : fmt::format("{:.2f} km", distance_m / 1000.0);
 }
 
 /// Worlds without a given origin are at 0 deg north, 0 deg east.
@@ -89,7 +90,7 @@ void refuse_distant_map(const CloudMap& map, bool moved, const WorldModel& world
   if (apart_m <= kMaxMapOffset_m) return;
   throw ConfigError(fmt::format(
       "map cloud_map: the rows of map '{}' lie {} from world '{}', must be within {:g} m: {}",
-      folder, shown_path(apart_m), world.name, kMaxMapOffset_m,
+      folder, format_distance(apart_m), world.name, kMaxMapOffset_m,
       moved ? "it is of another place, or one of the two origins is wrong"
             : "its x and y are taken for the world's, as one of the two has no origin"));
 }

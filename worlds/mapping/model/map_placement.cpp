@@ -27,7 +27,7 @@ OccupancyGrid place_grid(const MapPlacement& placement, const OccupancyGrid& old
   const Eigen::Rotation2Dd back(-placement.turn_rad);
   const Eigen::Vector2d middle = placement.middle_W.head<2>();
   const Eigen::Vector2d moved_middle = middle + placement.shift_m.head<2>();
-  const auto taken = [&](double x, double y) {
+  const auto is_occupied = [&](double x, double y) {
     const int i = static_cast<int>(std::floor(x)), j = static_cast<int>(std::floor(y));
     return i < 0 || j < 0 || i >= old.columns || j >= old.rows || old.occupied(i, j);
   };
@@ -38,7 +38,7 @@ OccupancyGrid place_grid(const MapPlacement& placement, const OccupancyGrid& old
       const Eigen::Vector2d at = (there - old.corner_W) / old.cell_m;
       bool any = false;
       for (const double dx : {-0.5, 0.5}) {
-        for (const double dy : {-0.5, 0.5}) any = any || taken(at.x() + dx, at.y() + dy);
+        for (const double dy : {-0.5, 0.5}) any = any || is_occupied(at.x() + dx, at.y() + dy);
       }
       grid.cells[static_cast<std::size_t>(j) * grid.columns + i] = any;
     }

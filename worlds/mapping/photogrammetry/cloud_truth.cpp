@@ -22,8 +22,8 @@ constexpr double kLineStep_m = 0.02, kEdge_m = 1e-4, kGap_m = 0.5;
 constexpr double kSectionStep_m = 0.05, kVolumeGrid_m = 0.02;
 constexpr double kAbove_m = 20.0;  ///< where rays down begin, above the ground
 
-double bearing_deg_of(const Vector2d& way) {
-  const double bearing = deg_from_rad(std::atan2(way.x(), way.y()));
+double bearing_deg_of(const Vector2d& direction) {
+  const double bearing = deg_from_rad(std::atan2(direction.x(), direction.y()));
   return bearing < 0.0 ? bearing + 360.0 : bearing;
 }
 
@@ -167,16 +167,16 @@ double spacing_m_of(const PlantRow& from, const PlantRow& to) {
   const RowCurve a(seen_from_above(from.line_W)), b(seen_from_above(to.line_W));
   constexpr int kPoints = 200;
   double sum_m = 0.0, all_m = 0.0;
-  int beside = 0;
+  int overlaps = 0;
   for (int k = 0; k < kPoints; ++k) {
     double distance_m = 0.0;
     const double s_m = b.nearest_s_m(a.point_W(a.length_m() * (k + 0.5) / kPoints), &distance_m);
     all_m += distance_m;
     if (s_m <= 0.0 || s_m >= b.length_m()) continue;
     sum_m += distance_m;
-    ++beside;
+    ++overlaps;
   }
-  return beside > 0 ? sum_m / beside : all_m / kPoints;
+  return overlaps > 0 ? sum_m / overlaps : all_m / kPoints;
 }
 
 }  // namespace

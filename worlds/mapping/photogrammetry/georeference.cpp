@@ -100,10 +100,10 @@ Result<Georeference> fit_georeference(const std::vector<KnownPlace>& places,
   // e = J x with x = (t, w, k); w x a = -[a]x w.
   Eigen::Matrix<double, 7, 7> normal = Eigen::Matrix<double, 7, 7>::Zero();
   Vector7d right = Vector7d::Zero();
-  const double least = 1e-6;
-  const Vector3d weights(1.0 / std::pow(std::max(std_m[0], least), 2),
-                         1.0 / std::pow(std::max(std_m[0], least), 2),
-                         1.0 / std::pow(std::max(std_m[1], least), 2));
+  const double min_std_m = 1e-6;
+  const Vector3d weights(1.0 / std::pow(std::max(std_m[0], min_std_m), 2),
+                         1.0 / std::pow(std::max(std_m[0], min_std_m), 2),
+                         1.0 / std::pow(std::max(std_m[1], min_std_m), 2));
   for (const KnownPlace& place : places) {
     const Vector3d a = place.true_W - fit.centre_W;
     Eigen::Matrix<double, 3, 7> J;
@@ -132,11 +132,11 @@ std::vector<Vector2d> control_places(const Eigen::AlignedBox2d& box, int count) 
     if (count == 5) at_m = std::array{0.0, size.x(), size.sum(), size.sum() + size.x()}[k];
     Vector2d p = box.min();
     const double steps[4] = {size.x(), size.y(), size.x(), size.y()};
-    const Vector2d paths[4] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+    const Vector2d directions[4] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
     for (int edge = 0; edge < 4; ++edge) {
-      const double way_m = std::min(at_m, steps[edge]);
-      p += way_m * paths[edge];
-      at_m -= way_m;
+      const double step_m = std::min(at_m, steps[edge]);
+      p += step_m * directions[edge];
+      at_m -= step_m;
     }
     places.push_back(p);
   }

@@ -16,10 +16,10 @@ void check_row(const WorldModel& world, int row) {
   const auto is_it = [row](const PlantRow& plants) { return plants.id == row; };
   if (std::any_of(rows.begin(), rows.end(), is_it)) return;
   if (rows.empty()) throw ConfigError(fmt::format("world '{}' has no rows", world.name));
-  const auto [least, most] = std::minmax_element(
+  const auto [first, last] = std::minmax_element(
       rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   throw ConfigError(fmt::format("world '{}' has no row {}, its rows are {} to {}", world.name, row,
-                                least->id, most->id));
+                                first->id, last->id));
 }
 
 }  // namespace

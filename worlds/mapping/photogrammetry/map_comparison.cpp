@@ -36,16 +36,17 @@ RowComparison compare_row(const MappedRowFigures& mapped, const RowTruth& truth)
   row.true_row = truth.row;
   row.mapped_row = mapped.row;
   row.bearing_deg = wrap_line_deg(mapped.bearing_deg - truth.bearing_deg);
-  const auto way_m = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  const auto distance_m = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return (a - b).head<2>().norm();
   };
-  row.first_m = way_m(mapped.first_W, truth.first_W);
-  row.last_m = way_m(mapped.last_W, truth.last_W);
+  row.first_m = distance_m(mapped.first_W, truth.first_W);
+  row.last_m = distance_m(mapped.last_W, truth.last_W);
   // The map's row may run the other way.
-  const double turned_m = way_m(mapped.first_W, truth.last_W) + way_m(mapped.last_W, truth.first_W);
+  const double turned_m =
+      distance_m(mapped.first_W, truth.last_W) + distance_m(mapped.last_W, truth.first_W);
   if (turned_m < row.first_m + row.last_m) {
-    row.first_m = way_m(mapped.last_W, truth.first_W);
-    row.last_m = way_m(mapped.first_W, truth.last_W);
+    row.first_m = distance_m(mapped.last_W, truth.first_W);
+    row.last_m = distance_m(mapped.first_W, truth.last_W);
   }
   row.length_m = mapped.length_m - truth.length_m;
   row.base_m = mapped.canopy_base_m - truth.canopy_base_m;

@@ -20,7 +20,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr SurfaceMask kSeen = kAllSurfaces & ~mask_of(SurfaceClass::kWire);
+constexpr SurfaceMask kVisible = kAllSurfaces & ~mask_of(SurfaceClass::kWire);
 constexpr double kTallest_m = 6.0;  ///< of what stands on the ground, where tiles look for pictures
 /// Rays into the area's rim that start outside of it: what is as high as vines leans by so much.
 constexpr double kRim_m = 1.5;
@@ -59,10 +59,10 @@ class Matcher {
   /// @returns whether it is seen well enough; then point, hit and triangulation are of it
   bool match(std::uint16_t reference, const Vector3d& aim_W, CloudTally& tally) {
     const SurveyView& view = view_of(reference);
-    const Vector3d way = aim_W - view.p_WS();
-    const double distance_m = way.norm();
-    const Vector3d dir = way / distance_m;
-    const auto met = s_.scene.cast_ray(view.p_WS(), dir, distance_m + kRim_m, kSeen);
+    const Vector3d offset = aim_W - view.p_WS();
+    const double distance_m = offset.norm();
+    const Vector3d dir = offset / distance_m;
+    const auto met = s_.scene.cast_ray(view.p_WS(), dir, distance_m + kRim_m, kVisible);
     if (!met) return false;
     hit_ = *met;
     p_W_ = view.p_WS() + hit_.distance_m * dir;
@@ -101,11 +101,11 @@ class Matcher {
 
   bool sees(const SurveyView& view) const {
     if (!view.shows(p_W_)) return false;
-    const Vector3d way = view.p_WS() - p_W_;
-    const double distance_m = way.norm();
-    const Vector3d dir = way / distance_m;
+    const Vector3d offset = view.p_WS() - p_W_;
+    const double distance_m = offset.norm();
+    const Vector3d dir = offset / distance_m;
     if (dir.dot(hit_.normal_W) < min_cosine_) return false;
-    return !s_.scene.cast_ray(p_W_ + kLift_m * hit_.normal_W, dir, distance_m, kSeen);
+    return !s_.scene.cast_ray(p_W_ + kLift_m * hit_.normal_W, dir, distance_m, kVisible);
   }
 
   const Survey& s_;

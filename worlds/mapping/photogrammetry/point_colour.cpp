@@ -72,10 +72,10 @@ std::array<std::uint8_t, 3> PointColour::lit(const Eigen::Vector3f& colour,
       (kSky * (0.75 + 0.25 * normal_W.z()) + kSun * std::max(0.0, normal_W.dot(to_sun_W_))) *
       (1.0 + kGrain * (2.0 * grain - 1.0));
   std::array<std::uint8_t, 3> rgb;
-  const double most = static_cast<double>(encoded_.size() - 1);
+  const double max_index = static_cast<double>(encoded_.size() - 1);
   for (int c = 0; c < 3; ++c) {
     const double value = std::clamp(light * static_cast<double>(colour[c]), 0.0, 1.0);
-    rgb[static_cast<std::size_t>(c)] = encoded_[static_cast<std::size_t>(value * most + 0.5)];
+    rgb[static_cast<std::size_t>(c)] = encoded_[static_cast<std::size_t>(value * max_index + 0.5)];
   }
   return rgb;
 }

@@ -7,7 +7,7 @@
 namespace vinerow::mapping {
 
 TileViews find_tile_views(const std::vector<SurveyView>& views, const Eigen::Vector3d& centre_W,
-                          double radius_m, double min_angle_rad, int most) {
+                          double radius_m, double min_angle_rad, int max_partners) {
   TileViews tile;
   std::vector<Eigen::Vector3d> rays;
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -25,7 +25,7 @@ TileViews find_tile_views(const std::vector<SurveyView>& views, const Eigen::Vec
       if (k != i && cosine <= max_cosine)
         order.emplace_back(-cosine, static_cast<std::uint16_t>(k));
     }
-    const std::size_t count = std::min(order.size(), static_cast<std::size_t>(most));
+    const std::size_t count = std::min(order.size(), static_cast<std::size_t>(max_partners));
     std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count),
                       order.end());
     std::vector<std::uint16_t>& partners = tile.partners.emplace_back();

@@ -18,8 +18,8 @@ struct TileViews {
 
 /// @param centre_W,radius_m  of a ball around the tile
 /// @param min_angle_rad    smallest angle between the rays of partners to the centre
-/// @param most               partners of one picture
+/// @param max_partners       partners of one picture
 TileViews find_tile_views(const std::vector<SurveyView>& views, const Eigen::Vector3d& centre_W,
-                          double radius_m, double min_angle_rad, int most);
+                          double radius_m, double min_angle_rad, int max_partners);
 
 }  // namespace vinerow::mapping

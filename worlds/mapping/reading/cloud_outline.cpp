@@ -22,9 +22,9 @@ std::string metres(double length_m) {
 
 /// What may help where the numbers can be degrees.
 std::string degrees_hint(const CloudOutline& outline) {
-  const Eigen::Vector3d most =
+  const Eigen::Vector3d max_abs =
       outline.kept.min().cwiseAbs().cwiseMax(outline.kept.max().cwiseAbs());
-  const bool is_possible = outline.unit_m.x() == 1.0 && most.x() <= 180.0 && most.y() <= 90.0;
+  const bool is_possible = outline.unit_m.x() == 1.0 && max_abs.x() <= 180.0 && max_abs.y() <= 90.0;
   return is_possible ? "; if its numbers are degrees, give their system by --crs EPSG:4326" : "";
 }
 

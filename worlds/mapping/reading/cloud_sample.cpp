@@ -6,6 +6,7 @@
 
 #include "engine/core/check.h"
 #include "engine/math/decomposition.h"
+#include "engine/math/statistics.h"
 
 namespace vinerow::mapping {
 namespace {
@@ -13,12 +14,8 @@ namespace {
 /// The values below and above which a share of `trim` lies. @param values  changed
 std::array<double, 2> trimmed_range(std::vector<double>& values, double trim) {
   VINEROW_DEMAND(!values.empty() && trim >= 0.0 && trim < 0.5);
-  const auto cut = static_cast<std::ptrdiff_t>(trim * static_cast<double>(values.size()));
-  const auto low = values.begin() + cut, high = values.end() - 1 - cut;
-  std::nth_element(values.begin(), low, values.end());
-  const double lowest = *low;
-  std::nth_element(values.begin(), high, values.end());
-  return {lowest, *high};
+  const auto cut = static_cast<std::size_t>(trim * static_cast<double>(values.size()));
+  return {value_in_order(values, cut), value_in_order(values, values.size() - 1 - cut)};
 }
 
 }  // namespace
@@ -88,12 +85,12 @@ std::size_t densest_square_centimetre(const std::vector<Eigen::Vector3d>& points
                       static_cast<std::int64_t>(std::floor(100.0 * p.y()))};
   });
   std::sort(cells.begin(), cells.end());
-  std::size_t most = 0, run = 0;
+  std::size_t max_run = 0, run = 0;
   for (std::size_t k = 0; k < cells.size(); ++k) {
     run = k > 0 && cells[k] == cells[k - 1] ? run + 1 : 1;
-    most = std::max(most, run);
+    max_run = std::max(max_run, run);
   }
-  return most;
+  return max_run;
 }
 
 }  // namespace vinerow::mapping

@@ -65,10 +65,10 @@ std::string megabytes(std::uint64_t bytes) {
 void check_memory(const Path& file, const CloudReadOptions& options, const CloudOutline& outline,
                   bool with_colours) {
   const std::uint64_t bytes = with_colours ? 15 : 12;
-  const std::uint64_t most = options.memory_limit / bytes;
+  const std::uint64_t max_points = options.memory_limit / bytes;
   const std::uint64_t kept = outline.tally.given / options.thin;
-  if (kept <= most) return;
-  const std::uint64_t thin = outline.tally.given / std::max<std::uint64_t>(most, 1) + 1;
+  if (kept <= max_points) return;
+  const std::uint64_t thin = outline.tally.given / std::max<std::uint64_t>(max_points, 1) + 1;
   refuse_cloud(
       file,
       fmt::format("has {} points, which take {}, more than the limit of {}; keep one of {} "
@@ -82,9 +82,9 @@ class Collector {
   Collector(const CloudReadOptions& options, const CloudOutline& outline,
             const io::ParcelFrame* frame, bool with_colours, ParcelCloud& cloud)
       : options_(options), kept_(outline.kept), frame_(frame), cloud_(cloud) {
-    const std::uint64_t most = outline.tally.given / options.thin + 1;
-    cloud_.points.reserve(most);
-    if (with_colours) cloud_.colours.reserve(most);
+    const std::uint64_t max_points = outline.tally.given / options.thin + 1;
+    cloud_.points.reserve(max_points);
+    if (with_colours) cloud_.colours.reserve(max_points);
     with_colours_ = with_colours;
   }
 
@@ -134,10 +134,10 @@ class Collector {
 
 /// Distance, in words, between the cloud's positions by the file's own CRS and by the given one; ""
 /// if they agree. @param used  frame of the given CRS, about `origin`
-std::string conflict_of_crs(const std::string& asked, const CloudOutline& outline,
+std::string conflict_of_crs(const std::string& requested, const CloudOutline& outline,
                             const io::CloudFrame& used, const GeoOrigin& origin) {
   const std::string& own = outline.info.crs;
-  if (asked.empty() || asked == "none" || own.empty() || asked == own) return "";
+  if (requested.empty() || requested == "none" || own.empty() || requested == own) return "";
   constexpr double kSamePlace_m = 1.0;  // of two realisations of one system
   std::string elsewhere = "somewhere else";
   try {
@@ -153,7 +153,7 @@ std::string conflict_of_crs(const std::string& asked, const CloudOutline& outlin
   }
   return fmt::format(
       "The coordinates were taken as {}, as requested; the file names {}, which puts them {}.",
-      asked, own.substr(0, 60), elsewhere);
+      requested, own.substr(0, 60), elsewhere);
 }
 
 void add_sentences(const CloudOutline& outline, const CloudReadOptions& options,

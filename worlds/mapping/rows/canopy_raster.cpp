@@ -9,6 +9,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
+#include "engine/math/statistics.h"
 
 namespace vinerow::mapping {
 
@@ -44,12 +45,12 @@ CanopyRaster make_canopy_raster(const ParcelCloud& cloud, const HeightAbove& hei
                }
              });
   // What a square of canopy holds on the average; squares at its rim hold less.
-  std::uint64_t sum = 0, taken = 0;
+  std::uint64_t sum = 0, occupied = 0;
   for (const std::uint32_t count : counts) {
     sum += count;
-    taken += count > 0 ? 1 : 0;
+    occupied += count > 0 ? 1 : 0;
   }
-  const float full = taken > 0 ? static_cast<float>(sum) / static_cast<float>(taken) : 1.0f;
+  const float full = occupied > 0 ? static_cast<float>(sum) / static_cast<float>(occupied) : 1.0f;
   raster.weights.resize(counts.size());
   for (std::size_t k = 0; k < counts.size(); ++k) {
     raster.weights[k] = std::min(1.0f, static_cast<float>(counts[k]) / full);
@@ -67,9 +68,7 @@ double body_height_m(const ParcelCloud& cloud, const HeightAbove& height_above, 
     if (height_m > cut_m && height_m < high_m) heights.push_back(height_m);
   }
   if (heights.empty()) return cut_m;
-  const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
-  std::nth_element(heights.begin(), middle, heights.end());
-  return std::clamp(kBody * *middle, cut_m, std::max(cut_m, kHighest_m));
+  return std::clamp(kBody * upper_median(heights), cut_m, std::max(cut_m, kHighest_m));
 }
 
 CanopyRaster coarsen(const CanopyRaster& raster, int factor) {

@@ -8,6 +8,7 @@
 
 #include "engine/core/check.h"
 #include "engine/math/planar.h"
+#include "engine/math/statistics.h"
 #include "worlds/mapping/rows/row_lines.h"
 
 namespace vinerow::mapping {
@@ -20,8 +21,8 @@ Vector2d chord_of(const RowCurve& row) {
 }
 
 /// Median distance of `own` from `other`, or null if they are side by side for less than a quarter.
-std::optional<double> distance_beside_m(const RowCurve& own, const RowCurve& other, double low_m,
-                                        double high_m) {
+std::optional<double> lateral_distance_m(const RowCurve& own, const RowCurve& other, double low_m,
+                                         double high_m) {
   constexpr int kPlaces = 40, kFewest = 10;
   const double parallel = std::cos(6.0 * std::numbers::pi / 180.0);
   std::vector<double> distances_m;
@@ -34,9 +35,7 @@ std::optional<double> distance_beside_m(const RowCurve& own, const RowCurve& oth
     if (apart_m > low_m && apart_m < high_m) distances_m.push_back(apart_m);
   }
   if (distances_m.size() < kFewest) return std::nullopt;
-  const auto middle = distances_m.begin() + static_cast<std::ptrdiff_t>(distances_m.size() / 2);
-  std::nth_element(distances_m.begin(), middle, distances_m.end());
-  return *middle;
+  return upper_median(distances_m);
 }
 
 /// `b` behind `a` as one row, where it goes on in its line.
@@ -71,12 +70,6 @@ void join_pieces(RowBlock& block) {
   }
 }
 
-double median_pitch_m(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 }  // namespace
 
 double RowBlock::length_m() const {
@@ -100,10 +93,10 @@ RowBlocks split_blocks(const std::vector<RowCurve>& lines, const std::vector<dou
         if (block_of[b] >= 0) continue;
         const double pitch_m = std::min(spacing_m[a], spacing_m[b]);
         const bool a_is_shorter = lines[a].length_m() < lines[b].length_m();
-        const auto beside_m =
-            distance_beside_m(lines[a_is_shorter ? a : b], lines[a_is_shorter ? b : a],
-                              kNearest * pitch_m, kFarthest * pitch_m);
-        if (!beside_m) continue;
+        const auto distance_m =
+            lateral_distance_m(lines[a_is_shorter ? a : b], lines[a_is_shorter ? b : a],
+                               kNearest * pitch_m, kFarthest * pitch_m);
+        if (!distance_m) continue;
         block_of[b] = id;
         members.back().push_back(b);
       }
@@ -123,7 +116,7 @@ RowBlocks split_blocks(const std::vector<RowCurve>& lines, const std::vector<dou
       block.rows.push_back(lines[k]);
       pitches_m.push_back(spacing_m[k]);
     }
-    block.spacing_m = median_pitch_m(std::move(pitches_m));
+    block.spacing_m = upper_median(pitches_m);
     join_pieces(block);
     if (block.rows.size() < 2) {
       split.lone.push_back(block.rows.front());

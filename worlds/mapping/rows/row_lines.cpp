@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "engine/math/planar.h"
+#include "engine/math/statistics.h"
 #include "worlds/mapping/model/row_map.h"
 
 // Plan, for each track:
@@ -118,8 +119,8 @@ StraightLine straight_through(const std::vector<Centre>& centres, double mean_m)
   }
   const double angle = 0.5 * std::atan2(2.0 * xy, xx - yy);
   StraightLine line{middle, {std::cos(angle), std::sin(angle)}, 0.0};
-  const Vector2d way = centres.back().p - centres.front().p;
-  if (way.dot(line.u) < 0.0) line.u = -line.u;
+  const Vector2d displacement = centres.back().p - centres.front().p;
+  if (displacement.dot(line.u) < 0.0) line.u = -line.u;
   // off_m = max |sum w y / sum w| over consecutive pieces of mean_m.
   double sum = 0.0, sum_weight = 0.0;
   double from_m = (centres.front().p - middle).dot(line.u);
@@ -184,7 +185,7 @@ std::vector<Vector2d> smoothed(const RowCurve& line, const std::vector<Centre>& 
 /// a window of `run` bins around each, share = sum(beside) / sum(core); wide is a share above
 /// max(wide, wide_over * median share of the line).
 /// @param core,beside  canopy on the line and in the half alleys beside it, for each bin
-std::vector<bool> find_wide(const std::vector<double>& core, const std::vector<double>& beside,
+std::vector<bool> find_wide(const std::vector<double>& core, const std::vector<double>& alley,
                             int run, const RowLineOptions& options) {
   std::vector<double> shares(core.size(), 0.0), usual;
   for (std::size_t k = 0; k < core.size(); ++k) {
@@ -193,18 +194,16 @@ std::vector<bool> find_wide(const std::vector<double>& core, const std::vector<d
     for (std::size_t n = k > reach ? k - reach : 0; n <= std::min(core.size() - 1, k + reach);
          ++n) {
       on_line += core[n];
-      off_line += beside[n];
+      off_line += alley[n];
     }
     if (on_line <= 0.0) continue;
     shares[k] = off_line / on_line;
     usual.push_back(shares[k]);
   }
   if (usual.empty()) return std::vector<bool>(core.size(), false);
-  const auto middle = usual.begin() + static_cast<std::ptrdiff_t>(usual.size() / 2);
-  std::nth_element(usual.begin(), middle, usual.end());
-  const double least = std::max(options.wide, options.wide_over * *middle);
+  const double threshold = std::max(options.wide, options.wide_over * upper_median(usual));
   std::vector<bool> is_wide(core.size());
-  for (std::size_t k = 0; k < core.size(); ++k) is_wide[k] = shares[k] > least;
+  for (std::size_t k = 0; k < core.size(); ++k) is_wide[k] = shares[k] > threshold;
   return is_wide;
 }
 
@@ -230,14 +229,14 @@ std::optional<std::pair<double, double>> canopy_stretch(const CanopyRaster& rast
   constexpr int kInside_bins = 20;
   const int bins = static_cast<int>(std::ceil((line.length_m() + 2.0 * beyond_m) / kBin_along_m));
   std::vector<double> weights(static_cast<std::size_t>(bins), 0.0);
-  std::vector<double> core(weights.size(), 0.0), beside(weights.size(), 0.0);
+  std::vector<double> core(weights.size(), 0.0), alley(weights.size(), 0.0);
   for (int k = 0; k < bins; ++k) {
     const auto bin = static_cast<std::size_t>(k);
     const double s_m = -beyond_m + (k + 0.5) * kBin_along_m;
     for_canopy(raster, line.point_W(s_m), line.direction_W(s_m), 0.5 * kBin_along_m, half_alley_m,
                [&](double, double y, double weight) {
                  if (std::abs(y) <= across_m) weights[bin] += weight;
-                 (std::abs(y) < options.core * half_alley_m ? core : beside)[bin] += weight;
+                 (std::abs(y) < options.core * half_alley_m ? core : alley)[bin] += weight;
                });
   }
   // Median weight of the bins that hold canopy.
@@ -246,14 +245,12 @@ std::optional<std::pair<double, double>> canopy_stretch(const CanopyRaster& rast
     if (w > 0.0) sorted.push_back(w);
   }
   if (sorted.empty()) return std::nullopt;
-  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
-                   sorted.end());
-  const double least = options.low * sorted[sorted.size() / 2];
+  const double threshold = options.low * upper_median(sorted);
   std::vector<bool> is_canopy(weights.size());
-  for (std::size_t k = 0; k < weights.size(); ++k) is_canopy[k] = weights[k] >= least;
+  for (std::size_t k = 0; k < weights.size(); ++k) is_canopy[k] = weights[k] >= threshold;
   const int kRun =
       std::max(kMinRun_bins, static_cast<int>(std::lround(options.run_m / kBin_along_m)));
-  const std::vector<bool> is_wide = find_wide(core, beside, kRun, options);
+  const std::vector<bool> is_wide = find_wide(core, alley, kRun, options);
   for (std::size_t k = 0; k < weights.size(); ++k) is_canopy[k] = is_canopy[k] && !is_wide[k];
   int first = -1, last = -1;
   const int middle = bins / 2;
@@ -327,19 +324,19 @@ bool is_row_like(const CanopyRaster& raster, const RowCurve& line, const RowLine
   const double spacing_m = options.spacing_m;
   const int count = std::max(2, static_cast<int>(line.length_m()));
   int covered = 0;
-  double row = 0.0, beside = 0.0;
+  double row = 0.0, alley = 0.0;
   for (int k = 0; k < count; ++k) {
     const double s_m = line.length_m() * (k + 0.5) / count;
     double here = 0.0;
     for_canopy(raster, line.point_W(s_m), line.direction_W(s_m), kHalfMetre_m,
                options.alley_to * spacing_m, [&](double, double y, double weight) {
                  if (std::abs(y) < options.row_share * spacing_m) here += weight;
-                 if (std::abs(y) > options.alley_from * spacing_m) beside += weight;
+                 if (std::abs(y) > options.alley_from * spacing_m) alley += weight;
                });
     row += here;
     covered += here * raster.cell_m * raster.cell_m > options.min_canopy_m2 ? 1 : 0;
   }
-  return covered >= options.covered * count && row > options.contrast * beside;
+  return covered >= options.covered * count && row > options.contrast * alley;
 }
 
 /// Line through the centres of the canopy along a first guess (steps 1 and 2); null if there is too
@@ -403,17 +400,17 @@ bool has_neighbour(const std::vector<RowCurve>& lines, std::size_t index,
   const RowCurve& own = lines[index];
   for (std::size_t k = 0; k < lines.size(); ++k) {
     if (k == index) continue;
-    int beside = 0, looked = 0;
+    int alley = 0, looked = 0;
     for (double share = kFirstShare; share < 1.0; share += kShareStep) {
       const double s_m = share * own.length_m();
       double apart_m = 0.0;
       const double other_m = lines[k].nearest_s_m(own.point_W(s_m), &apart_m);
       const bool is_parallel =
           std::abs(own.direction_W(s_m).dot(lines[k].direction_W(other_m))) > kParallel;
-      beside += is_parallel && apart_m > near_m && apart_m < far_m ? 1 : 0;
+      alley += is_parallel && apart_m > near_m && apart_m < far_m ? 1 : 0;
       ++looked;
     }
-    if (kOneIn * beside >= looked) return true;
+    if (kOneIn * alley >= looked) return true;
   }
   return false;
 }
@@ -438,8 +435,9 @@ std::vector<RowCurve> order_block(std::vector<RowCurve> rows) {
   std::stable_sort(rows.begin(), rows.end(), [](const RowCurve& a, const RowCurve& b) {
     return a.length_m() > b.length_m();
   });
-  const Vector2d way = rows[0].points_W().back() - rows[0].points_W().front();
-  const bool is_southward = way.y() < 0.0 || (way.y() == 0.0 && way.x() < 0.0);
+  const Vector2d displacement = rows[0].points_W().back() - rows[0].points_W().front();
+  const bool is_southward =
+      displacement.y() < 0.0 || (displacement.y() == 0.0 && displacement.x() < 0.0);
   if (is_southward) {
     std::vector<Vector2d> points(rows[0].points_W().rbegin(), rows[0].points_W().rend());
     rows[0] = RowCurve(std::move(points));

@@ -131,9 +131,9 @@ class Tracker {
     RowTrack track;
     std::size_t supported = 0;
     double gap_m = 0.0;
-    double beside_m = 0.0;  // part of the gap beside which a neighbouring row goes on
+    double neighbour_m = 0.0;  // part of the gap beside which a neighbouring row goes on
     while (gap_m <= options_.open_gap_m ||
-           (gap_m <= options_.longest_gap_m && beside_m >= options_.beside * gap_m)) {
+           (gap_m <= options_.longest_gap_m && neighbour_m >= options_.beside * gap_m)) {
       const Vector2d ahead = p + kTrackStep_m * u;
       if (raster_.cell_of(ahead.x(), ahead.y()) < 0) break;
       const Fit here = fit(ahead, u, full_weight);
@@ -145,14 +145,14 @@ class Tracker {
       track.push_back(p);
       if (here.weight >= options_.support * full_weight) {
         supported = track.size();
-        gap_m = beside_m = 0.0;
+        gap_m = neighbour_m = 0.0;
       } else {
         // A gap. Does either neighbour have canopy here?
         gap_m += kTrackStep_m;
         for (const double side : {-1.0, 1.0}) {
           const Vector2d neighbour = p + side * options_.spacing_m * left_of(u);
           if (fit(neighbour, u, full_weight).weight < options_.support * full_weight) continue;
-          beside_m += kTrackStep_m;
+          neighbour_m += kTrackStep_m;
           break;
         }
       }
@@ -284,10 +284,11 @@ std::vector<RowTrack> join_tracks(std::vector<RowTrack> tracks, const RowTrackin
     if (a_turned) std::reverse(tracks[a].begin(), tracks[a].end());
     if (b_turned) std::reverse(tracks[b].begin(), tracks[b].end());
     // The gap is filled with points, so that steps keep their length.
-    const Vector2d from = tracks[a].back(), way = tracks[b].front() - from;
-    const int steps = std::max(1, static_cast<int>(std::lround(way.norm() / kTrackStep_m)));
+    const Vector2d from = tracks[a].back(), displacement = tracks[b].front() - from;
+    const int steps =
+        std::max(1, static_cast<int>(std::lround(displacement.norm() / kTrackStep_m)));
     for (int k = 1; k < steps; ++k)
-      tracks[a].push_back(from + way * (static_cast<double>(k) / steps));
+      tracks[a].push_back(from + displacement * (static_cast<double>(k) / steps));
     tracks[a].insert(tracks[a].end(), tracks[b].begin(), tracks[b].end());
     tracks.erase(tracks.begin() + static_cast<std::ptrdiff_t>(b));
   }

@@ -69,7 +69,7 @@ struct NoiseShare {
 };
 
 /// Fixes 5 Hz, white 0.3 m and 0.1 m/s, antenna off the unit.
-Flight run_once(const Unit& unit, int seed, double told_factor = 1.0, NoiseShare share = {}) {
+Flight run_once(const Unit& unit, int seed, double stated_factor = 1.0, NoiseShare share = {}) {
   const ImuCourse course = lively_course();
   RandomStream random(seed, "test", unit.name);
   const Vector3d arm_B(0.3, -0.2, 0.4);
@@ -103,14 +103,14 @@ Flight run_once(const Unit& unit, int seed, double told_factor = 1.0, NoiseShare
       const Vector3d arm_W = truth.q_WB * arm_B;
       const controllers::VectorMeasurement place = controllers::place_measurement(
           filter.past(now), arm_B, truth.p_WI + arm_W + share.fixes * 0.3 * normal3(random));
-      const controllers::Correction taken = filter.correct_vector(
-          place.innovation, place.H, Vector3d::Constant(told_factor * 0.09), 10);
+      const controllers::Correction correction = filter.correct_vector(
+          place.innovation, place.H, Vector3d::Constant(stated_factor * 0.09), 10);
       const controllers::VectorMeasurement velocity = controllers::velocity_measurement(
           filter.past(now), arm_B,
           truth.v_WI + truth.q_WB * point.w_B.cross(arm_B) + share.fixes * 0.1 * normal3(random));
-      filter.correct_vector(velocity.innovation, velocity.H, Vector3d::Constant(told_factor * 0.01),
-                            10);
-      run.nis_sum += taken.nis;
+      filter.correct_vector(velocity.innovation, velocity.H,
+                            Vector3d::Constant(stated_factor * 0.01), 10);
+      run.nis_sum += correction.nis;
       ++run.fixes;
     }
     if (i > 0 && i % 1000 == 0) {
@@ -189,18 +189,18 @@ TEST_P(Consistency, HalfAndTwiceTheNoiseThatItIsTold) {
                 share.fixes, share.imu, result.first, result.second);
     return result;
   };
-  const auto told = judge({});
+  const auto nominal = judge({});
   for (const NoiseShare less : {NoiseShare{0.5, 1.0}, {1.0, 0.5}, {0.5, 0.5}}) {
     const auto [rms_m, mean_nees] = judge(less);
-    EXPECT_LE(rms_m, 1.1 * told.first);
-    EXPECT_LE(mean_nees, 1.1 * told.second);
-    EXPECT_GE(mean_nees, 0.25 * 0.75 * told.second);  // a quarter where all its noise is half
+    EXPECT_LE(rms_m, 1.1 * nominal.first);
+    EXPECT_LE(mean_nees, 1.1 * nominal.second);
+    EXPECT_GE(mean_nees, 0.25 * 0.75 * nominal.second);  // a quarter where all its noise is half
   }
   for (const NoiseShare more : {NoiseShare{2.0, 1.0}, {1.0, 2.0}, {2.0, 2.0}}) {
     const auto [rms_m, mean_nees] = judge(more);
-    EXPECT_LE(rms_m, 2.2 * told.first);
-    EXPECT_LE(mean_nees, 4.0 * 1.25 * told.second);  // four times where all its noise is twice
-    EXPECT_GE(mean_nees, 0.9 * told.second);
+    EXPECT_LE(rms_m, 2.2 * nominal.first);
+    EXPECT_LE(mean_nees, 4.0 * 1.25 * nominal.second);  // four times where all its noise is twice
+    EXPECT_GE(mean_nees, 0.9 * nominal.second);
   }
 }
 

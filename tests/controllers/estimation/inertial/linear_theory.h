@@ -27,18 +27,19 @@ class LinearTheory {
     const bool is_velocity = reading == controllers::InertialReading::kVelocity;
     const double dt = 0.01, keep = std::exp(-dt / setup.velocity_time_s);
     const double stated = setup.velocity_std_mps * setup.velocity_std_mps,
-                 told = is_velocity ? stated : 0.0, met = share.velocity * share.velocity * stated;
+                 assumed = is_velocity ? stated : 0.0,
+                 met = share.velocity * share.velocity * stated;
     const Eigen::Matrix2d F{{1.0, dt}, {0.0, keep}};
     const double start = setup.start_std_m * setup.start_std_m;
-    Eigen::Matrix2d P{{start, 0.0}, {0.0, told}}, S{{start, 0.0}, {0.0, met}};
+    Eigen::Matrix2d P{{start, 0.0}, {0.0, assumed}}, S{{start, 0.0}, {0.0, met}};
     const int ticks = static_cast<int>(std::lround(setup.duration_s / dt));
     for (int k = 0; k <= ticks; ++k) {
       Eigen::Matrix2d A = Eigen::Matrix2d::Identity();
       if (k > 0) {
         A = F;
         P = F * P * F.transpose();
-        P(0, 0) += params.walk_m2_per_s * dt;  // told only: no such noise is met
-        P(1, 1) += told * (1.0 - keep * keep);
+        P(0, 0) += params.walk_m2_per_s * dt;  // assumed only: there is no such noise
+        P(1, 1) += assumed * (1.0 - keep * keep);
         S = F * S * F.transpose();
         S(1, 1) += met * (1.0 - keep * keep);
       }

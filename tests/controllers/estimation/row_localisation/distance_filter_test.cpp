@@ -60,7 +60,7 @@ struct Flight {
     ++tick;
     law.predict(now(), (p_W() - before) / 0.01, q_WB(), 0.0035);
   }
-  void tell_ranges() {
+  void feed_ranges() {
     std::array<controllers::RangeReading, 4> readings;
     for (int i = 0; i < 4; ++i) readings[i] = {i, range(i), 4.0};
     law.take_ranges(now(), readings);
@@ -69,7 +69,7 @@ struct Flight {
     for (int i = 0; i < ticks; ++i) {
       predict();
       if (tick % 20 == 0) law.take_fix(now(), p_W(), {1, 1, 1.5}, Vector3d::Zero());
-      if (tick % 5 == 0) tell_ranges();
+      if (tick % 5 == 0) feed_ranges();
     }
   }
   Time now() const { return tick_time(tick); }
@@ -117,7 +117,7 @@ TEST(DistanceFilterLaw, RefusesTimeThatGoesBackwards) {
   flight.law.predict(tick_time(399), {1, 0, 0}, flight.q_WB(), 0.0035);
   EXPECT_EQ(flight.law.counters().backwards, 1);
   // The same reading again, one from before it, a fix from before the memory (256 ticks).
-  flight.tell_ranges();
+  flight.feed_ranges();
   EXPECT_EQ(flight.law.counters().backwards, 5);
   const controllers::RangeReading old{0, 1.0, 4.0};
   flight.law.take_ranges(tick_time(390), {&old, 1});
@@ -150,7 +150,7 @@ TEST(DistanceFilterLaw, LateDataAreComparedWithWhereTheVehicleWas) {
 TEST(DistanceFilterLaw, RefusesContradictoryRangesAndRecovers) {
   Flight flight;
   flight.fly(300);
-  const int taken = flight.law.counters().echoes;
+  const int accepted = flight.law.counters().echoes;
   // Something flies along, 0.3 m off every sensor: no wall explains that.
   for (int i = 0; i < 40; ++i) {
     flight.predict();
@@ -159,7 +159,7 @@ TEST(DistanceFilterLaw, RefusesContradictoryRangesAndRecovers) {
     for (int k = 0; k < 4; ++k) readings[k] = {k, 0.3, 4.0};
     flight.law.take_ranges(flight.now(), readings);
   }
-  EXPECT_EQ(flight.law.counters().echoes, taken);
+  EXPECT_EQ(flight.law.counters().echoes, accepted);
   EXPECT_EQ(flight.law.counters().echoes_gated, 32);
   EXPECT_LT(flight.error(), 0.1);
   // For so long that the filter takes itself for lost: it opens up, and finds back.

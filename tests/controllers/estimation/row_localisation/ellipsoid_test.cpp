@@ -112,7 +112,7 @@ double log_volume(int n, double alpha, double alpha_hat, double rest) {
   return 0.5 * (n * std::log(delta) + std::log(rest));
 }
 
-double least_log_volume(int n, double alpha, double alpha_hat) {
+double min_log_volume(int n, double alpha, double alpha_hat) {
   // Golden section over log(rest), where the function has one minimum.
   const double ratio = 0.5 * (std::sqrt(5.0) - 1.0);
   double low = -40.0, high = 0.0;
@@ -136,15 +136,15 @@ TEST(ParallelCut, HasTheLeastVolumeOfAllCovers) {
     const int n = 2 + i % 5;
     const double from = random.uniform(-1.2, 1.0), to = random.uniform(std::max(-1.0, from), 1.2);
     const controllers::ParallelCut cut = controllers::parallel_cut(n, -to, from);
-    const double least = least_log_volume(n, cut.alpha, cut.alpha_hat);
+    const double smallest = min_log_volume(n, cut.alpha, cut.alpha_hat);
     if (cut.status == controllers::CutStatus::kNoUpdate) {
-      EXPECT_NEAR(least, 0.0, 1e-9);
+      EXPECT_NEAR(smallest, 0.0, 1e-9);
       continue;
     }
     ASSERT_TRUE(cut.cuts()) << controllers::to_string(cut.status);
     ++cut_count;
     const double own = 0.5 * (n * std::log(cut.delta) + std::log(cut.rest));
-    ASSERT_NEAR(own, least, 1e-9) << n << ' ' << cut.alpha << ' ' << cut.alpha_hat;
+    ASSERT_NEAR(own, smallest, 1e-9) << n << ' ' << cut.alpha << ' ' << cut.alpha_hat;
   }
   EXPECT_GT(cut_count, 10000);
 }
@@ -290,15 +290,15 @@ TEST(PseudoMeasurement, HoldsJustWhatTheCutAddsAlongItsNormal) {
     Eigen::Matrix3d P = x.P;
     const controllers::ParallelCut cut =
         controllers::cut_ellipsoid<3>(c, P, x.a, x.lower(), x.upper());
-    const controllers::PseudoMeasurement told =
+    const controllers::PseudoMeasurement pseudo =
         controllers::pseudo_measurement(cut, x.a.dot(x.c), x.s, k);
-    ASSERT_EQ(told.valid, cut.cuts() && cut.gain() >= 1e-9);
-    if (!told.valid) continue;
+    ASSERT_EQ(pseudo.valid, cut.cuts() && cut.gain() >= 1e-9);
+    if (!pseudo.valid) continue;
     ASSERT_GT(cut.gain(), 0.0);
-    ASSERT_GE(told.variance, 0.0);
+    ASSERT_GE(pseudo.variance, 0.0);
     const double prior = x.s * x.s / (k * k);
-    const double gain = prior / (prior + told.variance);
-    const double mean = x.a.dot(x.c) + gain * (told.value - x.a.dot(x.c));
+    const double gain = prior / (prior + pseudo.variance);
+    const double mean = x.a.dot(x.c) + gain * (pseudo.value - x.a.dot(x.c));
     ASSERT_NEAR(mean, x.a.dot(c), 1e-9 * (x.s + std::abs(mean)));
     ASSERT_NEAR((1.0 - gain) * prior, x.a.dot(P * x.a) / (k * k), 1e-9 * prior);
   }

@@ -57,9 +57,9 @@ struct SlopeFlight {
     return n.dot(from) / -n.dot(dir);
   }
   void tick() {
-    bench.tell_motion(truth(), truth());
-    if (count % 20 == 0) bench.tell_fix(true_p_W() + Vector3d(0, 0, 3), {1, 1, 1.5});
-    if (count % 5 == 0) bench.tell_range(2, down_range());
+    bench.write_motion(truth(), truth());
+    if (count % 20 == 0) bench.write_fix(true_p_W() + Vector3d(0, 0, 3), {1, 1, 1.5});
+    if (count % 5 == 0) bench.write_range(2, down_range());
     ++count;
     bench.step();
   }
@@ -92,19 +92,19 @@ TEST_P(GroundOf, RefusesHeightsThatAreNoneOrTooFarOff) {
   LocalisationBench bench(GetParam(), {{"down", Text("down")}}, &map, make_sensors());
   SlopeFlight flight(bench);
   for (int i = 0; i < 500; ++i) flight.tick();
-  const double taken = bench.value("heights");
+  const double accepted = bench.value("heights");
   const auto refused = [&] {
     return GetParam() == "distance_filter" ? bench.value("bad_numbers") : bench.value("refused");
   };
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), -1.0,
                            std::numeric_limits<double>::infinity(), 0.2}) {
-    bench.tell_motion(flight.truth(), flight.truth());
-    bench.tell_range(2, bad);
+    bench.write_motion(flight.truth(), flight.truth());
+    bench.write_range(2, bad);
     bench.step();
   }
   EXPECT_EQ(refused(), 2.0);  // infinity says that nothing was seen
   EXPECT_EQ(bench.value("heights_gated"), 1.0);
-  EXPECT_EQ(bench.value("heights"), taken);
+  EXPECT_EQ(bench.value("heights"), accepted);
   EXPECT_EQ(Eigen::LLT<Eigen::Matrix3d>(bench.estimate.value().position_covariance()).info(),
             Eigen::Success);
 }
@@ -130,23 +130,23 @@ struct SlopeDrive {
     Odometry truth, ins;
     truth.X_WB = ins.X_WB = true_pose();
     // First-order Gauss-Markov, 0.05 m/s and 5 s.
-    const double kept = std::exp(-0.01 / 5.0);
+    const double decay = std::exp(-0.01 / 5.0);
     for (int i = 0; i < 3; ++i) {
-      slow_mps[i] = kept * slow_mps[i] + 0.05 * std::sqrt(1 - kept * kept) * random.normal();
+      slow_mps[i] = decay * slow_mps[i] + 0.05 * std::sqrt(1 - decay * decay) * random.normal();
     }
     const Vector3d v_W(1.0, 0.0, kSlope.grade_along);
     truth.v_WB_B = truth.X_WB.q.conjugate() * v_W;
     ins.v_WB_B = truth.X_WB.q.conjugate() * (v_W + slow_mps);
-    bench->tell_motion(truth, ins);
+    bench->write_motion(truth, ins);
     if (count % 20 == 0) {
       const Vector3d error(random.normal(), random.normal(), 1.5 * random.normal());
-      bench->tell_fix(truth.X_WB.p + error, {1, 1, 1.5});
+      bench->write_fix(truth.X_WB.p + error, {1, 1, 1.5});
     }
     if (count++ % 5 == 0) {
       for (const int side : {0, 1}) {
         const Vector3d dir = truth.X_WB.q * Vector3d(0, side == 0 ? 1 : -1, 0);
         const double wall = side == 0 ? kSlope.pitch_m - kSlope.half_width_m : kSlope.half_width_m;
-        bench->tell_range(side, (wall - truth.X_WB.p.y()) / dir.y() + random.uniform(-3e-3, 3e-3));
+        bench->write_range(side, (wall - truth.X_WB.p.y()) / dir.y() + random.uniform(-3e-3, 3e-3));
       }
     }
     true_p_W = truth.X_WB.p;

@@ -18,7 +18,7 @@ namespace vinerow::test {
 
 struct LocalisationBench {
   static constexpr Duration kTick{10'000'000};
-  struct Told {
+  struct TimedEvent {
     Time time;
     Event event;
   };
@@ -51,19 +51,19 @@ struct LocalisationBench {
     event = world.read<Event>("estimator_event");
   }
 
-  void tell_motion(const Odometry& truth, const Odometry& ins) {
+  void write_motion(const Odometry& truth, const Odometry& ins) {
     truth_out.write(now, truth);
     ins_out.write(now, ins);
   }
-  void tell_fix(const Eigen::Vector3d& p_W, const Eigen::Vector3d& std_m) {
+  void write_fix(const Eigen::Vector3d& p_W, const Eigen::Vector3d& std_m) {
     GnssFix fix;
     fix.valid = true;
     fix.p_W = p_W;
     fix.std_m = std_m;
     gps_out.write(now, fix);
   }
-  void tell_range(int sensor, double range_m) { tell_range(sensor, range_m, now); }
-  void tell_range(int sensor, double range_m, Time stamp) {
+  void write_range(int sensor, double range_m) { write_range(sensor, range_m, now); }
+  void write_range(int sensor, double range_m, Time stamp) {
     RangeSample sample;
     sample.range_m = range_m;
     sample.max_range_m = 4.0;
@@ -73,7 +73,7 @@ struct LocalisationBench {
   /// The estimator's tick; then time goes on.
   void step() {
     estimator->step(now);
-    if (event.is_newer_than(seen_event)) told.push_back({now, event.value()});
+    if (event.is_newer_than(seen_event)) events.push_back({now, event.value()});
     now = now + kTick;
   }
 
@@ -87,10 +87,10 @@ struct LocalisationBench {
     }
     return std::numeric_limits<double>::quiet_NaN();
   }
-  /// What was told that has this in its text.
-  std::vector<Told> told_with(const std::string& words) const {
-    std::vector<Told> found;
-    for (const Told& one : told) {
+  /// Events whose text contains `words`.
+  std::vector<TimedEvent> events_with(const std::string& words) const {
+    std::vector<TimedEvent> found;
+    for (const TimedEvent& one : events) {
       if (one.event.text.find(words) != std::string::npos) found.push_back(one);
     }
     return found;
@@ -108,7 +108,7 @@ struct LocalisationBench {
   SignalReader<NamedValues> state;
   SignalReader<Event> event;
   std::uint64_t seen_event = 0;
-  std::vector<Told> told;
+  std::vector<TimedEvent> events;
 };
 
 /// Looking at an angle to the left of x of B, from its origin.

@@ -39,9 +39,9 @@ struct AlleyRun {
     Odometry at;
     at.X_WB.p = p_W;
     at.v_WB_B = {v_mps, 0, 0};
-    bench.tell_motion(at, at);
-    if (count % 20 == 0) bench.tell_fix(p_W, {1, 1, 1.5});
-    if (count++ % 5 == 0) bench.tell_range(0, left_m), bench.tell_range(1, right_m);
+    bench.write_motion(at, at);
+    if (count % 20 == 0) bench.write_fix(p_W, {1, 1, 1.5});
+    if (count++ % 5 == 0) bench.write_range(0, left_m), bench.write_range(1, right_m);
     bench.step();
   }
   /// With what there is to see.
@@ -85,7 +85,7 @@ TEST_P(FaultsOf, ATripAsExpectedTellsNothingAndDoesNotAllocate) {
     run.drive(2000, 1.0);
     EXPECT_EQ(counter.count(), 0u);
   }
-  EXPECT_TRUE(run.bench.told.empty());
+  EXPECT_TRUE(run.bench.events.empty());
   EXPECT_EQ(run.bench.value("lost"), 0.0);
   EXPECT_EQ(run.bench.value("unmapped"), 0.0);
   EXPECT_NEAR(run.bench.p_W().y(), 1.25, 0.01);
@@ -97,9 +97,9 @@ TEST_P(FaultsOf, RangesThatAreNoneAreRefused) {
   run.drive(300, 1.0);
   const double echoes = run.bench.value("echoes"), gated = run.bench.value("echoes_gated");
   const auto tell = [&](double range_m, Time stamp) {
-    run.bench.tell_motion({{Eigen::Quaterniond::Identity(), run.p_W}},
-                          {{Eigen::Quaterniond::Identity(), run.p_W}});
-    run.bench.tell_range(0, range_m, stamp);
+    run.bench.write_motion({{Eigen::Quaterniond::Identity(), run.p_W}},
+                           {{Eigen::Quaterniond::Identity(), run.p_W}});
+    run.bench.write_range(0, range_m, stamp);
     run.bench.step();
     run.expect_sound();
   };
@@ -137,8 +137,8 @@ TEST_P(FaultsOf, MotionThatIsNoNumberLeavesTheEstimateFinite) {
     if (kind == 1) ins.v_WB_B.x() = kNaN;
     if (kind == 2) ins.w_WB_B.y() = kInf;
     if (kind == 3) ins.yaw_std_rad = kNaN;
-    run.bench.tell_motion(truth, ins);
-    run.bench.tell_fix({kNaN, 0, 0}, {1, 1, 1});
+    run.bench.write_motion(truth, ins);
+    run.bench.write_fix({kNaN, 0, 0}, {1, 1, 1});
     run.bench.step();
     run.expect_sound();
   }
@@ -151,9 +151,9 @@ TEST_P(FaultsOf, EchoesThatCannotBothBeTrueAreRefused) {
   // 2 m between the walls, and half a metre to each.
   AlleyRun run(GetParam());
   run.drive(300, 1.0);
-  const double taken = run.bench.value("echoes");
+  const double accepted = run.bench.value("echoes");
   for (int i = 0; i < 100; ++i) run.tick(1.0, 0.5, 0.5);
-  EXPECT_EQ(run.bench.value("echoes"), taken);
+  EXPECT_EQ(run.bench.value("echoes"), accepted);
   EXPECT_EQ(run.bench.value("echoes_gated"), 40.0);
   EXPECT_NEAR(run.bench.p_W().y(), 1.25, 0.1);
   run.expect_sound();
@@ -177,16 +177,16 @@ TEST_P(FaultsOf, BeingLostIsToldAtOnceAndThenAtMostEveryTenSeconds) {
     run.tick(0.5, random.uniform(0.05, 0.5), random.uniform(0.05, 0.5));
     if (first.ns == 0 && run.bench.value("lost") > 0.0) first = now;
   }
-  const auto told = run.bench.told_with("lost");
-  ASSERT_GE(told.size(), 2u);
-  EXPECT_EQ(told[0].time, first);
-  EXPECT_EQ(told[0].event.level, Event::Level::kWarning);
-  EXPECT_NE(told[0].event.text.find("(1 so far)"), Text::npos) << told[0].event.text;
-  for (std::size_t i = 1; i < told.size(); ++i) {
-    EXPECT_GE((told[i].time - told[i - 1].time).s(), 10.0);
+  const auto events = run.bench.events_with("lost");
+  ASSERT_GE(events.size(), 2u);
+  EXPECT_EQ(events[0].time, first);
+  EXPECT_EQ(events[0].event.level, Event::Level::kWarning);
+  EXPECT_NE(events[0].event.text.find("(1 so far)"), Text::npos) << events[0].event.text;
+  for (std::size_t i = 1; i < events.size(); ++i) {
+    EXPECT_GE((events[i].time - events[i - 1].time).s(), 10.0);
   }
-  EXPECT_LE(told.size(), 5u);
-  EXPECT_GT(run.bench.value("lost"), static_cast<double>(told.size()));
+  EXPECT_LE(events.size(), 5u);
+  EXPECT_GT(run.bench.value("lost"), static_cast<double>(events.size()));
 }
 
 TEST_P(FaultsOf, EchoesThatMayBeTheGroundsAreLeftOut) {
@@ -196,9 +196,9 @@ TEST_P(FaultsOf, EchoesThatMayBeTheGroundsAreLeftOut) {
     AlleyRun run(GetParam(), {10, 1.25, height_m}, 0.01);
     run.bench.half_angle_rad = rad_from_deg(15.0);
     for (int i = 0; i < 400; ++i) run.tick(0.0, 1.0, 1.0);
-    const double told = 2 * 400 / 5;
-    EXPECT_EQ(run.bench.value("ground_echoes"), height_m < 0.5 ? told : 0.0);
-    EXPECT_EQ(run.bench.value("echoes"), height_m < 0.5 ? 0.0 : told);
+    const double readings = 2 * 400 / 5;
+    EXPECT_EQ(run.bench.value("ground_echoes"), height_m < 0.5 ? readings : 0.0);
+    EXPECT_EQ(run.bench.value("echoes"), height_m < 0.5 ? 0.0 : readings);
     EXPECT_EQ(run.bench.value("lost"), 0.0);
     run.expect_sound();
   }
@@ -209,18 +209,18 @@ TEST_P(FaultsOf, AMapThatShowsNothingIsToldAndThatItDoesAgain) {
   // Out of the rows at 60 m after 5 s, back at 60 m after another 25 s, at 2 m/s.
   run.drive(1750, 2.0);
   EXPECT_EQ(run.bench.value("unmapped"), 1.0);
-  ASSERT_EQ(run.bench.told.size(), 1u);
-  const Event& gone = run.bench.told[0].event;
+  ASSERT_EQ(run.bench.events.size(), 1u);
+  const Event& gone = run.bench.events[0].event;
   EXPECT_EQ(gone.level, Event::Level::kInfo);
   EXPECT_NE(gone.text.find("no wall within 4.0 m of the range sensors for 5 s"), Text::npos)
       << gone.text;
   // 5 s after the end, to the nearest look, and as far off as fixes of 1 m leave the estimate.
-  EXPECT_NEAR(run.bench.told[0].time.s(), 10.0, 0.2 + 1.0 / 2.0);
+  EXPECT_NEAR(run.bench.events[0].time.s(), 10.0, 0.2 + 1.0 / 2.0);
   run.drive(2000, -2.0);
-  ASSERT_EQ(run.bench.told.size(), 2u);
-  EXPECT_NE(run.bench.told[1].event.text.find("the map has walls within reach again"), Text::npos)
-      << run.bench.told[1].event.text;
-  EXPECT_NEAR(run.bench.told[1].time.s(), 30.0, 0.2 + 1.0 / 2.0);
+  ASSERT_EQ(run.bench.events.size(), 2u);
+  EXPECT_NE(run.bench.events[1].event.text.find("the map has walls within reach again"), Text::npos)
+      << run.bench.events[1].event.text;
+  EXPECT_NEAR(run.bench.events[1].time.s(), 30.0, 0.2 + 1.0 / 2.0);
   EXPECT_EQ(run.bench.value("unmapped"), 1.0);
   run.expect_sound();
 }
@@ -228,10 +228,10 @@ TEST_P(FaultsOf, AMapThatShowsNothingIsToldAndThatItDoesAgain) {
 TEST_P(FaultsOf, AMapOfAnotherPlaceIsNotPassedOverInSilence) {
   AlleyRun run(GetParam(), {500, 300, 1});
   for (int i = 0; i < 500; ++i) run.tick(0.0, 1.0, 1.0);
-  EXPECT_TRUE(run.bench.told_with("the map has had no wall").empty());
+  EXPECT_TRUE(run.bench.events_with("the map has had no wall").empty());
   for (int i = 0; i < 1500; ++i) run.tick(0.0, 1.0, 1.0);
-  ASSERT_EQ(run.bench.told_with("the map has had no wall").size(), 1u);
-  EXPECT_NEAR(run.bench.told_with("the map has had no wall")[0].time.s(), 5.2, 1e-9);
+  ASSERT_EQ(run.bench.events_with("the map has had no wall").size(), 1u);
+  EXPECT_NEAR(run.bench.events_with("the map has had no wall")[0].time.s(), 5.2, 1e-9);
   EXPECT_EQ(run.bench.value("unmapped"), 1.0);
   EXPECT_EQ(run.bench.value("echoes"), 0.0);
   run.expect_sound();
@@ -246,18 +246,18 @@ TEST(DistanceFilterFaults, AnEmptyEllipsoidIsToldAtOnceAndThenAtMostEveryTenSeco
   Time first;
   for (int i = 0; i < 3000; ++i) {
     const Time now = run.bench.now;
-    run.bench.tell_motion(at, at);
+    run.bench.write_motion(at, at);
     if (i % 20 == 0) {
-      run.bench.tell_fix(run.p_W + Vector3d(i % 40 == 0 ? 3.5 : -3.5, 0, 0), {1, 1, 1.5});
+      run.bench.write_fix(run.p_W + Vector3d(i % 40 == 0 ? 3.5 : -3.5, 0, 0), {1, 1, 1.5});
     }
     run.bench.step();
     if (first.ns == 0 && run.bench.value("set_restarts") > 0.0) first = now;
   }
-  const auto told = run.bench.told_with("the ellipsoid was empty");
-  ASSERT_EQ(told.size(), 3u);
-  EXPECT_EQ(told[0].time, first);
-  EXPECT_NEAR((told[1].time - told[0].time).s(), 10.0, 0.5);
-  EXPECT_NEAR((told[2].time - told[1].time).s(), 10.0, 0.5);
+  const auto events = run.bench.events_with("the ellipsoid was empty");
+  ASSERT_EQ(events.size(), 3u);
+  EXPECT_EQ(events[0].time, first);
+  EXPECT_NEAR((events[1].time - events[0].time).s(), 10.0, 0.5);
+  EXPECT_NEAR((events[2].time - events[1].time).s(), 10.0, 0.5);
   EXPECT_GT(run.bench.value("set_restarts"), 10.0);
   run.expect_sound();
 }

@@ -202,14 +202,14 @@ LabRun fly(const LabSetup& setup, std::uint64_t seed, const LabFilterMaker& make
     const double time_s = k * kTick_s;
     const bool is_out = time_s >= setup.outage_from_s && time_s < setup.outage_to_s;
     if (const int m = k - setup.fix_age; m >= 0 && m % setup.fix_every == 0 && !is_out) {
-      filter->fix(setup.tells_stamps ? tick_time(m) : now, fixes[m], setup.fix_std_m);
+      filter->fix(setup.has_stamps ? tick_time(m) : now, fixes[m], setup.fix_std_m);
     }
     if (const int m = k - setup.range_age;
         m >= 0 && m % setup.range_every == 0 && setup.height_std_m > 0.0) {
-      filter->height(setup.tells_stamps ? tick_time(m) : now, heights[m], setup.height_std_m);
+      filter->height(setup.has_stamps ? tick_time(m) : now, heights[m], setup.height_std_m);
     }
     if (const int m = k - setup.range_age; m >= 0 && !ranges[m].empty()) {
-      filter->ranges(setup.tells_stamps ? tick_time(m) : now, ranges[m]);
+      filter->ranges(setup.has_stamps ? tick_time(m) : now, ranges[m]);
     }
     run.samples.push_back(judge(*filter, world, truth, time_s));
   }

@@ -39,7 +39,7 @@ struct LabSetup {
   double missed_share = 0.0;  ///< echoes lost
   double false_share = 0.0;   ///< echoes from nowhere, shorter than the true ones
   int range_age = 0;          ///< ticks late
-  bool tells_stamps = true;   ///< late data say when they were measured
+  bool has_stamps = true;     ///< late data say when they were measured
   // Satellite fixes.
   Eigen::Vector3d fix_std_m = {1.0, 1.0, 1.5};
   double fix_time_s = 0.0;  ///< correlation time of their errors; 0: white

@@ -115,13 +115,13 @@ TEST(LocalisationNis, HasTheMomentsOfChiSquareWhereTheErrorsAreAsStated) {
     at.X_WB.p = {10, 1.25, 1};
     std::vector<double> of_ranges, of_fixes;
     for (int tick = 0; tick < 4000; ++tick) {
-      bench.tell_motion(at, at);
+      bench.write_motion(at, at);
       if (tick % 5 == 0) {
-        bench.tell_fix(
+        bench.write_fix(
             at.X_WB.p + Vector3d(random.normal(), random.normal(), 1.5 * random.normal()),
             kFixStd_m);
       }
-      if (tick % 2 == 0) bench.tell_range(0, 1.0 + random.uniform(-0.05, 0.05));
+      if (tick % 2 == 0) bench.write_range(0, 1.0 + random.uniform(-0.05, 0.05));
       bench.step();
       if (tick % 5 == 0) of_fixes.push_back(bench.value("nis_gnss_position"));
       if (tick % 2 == 0) of_ranges.push_back(bench.value("nis_range"));

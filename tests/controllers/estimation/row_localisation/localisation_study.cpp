@@ -210,12 +210,12 @@ void echoes() {
 
 void latency() {
   const Params ekf = with(kR3, controllers::DistanceFusion::kRangeEkf);
-  for (const bool told : {false, true}) {
-    const std::string how = told ? "told" : "not told";
+  for (const bool has_stamps : {false, true}) {
+    const std::string how = has_stamps ? "with stamps" : "without stamps";
     for (const int age : {3, 5}) {
       LabSetup setup;
       setup.range_age = age;
-      setup.tells_stamps = told;
+      setup.has_stamps = has_stamps;
       run(fmt::format("echoes {} ms late, {}", 10 * age, how), setup, ekf);
       setup.speed_mps = 10.0;
       setup.world.length_m = 640.0;
@@ -223,7 +223,7 @@ void latency() {
     }
     LabSetup setup;
     setup.fix_age = 20;
-    setup.tells_stamps = told;
+    setup.has_stamps = has_stamps;
     run("fixes 0.2 s late, no map, " + how, setup, ekf, false);
     run("fixes 0.2 s late, " + how, setup, ekf);
   }

@@ -168,15 +168,15 @@ TEST(Localisation, LateDataDoNoHarmWhereTheirStampsAreTold) {
   late.duration_s = 30.0;
   late.world.length_m = 340.0;
   EXPECT_NEAR(run(late, {}).longitudinal_mean_m, 0.0, 0.03);
-  late.tells_stamps = false;
+  late.has_stamps = false;
   EXPECT_NEAR(run(late, {}).longitudinal_mean_m, -0.5, 0.05);
   LabSetup fix;
   fix.fix_age = 20;
-  const LabScore told = run(fix, {}, false);
-  fix.tells_stamps = false;
-  const LabScore untold = run(fix, {}, false);
-  EXPECT_NEAR(untold.longitudinal_mean_m - told.longitudinal_mean_m, -0.3, 0.03);
-  EXPECT_LT(told.nees, 2.6);
+  const LabScore stamped = run(fix, {}, false);
+  fix.has_stamps = false;
+  const LabScore unstamped = run(fix, {}, false);
+  EXPECT_NEAR(unstamped.longitudinal_mean_m - stamped.longitudinal_mean_m, -0.3, 0.03);
+  EXPECT_LT(stamped.nees, 2.6);
 }
 
 TEST(Localisation, HoldsItsPlaceThroughAnOutageOfTenSeconds) {

@@ -1,4 +1,5 @@
-// The bank of filters on the map in the reference world: what docs/papers/localisation.md says of it.
+// The bank of filters on the map in the reference world: what docs/papers/localisation.md says of
+// it.
 
 #include <gtest/gtest.h>
 
@@ -281,8 +282,8 @@ TEST(MapLocalisationLaw, TheCovarianceCountsEveryAlleyInQuestion) {
   // Closed form: the weighted sum over alleys 2.5 m apart, across the rows.
   const Eigen::Vector3d left_W = stationary.world.left_W();
   const double across_m2 = left_W.dot(stationary.law->position_covariance() * left_W);
-  const double beside = 0.5 * (1.0 - stationary.law->best_weight()) * 2.0;
-  EXPECT_NEAR(across_m2, 0.35 * 0.35 + beside * 2.5 * 2.5, 1e-6);
+  const double side_weight = 0.5 * (1.0 - stationary.law->best_weight()) * 2.0;
+  EXPECT_NEAR(across_m2, 0.35 * 0.35 + side_weight * 2.5 * 2.5, 1e-6);
 }
 
 TEST(MapLocalisationLaw, ATickDoesNotAllocate) {

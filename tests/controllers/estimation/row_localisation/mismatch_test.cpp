@@ -1,6 +1,6 @@
 // What becomes of the filters between rows when the noise is half or twice what they were told: the
-// table of docs/papers/localisation.md. A filter is told by its settings and by what receivers and maps
-// state of themselves; no vineyard keeps to that.
+// table of docs/papers/localisation.md. A filter is told by its settings and by what receivers and
+// maps state of themselves; no vineyard keeps to that.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -23,8 +23,8 @@ constexpr int kSeeds = 10;
 /// Hands on a standard deviation of the fixes that is not theirs.
 class Misinformed final : public LabFilter {
  public:
-  Misinformed(std::unique_ptr<LabFilter> filter, double told_share)
-      : filter_(std::move(filter)), told_share_(told_share) {}
+  Misinformed(std::unique_ptr<LabFilter> filter, double stated_share)
+      : filter_(std::move(filter)), stated_share_(stated_share) {}
   void start(Time now, const Eigen::Vector3d& p_W, const Eigen::Matrix3d& covariance) override {
     filter_->start(now, p_W, covariance);
   }
@@ -33,7 +33,7 @@ class Misinformed final : public LabFilter {
     filter_->inertial(now, v_W, q_WB, p_W, std_m);
   }
   void fix(Time measured, const Eigen::Vector3d& p_W, const Eigen::Vector3d& std_m) override {
-    filter_->fix(measured, p_W, told_share_ * std_m);
+    filter_->fix(measured, p_W, stated_share_ * std_m);
   }
   void height(Time measured, double z_m, double std_m) override {
     filter_->height(measured, z_m, std_m);
@@ -46,7 +46,7 @@ class Misinformed final : public LabFilter {
 
  private:
   std::unique_ptr<LabFilter> filter_;
-  double told_share_;
+  double stated_share_;
 };
 
 enum class Noise { kFixes, kVelocity, kHeading, kMap, kAll };
@@ -77,9 +77,9 @@ LabScore score_of(const LabFilterMaker& make, Noise noise, double factor, int se
     setup.world.stated_surface_std_m = setup.world.surface_std_m;
     setup.world.surface_std_m *= factor;
   }
-  const double told_share = is(Noise::kFixes) ? 1.0 / factor : 1.0;
+  const double stated_share = is(Noise::kFixes) ? 1.0 / factor : 1.0;
   return study(setup, seeds, [&](const LabContext& context) {
-    return std::make_unique<Misinformed>(make(context), told_share);
+    return std::make_unique<Misinformed>(make(context), stated_share);
   });
 }
 
@@ -130,13 +130,13 @@ void PrintTo(const Named& filter, std::ostream* out) {
 class Mismatch : public ::testing::TestWithParam<Named> {};
 
 TEST_P(Mismatch, HalfAndTwiceTheNoiseLeaveItInItsRow) {
-  const LabScore told = score_of(GetParam().make, Noise::kAll, 1.0);
-  std::printf("%-17s %-8s      %.4f / %.4f m, NEES %.2f, %.3f inside\n", GetParam().name, "as told",
-              told.lateral_m, told.longitudinal_m, told.nees, told.coverage);
+  const LabScore nominal = score_of(GetParam().make, Noise::kAll, 1.0);
+  std::printf("%-17s %-8s      %.4f / %.4f m, NEES %.2f, %.3f inside\n", GetParam().name, "nominal",
+              nominal.lateral_m, nominal.longitudinal_m, nominal.nees, nominal.coverage);
   // Across the rows the walls make a filter all but linear: its variance is then the sum of one
   // share for each source of noise, and each share is found both from half and from twice of it.
   double from_half_m2 = 0.0, from_twice_m2 = 0.0;
-  const double told_m2 = told.lateral_m * told.lateral_m;
+  const double nominal_m2 = nominal.lateral_m * nominal.lateral_m;
   for (const Noise noise :
        {Noise::kFixes, Noise::kVelocity, Noise::kHeading, Noise::kMap, Noise::kAll}) {
     for (const double factor : {0.5, 2.0}) {
@@ -149,14 +149,14 @@ TEST_P(Mismatch, HalfAndTwiceTheNoiseLeaveItInItsRow) {
       const double square_m2 = score.lateral_m * score.lateral_m;
       if (noise != Noise::kAll) {
         (factor < 1.0 ? from_half_m2 : from_twice_m2) +=
-            (square_m2 - told_m2) / (factor * factor - 1.0);
+            (square_m2 - nominal_m2) / (factor * factor - 1.0);
       }
       if (factor < 1.0) {
         // Less noise than told never makes it worse than as told, and it is too careful.
-        EXPECT_LE(score.lateral_m, 1.05 * told.lateral_m);
-        EXPECT_LE(score.longitudinal_m, 1.05 * told.longitudinal_m);
-        EXPECT_LE(score.nees, 1.1 * told.nees);
-        EXPECT_GE(score.nees, 0.2 * told.nees);
+        EXPECT_LE(score.lateral_m, 1.05 * nominal.lateral_m);
+        EXPECT_LE(score.longitudinal_m, 1.05 * nominal.longitudinal_m);
+        EXPECT_LE(score.nees, 1.1 * nominal.nees);
+        EXPECT_GE(score.nees, 0.2 * nominal.nees);
       } else {
         // A linear filter scales with its noise: twice the error, four times the NEES where all
         // noise is twice as large. A gate of 3.5 sigma then refuses 8 % of what is good. If every
@@ -165,21 +165,21 @@ TEST_P(Mismatch, HalfAndTwiceTheNoiseLeaveItInItsRow) {
         // bumps, and a gate of 5 sigma for three coordinates refuses 10 % of the fixes. No theory
         // bounds that: 2.4 and 5.2 are just above the 2.34 and 4.7 that are reached.
         if (GetParam().has_map) {
-          EXPECT_LE(score.lateral_m, 2.0 / std::sqrt(0.92) * told.lateral_m);
+          EXPECT_LE(score.lateral_m, 2.0 / std::sqrt(0.92) * nominal.lateral_m);
         } else {
-          EXPECT_LE(score.lateral_m, 2.4 * told.lateral_m);
+          EXPECT_LE(score.lateral_m, 2.4 * nominal.lateral_m);
         }
-        EXPECT_LE(score.longitudinal_m, 2.4 * told.longitudinal_m);
-        EXPECT_LE(score.nees, 5.2 * told.nees);
-        EXPECT_GE(score.nees, 0.9 * told.nees);
+        EXPECT_LE(score.longitudinal_m, 2.4 * nominal.longitudinal_m);
+        EXPECT_LE(score.nees, 5.2 * nominal.nees);
+        EXPECT_GE(score.nees, 0.9 * nominal.nees);
       }
     }
   }
   if (GetParam().has_map) {
     // If errors across the rows forget within half a second (assumed, not measured), ten flights
     // hold some 1100 independent ones, and products of two shares average to 3 %: four times that.
-    EXPECT_NEAR(from_half_m2, told_m2, 0.12 * told_m2);
-    EXPECT_NEAR(from_twice_m2, told_m2, 0.12 * told_m2);
+    EXPECT_NEAR(from_half_m2, nominal_m2, 0.12 * nominal_m2);
+    EXPECT_NEAR(from_twice_m2, nominal_m2, 0.12 * nominal_m2);
   }
 }
 

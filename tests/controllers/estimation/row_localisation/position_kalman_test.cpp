@@ -62,7 +62,7 @@ TEST(PositionKalman, AgreesWithTheTextbookMatrices) {
       const Eigen::Matrix<double, 6, 3> K = P * H.transpose() * S.inverse();
       const Vector3d innovation = z - H * x;
       EXPECT_EQ(filter.correct_position(innovation, R.diagonal(), age, 0.0),
-                controllers::DatumStatus::kTaken);
+                controllers::DatumStatus::kAccepted);
       EXPECT_NEAR(filter.last_nis(), innovation.dot(S.inverse() * innovation) / 3.0, 1e-9);
       x += K * innovation;
       P = (Eigen::Matrix<double, 6, 6>::Identity() - K * H) * P;
@@ -133,7 +133,7 @@ TEST(PositionKalman, RefusesWhatItCannotUseAndStaysAsItWas) {
   EXPECT_EQ(filter.x(), x);
   EXPECT_EQ(filter.covariance(), P);
   datum.gate_sigma = 5.0;
-  EXPECT_EQ(filter.correct(datum), controllers::DatumStatus::kTaken);
+  EXPECT_EQ(filter.correct(datum), controllers::DatumStatus::kAccepted);
 }
 
 TEST(PositionKalman, StaysPositiveOverExtremeData) {
@@ -174,8 +174,8 @@ TEST(PositionKalman, HuberWeighsAnOutlierLikeOneAtTheBound) {
 
 /// What a sensor reads of a wall, and how an estimate with another position and heading sees it.
 struct Echo {
-  controllers::RangePrediction told;
-  Vector3d p_W, p_told_W;
+  controllers::RangePrediction predicted;
+  Vector3d p_W, p_estimated_W;
   double range_m = 0.0;
 };
 
@@ -198,18 +198,18 @@ std::optional<Echo> draw_echo(RandomStream& random, const controllers::EchoBound
   const double bearing = random.uniform(-3.14159, 3.14159);
   const Vector3d u_B(std::cos(bearing), std::sin(bearing), 0.0);
   const auto q = quaternion_from_rpy(rpy);
-  const auto q_told =
+  const auto q_estimated =
       quaternion_from_rpy({rpy.roll_rad, rpy.pitch_rad, yaw + bounds.yaw_rad * error()});
-  if (N.dot(q * u_B) > -0.1 || N.dot(q_told * u_B) > -0.1) return std::nullopt;
+  if (N.dot(q * u_B) > -0.1 || N.dot(q_estimated * u_B) > -0.1) return std::nullopt;
   const double true_range =
       (D + bounds.map_m * error() - N.dot(echo.p_W + q * lever)) / N.dot(q * u_B);
   if (true_range < 0.02 || true_range > 4.0) return std::nullopt;
   echo.range_m = true_range + bounds.reading_m * error();
-  echo.p_told_W = echo.p_W + Vector3d(random.normal(), random.normal(), random.normal());
-  echo.told.origin_W = echo.p_told_W + q_told * lever;
-  echo.told.dir_W = q_told * u_B;
-  echo.told.hit.normal_W = N;
-  echo.told.hit.plane_m = D;
+  echo.p_estimated_W = echo.p_W + Vector3d(random.normal(), random.normal(), random.normal());
+  echo.predicted.origin_W = echo.p_estimated_W + q_estimated * lever;
+  echo.predicted.dir_W = q_estimated * u_B;
+  echo.predicted.hit.normal_W = N;
+  echo.predicted.hit.plane_m = D;
   return echo;
 }
 
@@ -222,7 +222,7 @@ TEST(EchoSlab, ContainsTheTruthUnderBoundedErrors) {
     if (!echo) continue;
     ++count;
     const controllers::EchoSlab slab =
-        controllers::echo_slab(echo->told, echo->p_told_W, echo->range_m, bounds);
+        controllers::echo_slab(echo->predicted, echo->p_estimated_W, echo->range_m, bounds);
     const double at = slab.normal_W.dot(echo->p_W);
     ASSERT_GE(at, slab.lower_m - 1e-12);
     ASSERT_LE(at, slab.upper_m + 1e-12);
@@ -246,11 +246,11 @@ TEST(EchoSlab, TheOtherSideOfTheWallMissesTheTruth) {
   int count = 0;
   for (int i = 0; i < 10'000; ++i) {
     auto echo = draw_echo(random, bounds);
-    if (!echo || echo->range_m * std::abs(echo->told.slope()) < 0.3) continue;
+    if (!echo || echo->range_m * std::abs(echo->predicted.slope()) < 0.3) continue;
     ++count;
-    echo->told.dir_W = -echo->told.dir_W;
+    echo->predicted.dir_W = -echo->predicted.dir_W;
     const controllers::EchoSlab slab =
-        controllers::echo_slab(echo->told, echo->p_told_W, echo->range_m, bounds);
+        controllers::echo_slab(echo->predicted, echo->p_estimated_W, echo->range_m, bounds);
     const double at = slab.normal_W.dot(echo->p_W);
     ASSERT_TRUE(at < slab.lower_m || at > slab.upper_m);
   }
@@ -265,10 +265,10 @@ TEST(IntegritySet, GrowsByWhatItMayHaveMovedAndIsCutByEchoes) {
   set.start(Vector3d::Zero(), diagonal(0.5, 0.5, 0.5));
   Vector3d p(0.2, -0.3, 0.1);
   for (int i = 0; i < 2000; ++i) {
-    const Vector3d way(0.015, 0.0, 0.0);
+    const Vector3d displacement(0.015, 0.0, 0.0);
     const Vector3d off = Vector3d(random.normal(), random.normal(), random.normal()).normalized();
-    p += way + 0.0015 * off;
-    set.predict(way, 0.0015);
+    p += displacement + 0.0015 * off;
+    set.predict(displacement, 0.0015);
     ASSERT_TRUE(set.contains(p)) << i;
     const Vector3d N = Vector3d(random.normal(), random.normal(), random.normal()).normalized();
     const double error = random.uniform(-0.1, 0.1);

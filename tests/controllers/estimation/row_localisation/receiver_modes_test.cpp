@@ -28,10 +28,10 @@ class Receiver {
   }
   double std_m() const { return std_m_; }
   Eigen::Vector3d error(double step_s, RandomStream& random) {
-    const double kept = std::exp(-step_s / kWalkTime_s);
+    const double decay = std::exp(-step_s / kWalkTime_s);
     Eigen::Vector3d error;
     for (int i = 0; i < 3; ++i) {
-      slow_[i] = kept * slow_[i] + std::sqrt(1.0 - kept * kept) * random.normal();
+      slow_[i] = decay * slow_[i] + std::sqrt(1.0 - decay * decay) * random.normal();
       error[i] =
           std_m_ * (std::sqrt(kShare) * slow_[i] + std::sqrt(1.0 - kShare) * random.normal());
     }
@@ -63,7 +63,7 @@ std::array<Outcome, 3> stand(const controllers::MapLocalisationParams& params, s
   RandomStream random(seed, "rover", "receiver");
   Receiver fixed(0.01, random), floating(0.3, random);
   const controllers::SlowError& drift = params.noise.velocity_mps;
-  const double kept = std::exp(-kTick_s / drift.time_s);
+  const double decay = std::exp(-kTick_s / drift.time_s);
   Eigen::Vector3d velocity_error = Eigen::Vector3d::Zero(), start = Eigen::Vector3d::Zero();
   for (int i = 0; i < 3; ++i) {
     velocity_error[i] = drift.std * random.normal();
@@ -74,7 +74,7 @@ std::array<Outcome, 3> stand(const controllers::MapLocalisationParams& params, s
   for (int tick = 0; tick < 6000; ++tick) {
     for (int i = 0; i < 3; ++i) {
       velocity_error[i] =
-          kept * velocity_error[i] + std::sqrt(1.0 - kept * kept) * drift.std * random.normal();
+          decay * velocity_error[i] + std::sqrt(1.0 - decay * decay) * drift.std * random.normal();
     }
     law.predict(tick_time(tick), velocity_error, Eigen::Quaterniond::Identity());
     if (tick % 20 == 0) {

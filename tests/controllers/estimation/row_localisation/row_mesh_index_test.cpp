@@ -454,10 +454,10 @@ TEST(SpreadPrediction, IsTheLineThatFitsARoughWallBest) {
   EXPECT_NEAR(about.variance_m2, c * c * sigma * sigma * (2.0 * w1 + 8.0 * w2) / all - mean * mean,
               1e-9);
   // On one side of the bend the wall is plane: the fit is its tangent, nothing is left over.
-  const controllers::SpreadPrediction beside = spread_at(2.0, sigma, false);
-  EXPECT_NEAR(beside.slope, c, 1e-9);
-  EXPECT_NEAR(beside.range_m, 1.0 + 2.0 * c, 1e-9);
-  EXPECT_NEAR(beside.variance_m2, 0.0, 1e-9);
+  const controllers::SpreadPrediction one_side = spread_at(2.0, sigma, false);
+  EXPECT_NEAR(one_side.slope, c, 1e-9);
+  EXPECT_NEAR(one_side.range_m, 1.0 + 2.0 * c, 1e-9);
+  EXPECT_NEAR(one_side.variance_m2, 0.0, 1e-9);
   // A place that is known takes the tangent.
   EXPECT_NEAR(spread_at(0.01, 0.0, false).slope, c, 1e-9);
   // One that stands near the bend believes the smaller slope, and that it may be wrong about it.

@@ -31,7 +31,7 @@ struct Bench {
     reference.write(Time{}, wanted);
     ports->take_over();
   }
-  double told(const std::string& name) const {
+  double value_of(const std::string& name) const {
     const NamedValues& values = deviation.value();
     for (std::size_t i = 0; i < values.names.size(); ++i) {
       if (values.names[i] == name) return values.values[i];
@@ -84,9 +84,9 @@ TEST(AircraftPorts, DeviationIsThatOfAviationInTheWind) {
   }
   EXPECT_EQ(bench.ports->trim().roll_rad, trim.roll_rad);
   bench.ports->write(Time{}, {0.1, 0.05, -0.04});
-  EXPECT_NEAR(bench.told("h_m"), -3.0, 1e-12);
-  EXPECT_NEAR(bench.told("psi_rad"), 0.15, 1e-12);
-  EXPECT_NEAR(bench.told("aileron_rad"), -0.04, 1e-12);
+  EXPECT_NEAR(bench.value_of("h_m"), -3.0, 1e-12);
+  EXPECT_NEAR(bench.value_of("psi_rad"), 0.15, 1e-12);
+  EXPECT_NEAR(bench.value_of("aileron_rad"), -0.04, 1e-12);
   EXPECT_NEAR(bench.follower.value().heading_error_rad, -0.15, 1e-12);
 }
 
@@ -125,20 +125,20 @@ TEST(AircraftPorts, WritesTrimPlusDeviationWithinTheActuatorsRanges) {
   EXPECT_NEAR(left.throttle, 0.1, 1e-15);
   EXPECT_NEAR(left.elevator_rad, 0.05, 1e-15);
   EXPECT_NEAR(left.aileron_rad, 0.02, 1e-15);
-  EXPECT_NEAR(bench.told("limit_share"), 0.4, 1e-12);  // throttle, of 0.25
+  EXPECT_NEAR(bench.value_of("limit_share"), 0.4, 1e-12);  // throttle, of 0.25
   left = bench.ports->write(Time{}, {0.9, 0.0, 0.0});
   EXPECT_EQ(values[0], 1.0);
   EXPECT_NEAR(left.throttle, 1.0 - trim.controls.throttle, 1e-15);
-  EXPECT_EQ(bench.told("outside_lon_inputs"), 1.0);
-  EXPECT_EQ(bench.told("outside_lat_inputs"), 0.0);
-  EXPECT_EQ(bench.told("outside_lon_states"), 0.0);
+  EXPECT_EQ(bench.value_of("outside_lon_inputs"), 1.0);
+  EXPECT_EQ(bench.value_of("outside_lat_inputs"), 0.0);
+  EXPECT_EQ(bench.value_of("outside_lon_states"), 0.0);
   wanted.power = false;
   bench.tell(moved_from_trim(trim, {}, Eigen::Vector3d::Zero(), 0.0, 90.0), wanted);
   left = bench.ports->write(Time{}, {0.1, 0.0, 0.3});
   EXPECT_EQ(values[0], 0.0);
   EXPECT_EQ(left.throttle, 0.0);
-  EXPECT_EQ(bench.told("outside_lon_inputs"), 0.0);
-  EXPECT_EQ(bench.told("outside_lat_inputs"), 1.0);
+  EXPECT_EQ(bench.value_of("outside_lon_inputs"), 0.0);
+  EXPECT_EQ(bench.value_of("outside_lat_inputs"), 1.0);
 }
 
 TEST(AircraftPorts, JudgesEachStateByItsLimit) {
@@ -153,9 +153,9 @@ TEST(AircraftPorts, JudgesEachStateByItsLimit) {
           -share * (i < 5 ? bench.limits.lon(i) : bench.limits.lat(i - 5));
       bench.tell(moved_from_trim(trim, x, Eigen::Vector3d::Zero(), 0.0, 90.0), wanted);
       bench.ports->write(Time{}, {});
-      EXPECT_NEAR(bench.told("limit_share"), share, 1e-9) << i;
-      EXPECT_EQ(bench.told(lon[i < 5 ? 0 : 1]), share > 1.0 ? 1.0 : 0.0) << i;
-      EXPECT_EQ(bench.told(lon[i < 5 ? 1 : 0]), 0.0) << i;
+      EXPECT_NEAR(bench.value_of("limit_share"), share, 1e-9) << i;
+      EXPECT_EQ(bench.value_of(lon[i < 5 ? 0 : 1]), share > 1.0 ? 1.0 : 0.0) << i;
+      EXPECT_EQ(bench.value_of(lon[i < 5 ? 1 : 0]), 0.0) << i;
     }
   }
 }

@@ -33,11 +33,11 @@ TEST(Aircraft, FindsItsActuatorsInAnyOrder) {
 TEST(Aircraft, AnElevonAtItsStopTakesFromElevatorAndAileron) {
   const controllers::Aircraft aircraft =
       controllers::read_aircraft(describe(make_mh900_like()), 9.81, "plane.controller");
-  const double most = aircraft.elevon_max_rad();
+  const double max_rad = aircraft.elevon_max_rad();
   const controllers::AircraftControls left = aircraft.limit({1.2, 0.4, 0.1});
   EXPECT_EQ(left.throttle, 1.0);
-  EXPECT_NEAR(left.elevator_rad, 0.5 * (most + 0.3), 1e-15);
-  EXPECT_NEAR(left.aileron_rad, 0.5 * (most - 0.3), 1e-15);
+  EXPECT_NEAR(left.elevator_rad, 0.5 * (max_rad + 0.3), 1e-15);
+  EXPECT_NEAR(left.aileron_rad, 0.5 * (max_rad - 0.3), 1e-15);
   const controllers::AircraftControls free = aircraft.limit({0.5, -0.1, 0.2});
   EXPECT_NEAR(free.elevator_rad, -0.1, 1e-15);
   EXPECT_NEAR(free.aileron_rad, 0.2, 1e-15);

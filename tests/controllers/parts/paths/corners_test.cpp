@@ -142,20 +142,20 @@ TEST(PathCorners, FindsJumpsOfDirectionAndNoArcs) {
 TEST(CornerRounding, TouchesBothLegsAndKeepsTheRadius) {
   for (const double angle_deg : {10.0, 45.0, 90.0, 119.0, -60.0, 150.0, 180.0}) {
     const double turn_rad = rad_from_deg(angle_deg);
-    const controllers::RoundedPath way =
+    const controllers::RoundedPath rounded =
         controllers::round_corners(make_corner(turn_rad), {1.0, 0.5}, 2.0, PathKind::kLeg);
     double length_m = 0.0;
-    for (std::size_t i = 0; i < way.pieces.size(); ++i) {
-      EXPECT_LE(std::abs(way.pieces[i].curvature_per_m), 0.5 + 1e-12);
-      length_m += way.pieces[i].length_m;
+    for (std::size_t i = 0; i < rounded.pieces.size(); ++i) {
+      EXPECT_LE(std::abs(rounded.pieces[i].curvature_per_m), 0.5 + 1e-12);
+      length_m += rounded.pieces[i].length_m;
       if (i == 0) continue;
-      const controllers::Pose2 end = way.pieces[i - 1].end(), next = way.pieces[i].start;
+      const controllers::Pose2 end = rounded.pieces[i - 1].end(), next = rounded.pieces[i].start;
       EXPECT_LT((end.p - next.p).norm(), 1e-9) << angle_deg;
       EXPECT_LT(std::abs(wrap_angle(end.yaw_rad - next.yaw_rad)), 1e-9) << angle_deg;
     }
-    EXPECT_EQ(way.arcs, std::abs(angle_deg) <= 120.0 ? 1 : 0);
-    EXPECT_EQ(way.loops, std::abs(angle_deg) <= 120.0 ? 0 : 1);
-    if (way.arcs == 1) {
+    EXPECT_EQ(rounded.arcs, std::abs(angle_deg) <= 120.0 ? 1 : 0);
+    EXPECT_EQ(rounded.loops, std::abs(angle_deg) <= 120.0 ? 0 : 1);
+    if (rounded.arcs == 1) {
       const double half_rad = 0.5 * std::abs(turn_rad);
       EXPECT_NEAR(length_m, 40.0 - 4.0 * std::tan(half_rad) + 4.0 * half_rad, 1e-9);
     }
@@ -168,8 +168,8 @@ TEST(CornerRounding, TouchesBothLegsAndKeepsTheRadius) {
       controllers::round_corners(make_corner(1.5, 0.5), {1.0, 1.0}, 2.0, PathKind::kLeg).loops, 1);
 }
 
-controllers::PathWatch::Cycle at(double x_m, double y_m, double distance_m, double way_m) {
-  return {{x_m, y_m}, {x_m, 0.0}, distance_m, 100.0, way_m};
+controllers::PathWatch::Cycle at(double x_m, double y_m, double distance_m, double travel_m) {
+  return {{x_m, y_m}, {x_m, 0.0}, distance_m, 100.0, travel_m};
 }
 
 TEST(PathWatch, TellsWhoGoesAwayAndWhoDoesNotGetOn) {

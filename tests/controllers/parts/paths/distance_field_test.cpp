@@ -26,13 +26,13 @@ Vec centre(const OccupancyGrid& grid, int i, int j) {
 
 /// Between the centres of a cell and the nearest taken one; infinite without any.
 double brute_force_m(const OccupancyGrid& grid, int i, int j) {
-  double least = std::numeric_limits<double>::infinity();
+  double nearest = std::numeric_limits<double>::infinity();
   for (int b = 0; b < grid.rows; ++b) {
     for (int a = 0; a < grid.columns; ++a) {
-      if (grid.occupied(a, b)) least = std::min(least, grid.cell_m * std::hypot(a - i, b - j));
+      if (grid.occupied(a, b)) nearest = std::min(nearest, grid.cell_m * std::hypot(a - i, b - j));
     }
   }
-  return least;
+  return nearest;
 }
 
 TEST(DistanceField, EqualsBruteForceOnRandomGrids) {

@@ -59,7 +59,7 @@ TEST(Footprint, ClearanceIsExactToACell) {
 
 TEST(Footprint, NeverCallsAnOverlapFreeNorAWidePoseTaken) {
   for (const double margin_m : {0.0, 0.05, 0.2}) {
-    int free = 0, taken = 0;
+    int free = 0, blocked = 0;
     for (int seed = 1; seed <= 10; ++seed) {
       const OccupancyGrid grid = make_grid(100 + seed);
       const controllers::DistanceField field(grid);
@@ -74,11 +74,11 @@ TEST(Footprint, NeverCallsAnOverlapFreeNorAWidePoseTaken) {
         } else {
           ASSERT_LT(exact_m, margin_m + kCell_m + 0.5 * kCell_m) << seed << " " << n;
         }
-        (is_free ? free : taken)++;
+        (is_free ? free : blocked)++;
       }
     }
     EXPECT_GT(free, 200) << margin_m;
-    EXPECT_GT(taken, 200) << margin_m;
+    EXPECT_GT(blocked, 200) << margin_m;
   }
 }
 

@@ -32,15 +32,16 @@ TEST(LayDown, ComesDownLikeADampedOscillatorsStep) {
   const double omega = std::sqrt(30.0), zeta = 4.5 / (2.0 * omega);
   const double damped = omega * std::sqrt(1.0 - zeta * zeta);
   for (const double angle_travelled_rad : {0.0, 0.7, 2.5, -1.2}) {
-    const Eigen::Vector3d way_B(std::cos(angle_travelled_rad), std::sin(angle_travelled_rad), 0.0);
-    Body body(3.0 * way_B);
+    const Eigen::Vector3d direction_B(std::cos(angle_travelled_rad), std::sin(angle_travelled_rad),
+                                      0.0);
+    Body body(3.0 * direction_B);
     for (double t = kDt_s; t < 0.8; t += kDt_s) {
       body.advance();
       const double decay = std::exp(-zeta * omega * t);
       const double swing = std::cos(damped * t) + zeta * omega / damped * std::sin(damped * t);
       const double rate = kLay_radps * (1.0 - decay * swing);
-      ASSERT_NEAR(body.rates_B.dot(way_B), rate, 0.002) << t;
-      ASSERT_LT((body.rates_B - body.rates_B.dot(way_B) * way_B).norm(), 1e-9);
+      ASSERT_NEAR(body.rates_B.dot(direction_B), rate, 0.002) << t;
+      ASSERT_LT((body.rates_B - body.rates_B.dot(direction_B) * direction_B).norm(), 1e-9);
     }
   }
 }

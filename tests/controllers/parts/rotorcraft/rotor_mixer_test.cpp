@@ -88,11 +88,11 @@ TEST(RotorMixer, KeepsTheDirectionOfRollAndPitchWhateverIsAskedFor) {
         ASSERT_GE(speed, numbers.min_radps);
         ASSERT_LE(speed, numbers.max_radps);
       }
-      const Eigen::Vector2d asked = wanted.torque_B.head<2>(), got = made.torque_B.head<2>();
-      const double cross = asked.x() * got.y() - asked.y() * got.x();
-      ASSERT_NEAR(cross, 0.0, 1e-10 * asked.norm());
-      ASSERT_GT(asked.dot(got), 0.0);
-      ASSERT_LE(got.norm(), asked.norm() * (1.0 + 1e-12));
+      const Eigen::Vector2d requested = wanted.torque_B.head<2>(), got = made.torque_B.head<2>();
+      const double cross = requested.x() * got.y() - requested.y() * got.x();
+      ASSERT_NEAR(cross, 0.0, 1e-10 * requested.norm());
+      ASSERT_GT(requested.dot(got), 0.0);
+      ASSERT_LE(got.norm(), requested.norm() * (1.0 + 1e-12));
       // Yaw between nothing and what was asked for.
       const double yaw = made.torque_B.z() * (wanted.torque_B.z() > 0.0 ? 1.0 : -1.0);
       ASSERT_GE(yaw, -1e-12);

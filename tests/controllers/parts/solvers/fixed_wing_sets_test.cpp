@@ -91,7 +91,7 @@ TEST(FixedWingSets, BoxAroundTheGustsIsSeveralTimesAsLarge) {
     Wing wing;
     double gust, tight_gust;
   };
-  double least_growth = 1e9, most_growth = 0.0;
+  double min_growth = 1e9, max_growth = 0.0;
   for (const Case& expected :
        {Case{longitudinal_wing(), .55, .27}, Case{lateral_wing(), .52, .22}}) {
     const Wing& wing = expected.wing;
@@ -107,11 +107,11 @@ TEST(FixedWingSets, BoxAroundTheGustsIsSeveralTimesAsLarge) {
     Eigen::MatrixXd rows(5 + wing.K.rows(), 5);
     rows << Eigen::MatrixXd::Identity(5, 5), wing.K;
     const Eigen::VectorXd growth = supports(*S, rows).cwiseQuotient(supports(*exact, rows));
-    least_growth = std::min(least_growth, growth.minCoeff());
-    most_growth = std::max(most_growth, growth.maxCoeff());
+    min_growth = std::min(min_growth, growth.minCoeff());
+    max_growth = std::max(max_growth, growth.maxCoeff());
   }
-  EXPECT_NEAR(least_growth, 1.4, 0.05);
-  EXPECT_NEAR(most_growth, 8.4, 0.1);
+  EXPECT_NEAR(min_growth, 1.4, 0.05);
+  EXPECT_NEAR(max_growth, 8.4, 0.1);
 }
 
 TEST(FixedWingSets, TerminalSetsNeedThePrototypesNumberOfSteps) {

@@ -152,9 +152,10 @@ TEST(RobustInvariantSet, IsWhatNoSequenceOfGustsLeadsOutOf) {
     EXPECT_TRUE(nominal->set.contains(result->set));
     for (int i = 0; i < 200; ++i) {
       // Somewhere about the edge, where it matters.
-      const Eigen::Vector2d way = normal_matrix(random, 2, 1);
-      const double to_edge = (result->set.F() * way).cwiseQuotient(result->set.g()).maxCoeff();
-      const Eigen::Vector2d x = way / to_edge * random.uniform(0.7, 1.2);
+      const Eigen::Vector2d direction = normal_matrix(random, 2, 1);
+      const double to_edge =
+          (result->set.F() * direction).cwiseQuotient(result->set.g()).maxCoeff();
+      const Eigen::Vector2d x = direction / to_edge * random.uniform(0.7, 1.2);
       const bool kept = survives(A, X, e, x, 12);
       by_gusts_alone += !kept && nominal->set.contains(x);
       EXPECT_EQ(result->set.contains(x), kept) << "system " << run << ", point " << i;

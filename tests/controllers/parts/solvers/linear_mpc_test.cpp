@@ -96,7 +96,7 @@ TEST(LinearMpc, PreviewActsBeforeTheStep) {
 }
 
 /// From rest at -distance to rest at 0 in ten steps of 1 s with the least sum of u^2, |u| <= 1.
-controllers::LinearMpcProblem least_effort() {
+controllers::LinearMpcProblem min_effort() {
   controllers::LinearMpcProblem problem = double_integrator(1.0, 10);
   problem.input_lower.setConstant(1, -1.0);
   problem.input_upper.setConstant(1, 1.0);
@@ -108,8 +108,8 @@ TEST(LinearMpc, LeastEffortBetweenTwoRestsIsAClippedLine) {
   // The optimum is odd about the middle: u_k = clip(slope (4.5 - k)), and the distance is the sum
   // of u_k (4.5 - k). Clipped twice on either side, the slope follows from
   // distance = 2 (4.5 + 3.5 + slope (2.5^2 + 1.5^2 + 0.5^2)).
-  controllers::LinearMpc mpc(least_effort(), "test");
-  MpcCall call(least_effort());
+  controllers::LinearMpc mpc(min_effort(), "test");
+  MpcCall call(min_effort());
   for (const double slope : {0.3, 0.35, 0.39}) {
     call.x << -2.0 * (8.0 + slope * 8.75), 0.0;
     if (slope * 3.5 < 1.0) call.x[0] = -2.0 * (4.5 + slope * (3.5 * 3.5 + 8.75));
@@ -125,8 +125,8 @@ TEST(LinearMpc, LeastEffortBetweenTwoRestsIsAClippedLine) {
 TEST(LinearMpc, AtTheEdgeOfWhatCanBeReachedItIsBangBang) {
   // Full force for five steps and full brake for five cover 25 m: the time-optimal motion. A
   // centimetre less leaves a hundredth of the two middle inputs, a centimetre more is out of reach.
-  controllers::LinearMpc mpc(least_effort(), "test");
-  MpcCall call(least_effort());
+  controllers::LinearMpc mpc(min_effort(), "test");
+  MpcCall call(min_effort());
   call.x << -24.99, 0.0;
   ASSERT_EQ(call.solve(mpc), controllers::QpStatus::kSolved);
   for (int k = 0; k < 10; ++k) {

@@ -15,7 +15,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 void expect_all_optimal(const char* name, int count, const QpRandomKind& kind) {
   double worst_violation = 0.0;
-  int most_iterations = 0;
+  int max_iterations = 0;
   for (int run = 0; run < count; ++run) {
     RandomStream random(static_cast<std::uint64_t>(run), "", name);
     const QpProblem problem = random_feasible_qp(random, kind);
@@ -25,10 +25,10 @@ void expect_all_optimal(const char* name, int count, const QpRandomKind& kind) {
     const QpResiduals residuals = qp_residuals(problem, solver);
     ASSERT_LT(residuals.largest(), 1e-8) << name << ' ' << run;
     worst_violation = std::max(worst_violation, residuals.primal);
-    most_iterations = std::max(most_iterations, solver.iterations());
+    max_iterations = std::max(max_iterations, solver.iterations());
   }
   EXPECT_LT(worst_violation, 1.1e-9) << "QpSettings::tolerance and a little rounding";
-  EXPECT_LT(most_iterations, 500);
+  EXPECT_LT(max_iterations, 500);
 }
 
 TEST(QpRandom, DegenerateProblems) {
@@ -37,14 +37,14 @@ TEST(QpRandom, DegenerateProblems) {
 
 TEST(QpRandom, SmallProblemsWithManyRows) {
   QpRandomKind kind;
-  kind.most_variables = 4;
+  kind.max_variables = 4;
   kind.max_rows = 20;
   expect_all_optimal("small", 3000, kind);
 }
 
 TEST(QpRandom, LargeProblems) {
   QpRandomKind kind;
-  kind.most_variables = 80;
+  kind.max_variables = 80;
   kind.max_rows = 240;
   expect_all_optimal("large", 40, kind);
 }

@@ -88,7 +88,7 @@ Eigen::MatrixXd random_hessian(RandomStream& random, int n, double log10_conditi
 }
 
 QpProblem random_feasible_qp(RandomStream& random, const QpRandomKind& kind) {
-  const int n = uniform_int(random, 2, kind.most_variables);
+  const int n = uniform_int(random, 2, kind.max_variables);
   const int m = uniform_int(random, 0, kind.max_rows);
   QpProblem problem(n, m);
   problem.H = random_hessian(random, n, kind.log10_condition);

@@ -31,7 +31,7 @@ struct QpResiduals {
 QpResiduals qp_residuals(const QpProblem& problem, const controllers::QpSolver& solver);
 
 struct QpRandomKind {
-  int most_variables = 30, max_rows = 60;
+  int max_variables = 30, max_rows = 60;
   double log10_condition = 2.0;  ///< of H
   double log10_length = 0.0;     ///< rows of length 10^-this .. 10^this
   bool degenerate = true;        ///< duplicated and dependent rows, several limits met in one point

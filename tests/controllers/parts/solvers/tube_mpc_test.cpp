@@ -161,14 +161,14 @@ TEST(TubeMpc, InputsKeepTheirLimitsWhereverTheStateIs) {
       controllers::TubeMpc mpc = make_mpc(wing, law);
       RandomStream random(4, "", "state");
       int outside = 0;
-      double most = 0.0;
+      double max_share = 0.0;
       for (int i = 0; i < 40; ++i) {
         ASSERT_EQ(mpc.solve(random_state(wing, random, random.uniform(0.0, 4.0))),
                   controllers::QpStatus::kSolved);
-        most = std::max(most, share(mpc.u(), wing.input_limit));
+        max_share = std::max(max_share, share(mpc.u(), wing.input_limit));
         outside += mpc.soft_violation() > kNone;
       }
-      EXPECT_LE(most, 1.0 + 1e-7);
+      EXPECT_LE(max_share, 1.0 + 1e-7);
       EXPECT_GT(outside, 15);
     }
   }
@@ -200,8 +200,8 @@ TEST(TubeMpc, AdversaryViolatesNothing) {
   // At every step the gust that pushes one row most, seen over the steps that the loop remembers.
   for (const Wing& wing : {longitudinal_wing(), lateral_wing()}) {
     controllers::TubeMpc mpc = make_mpc(wing);
-    const Result<controllers::GustMargin> room = controllers::calc_gust_margin(wing);
-    ASSERT_TRUE(room);
+    const Result<controllers::GustMargin> gust_margin = controllers::calc_gust_margin(wing);
+    ASSERT_TRUE(gust_margin);
     Eigen::MatrixXd rows(5 + wing.K.rows(), 5);
     rows << Eigen::MatrixXd::Identity(5, 5), wing.K;
     for (int i = 0; i < rows.rows(); ++i) {
@@ -223,7 +223,7 @@ TEST(TubeMpc, AdversaryViolatesNothing) {
         EXPECT_EQ(flight.steps_outside_inputs, 0);
         EXPECT_LT(flight.largest_violation, 2.0 * kNone);
         // It is the worst case: at its end the error fills its tube.
-        const double reach = i < 5 ? room->reach.state[i] : room->reach.input[i - 5];
+        const double reach = i < 5 ? gust_margin->reach.state[i] : gust_margin->reach.input[i - 5];
         EXPECT_GT(ahead.dot(flight.end), 0.95 * reach);
       }
     }
@@ -232,9 +232,9 @@ TEST(TubeMpc, AdversaryViolatesNothing) {
 
 TEST(TubeMpc, StrongestFeasibleGustViolatesNothing) {
   for (Wing wing : {longitudinal_wing(), lateral_wing()}) {
-    const Result<controllers::GustMargin> room = controllers::calc_gust_margin(wing);
-    ASSERT_TRUE(room);
-    wing = wing.in_gusts(0.99 * room->factor);
+    const Result<controllers::GustMargin> gust_margin = controllers::calc_gust_margin(wing);
+    ASSERT_TRUE(gust_margin);
+    wing = wing.in_gusts(0.99 * gust_margin->factor);
     controllers::TubeMpc mpc = make_mpc(wing);
     RandomStream random(5, "", "gust");
     const Flight flight = fly(wing, mpc, VectorXd::Zero(5), 2000,

@@ -50,28 +50,29 @@ TEST(TubeSets, HalfWidthsAndLargestGustsAreThePrototypes) {
   lat << 1.997, 2.117, .592, .2915, .1203, .1172;
   for (const Case& expected : {Case{longitudinal_wing(), lon, 2.09, "speed along z"},
                                Case{lateral_wing(), lat, 1.79, "aileron"}}) {
-    const Result<controllers::GustMargin> room = controllers::calc_gust_margin(expected.wing);
-    ASSERT_TRUE(room) << room.reason();
-    const VectorXd reach = joined(room->reach.state, room->reach.input);
+    const Result<controllers::GustMargin> gust_margin =
+        controllers::calc_gust_margin(expected.wing);
+    ASSERT_TRUE(gust_margin) << gust_margin.reason();
+    const VectorXd reach = joined(gust_margin->reach.state, gust_margin->reach.input);
     for (int i = 0; i < reach.size(); ++i) {
       EXPECT_NEAR(reach[i], expected.reach[i], 0.01 * expected.reach[i]);
     }
-    EXPECT_NEAR(room->factor, expected.gust, 0.01);
-    EXPECT_EQ(room->binding, expected.binding);
+    EXPECT_NEAR(gust_margin->factor, expected.gust, 0.01);
+    EXPECT_EQ(gust_margin->binding, expected.binding);
     // What is reached grows with the gust, so the factor is what is left of it.
     const Result<controllers::GustMargin> strong =
         controllers::calc_gust_margin(expected.wing.in_gusts(1.5));
     ASSERT_TRUE(strong);
-    EXPECT_NEAR(strong->factor, room->factor / 1.5, 1e-9);
-    EXPECT_NEAR(strong->reach.state[2], 1.5 * room->reach.state[2], 1e-9);
+    EXPECT_NEAR(strong->factor, gust_margin->factor / 1.5, 1e-9);
+    EXPECT_NEAR(strong->reach.state[2], 1.5 * gust_margin->reach.state[2], 1e-9);
   }
 }
 
 TEST(TubeSets, WorstGustsReachTheHalfWidthsToTheLastMillionth) {
   for (const Wing& wing : {longitudinal_wing(), lateral_wing()}) {
-    const Result<controllers::GustMargin> room = controllers::calc_gust_margin(wing);
-    ASSERT_TRUE(room);
-    const VectorXd reach = joined(room->reach.state, room->reach.input);
+    const Result<controllers::GustMargin> gust_margin = controllers::calc_gust_margin(wing);
+    ASSERT_TRUE(gust_margin);
+    const VectorXd reach = joined(gust_margin->reach.state, gust_margin->reach.input);
     const MatrixXd rows = with_feedback_rows(wing), A = wing.closed();
     for (int i = 0; i < rows.rows(); ++i) {
       // Gusts of +-1 m/s with the signs that push this row most, 1200 steps long.
@@ -96,14 +97,14 @@ TEST(TubeSets, GustsOfChanceStayInTheTube) {
       const Result<controllers::TubeSets> sets = controllers::make_tube_sets(wing, shape);
       ASSERT_TRUE(sets) << sets.reason();
       VectorXd e = VectorXd::Zero(5), gust(wing.E.cols());
-      double most = 0.0;
+      double max_ratio = 0.0;
       for (int k = 0; k < 10'000; ++k) {
         for (double& d : gust) d = random.uniform() < 0.5 ? -1.0 : 1.0;
         e = sets->A_K * e + wing.E * gust;
-        most = std::max(most, (sets->tube_rows * e).cwiseAbs().maxCoeff());
+        max_ratio = std::max(max_ratio, (sets->tube_rows * e).cwiseAbs().maxCoeff());
       }
-      EXPECT_LE(most, 1.0);
-      EXPECT_GT(most, 0.5);  // and they do come far
+      EXPECT_LE(max_ratio, 1.0);
+      EXPECT_GT(max_ratio, 0.5);  // and they do come far
     }
   }
 }
@@ -121,7 +122,7 @@ TEST(TubeSets, InvariantTubeHoldsTheSmallestOneAndIsLittleLarger) {
       EXPECT_LE((*S)(sets->tube_rows.row(i)), 1.0 + 1e-9);
     }
     EXPECT_DOUBLE_EQ(sets->margin, 0.01);
-    const VectorXd reach = joined(sets->room.reach.state, sets->room.reach.input);
+    const VectorXd reach = joined(sets->gust_margin.reach.state, sets->gust_margin.reach.input);
     const VectorXd tightened = joined(sets->state_limit, sets->input_limit);
     const VectorXd limit = joined(wing.state_limit, wing.input_limit);
     const MatrixXd rows = with_feedback_rows(wing);
@@ -179,19 +180,20 @@ TEST(TubeSets, TerminalSetKeepsTheTightenedLimitsForEver) {
 
 TEST(TubeSets, GustsUpToTheLargestAreFeasibleAndBeyondRefused) {
   for (const Wing& wing : {longitudinal_wing(), lateral_wing()}) {
-    const Result<controllers::GustMargin> room = controllers::calc_gust_margin(wing);
-    ASSERT_TRUE(room);
+    const Result<controllers::GustMargin> gust_margin = controllers::calc_gust_margin(wing);
+    ASSERT_TRUE(gust_margin);
     for (const double share : {0.998, 0.9999}) {
       const Result<controllers::TubeSets> close =
-          controllers::make_tube_sets(wing.in_gusts(share * room->factor));
+          controllers::make_tube_sets(wing.in_gusts(share * gust_margin->factor));
       ASSERT_TRUE(close) << close.reason();
       EXPECT_LT(close->margin, 1.0 / share - 1.0);
       EXPECT_GT(joined(close->state_limit, close->input_limit).minCoeff(), 0.0);
-      EXPECT_LE(invariance_excess(close->A_K, between(close->tube_rows),
-                                  controllers::Zonotope(MatrixXd(share * room->factor * wing.E))),
-                1e-8);
+      EXPECT_LE(
+          invariance_excess(close->A_K, between(close->tube_rows),
+                            controllers::Zonotope(MatrixXd(share * gust_margin->factor * wing.E))),
+          1e-8);
     }
-    EXPECT_FALSE(controllers::make_tube_sets(wing.in_gusts(1.0001 * room->factor)));
+    EXPECT_FALSE(controllers::make_tube_sets(wing.in_gusts(1.0001 * gust_margin->factor)));
   }
   EXPECT_EQ(controllers::make_tube_sets(lateral_wing().with_tight_limits()).reason(),
             "the tube is empty: gusts alone take 1.34 times the limit of aileron; at most 0.745 of "
@@ -205,7 +207,7 @@ TEST(TubeSets, WithoutGustsThereIsNoTubeAndNoTightening) {
   EXPECT_EQ(sets->tube_rows.rows(), 0);
   EXPECT_EQ(sets->state_limit, wing.state_limit);
   EXPECT_EQ(sets->input_limit, wing.input_limit);
-  EXPECT_TRUE(std::isinf(sets->room.factor));
+  EXPECT_TRUE(std::isinf(sets->gust_margin.factor));
 }
 
 TEST(TubeSets, GustsThatMissAStateLeaveAThinTube) {
@@ -221,8 +223,8 @@ TEST(TubeSets, GustsThatMissAStateLeaveAThinTube) {
   const Result<controllers::TubeSets> sets = controllers::make_tube_sets(model);
   ASSERT_TRUE(sets) << sets.reason();
   // 1 + 1/2 + 1/4 + ... = 2, of which the feedback takes half.
-  EXPECT_NEAR(sets->room.reach.state[0], 2.0, 1e-11);
-  EXPECT_NEAR(sets->room.reach.input[0], 1.0, 1e-11);
+  EXPECT_NEAR(sets->gust_margin.reach.state[0], 2.0, 1e-11);
+  EXPECT_NEAR(sets->gust_margin.reach.input[0], 1.0, 1e-11);
   EXPECT_NEAR(sets->state_limit[0], 10.0 - 2.02, 1e-9);
   EXPECT_NEAR(sets->state_limit[1], 10.0, 1e-4);
 }

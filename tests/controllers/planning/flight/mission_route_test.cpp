@@ -115,8 +115,8 @@ TEST(MissionRoute, FliesTheSampleOfQGroundControl) {
   EXPECT_NEAR(end[n - 4].p_W.x(), 75.85, 0.1);
   for (std::size_t i = n - 5; i < n; ++i) EXPECT_NEAR(end[i].p_W.z(), 50.0, 1e-6);
   for (std::size_t i = 1; i < n; ++i) {
-    const Eigen::Vector3d way = end[i].p_W - end[i - 1].p_W;
-    EXPECT_LE(way.z(), 0.12 * way.head<2>().norm() + 1e-6);
+    const Eigen::Vector3d displacement = end[i].p_W - end[i - 1].p_W;
+    EXPECT_LE(displacement.z(), 0.12 * displacement.head<2>().norm() + 1e-6);
     EXPECT_EQ(end[i].speed_mps, 15.0);  // the plan's cruise speed
   }
 }

@@ -25,18 +25,18 @@ constexpr double kRadius_m = 1.767;
 /// The shortest Dubins path whatever is in the way; keeps what it was asked.
 class DubinsSearch final : public controllers::PoseSearch {
  public:
-  struct Asked {
+  struct Query {
     controllers::Pose2 from, to;
     int problem;
   };
-  explicit DubinsSearch(std::vector<Asked>* asked, bool fails = false)
-      : asked_(asked), fails_(fails) {}
+  explicit DubinsSearch(std::vector<Query>* queries, bool fails = false)
+      : queries_(queries), fails_(fails) {}
 
   Result<std::vector<controllers::PathSegment>> find(const controllers::Pose2& from,
                                                      const controllers::Pose2& to,
                                                      const controllers::Footprint&, int problem,
                                                      controllers::SearchReport& report) override {
-    if (asked_ != nullptr) asked_->push_back({from, to, problem});
+    if (queries_ != nullptr) queries_->push_back({from, to, problem});
     report.nodes = 7;
     report.iterations = 11;
     report.tree_W = {from.p, to.p};
@@ -48,7 +48,7 @@ class DubinsSearch final : public controllers::PoseSearch {
   }
 
  private:
-  std::vector<Asked>* asked_;
+  std::vector<Query>* queries_;
   bool fails_;
 };
 
@@ -64,7 +64,7 @@ struct Bench {
     context.map = &map;
     context.vehicle_description = &vehicle;
     context.scene = scene;
-    return controllers::make_route_planner(params, std::make_unique<DubinsSearch>(&asked, fails),
+    return controllers::make_route_planner(params, std::make_unique<DubinsSearch>(&queries, fails),
                                            context);
   }
   Result<PlannedPath> plan(double x, double y, double yaw_rad, bool fails = false) {
@@ -80,7 +80,7 @@ struct Bench {
   VehicleDescription vehicle = make_four_wheel_description(kRadius_m);
   controllers::RoutePlannerParams params;
   const SceneQuery* scene = nullptr;
-  std::vector<DubinsSearch::Asked> asked;
+  std::vector<DubinsSearch::Query> queries;
   std::unique_ptr<Planner> planner;
 };
 
@@ -112,11 +112,11 @@ TEST(RoutePlanner, DrivesLegsAndTurns) {
       {PathKind::kLeg, 1},      {PathKind::kTurn, -1}, {PathKind::kLeg, 2}};
   EXPECT_EQ(stretches, expected);
 
-  ASSERT_EQ(bench.asked.size(), 2u);
-  EXPECT_EQ(bench.asked[0].problem, 1);
-  EXPECT_EQ(bench.asked[1].problem, 2);
-  EXPECT_NEAR((bench.asked[0].from.p - Vec(1.25, 20.0)).norm(), 0.0, 1e-12);
-  EXPECT_NEAR((bench.asked[1].to.p - Vec(6.25, 0.0)).norm(), 0.0, 1e-12);
+  ASSERT_EQ(bench.queries.size(), 2u);
+  EXPECT_EQ(bench.queries[0].problem, 1);
+  EXPECT_EQ(bench.queries[1].problem, 2);
+  EXPECT_NEAR((bench.queries[0].from.p - Vec(1.25, 20.0)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((bench.queries[1].to.p - Vec(6.25, 0.0)).norm(), 0.0, 1e-12);
 
   const SweptVerdict verdict =
       check_swept(*path, bench.vehicle.footprint_B, bench.map.occupancy, 0.1);
@@ -133,7 +133,7 @@ TEST(RoutePlanner, LegsGoOnBeyondTheRowEnds) {
   const auto path = bench.plan(1.25, -1.0, 0.5 * kPi);
   ASSERT_TRUE(path.ok()) << path.reason();
   EXPECT_NEAR(path->length_m, 1.0 + 3 * 20.0 + 4 * 1.5 + 2 * loop_length_m(2.5, kRadius_m), 1e-9);
-  EXPECT_NEAR(bench.asked[0].from.p.y(), 21.5, 1e-12);
+  EXPECT_NEAR(bench.queries[0].from.p.y(), 21.5, 1e-12);
   EXPECT_NEAR(path->points.back().p_W.y(), 20.0, 1e-9);  // the last leg ends with its row
 }
 
@@ -162,7 +162,7 @@ TEST(RoutePlanner, MergesFromALittleAside) {
     Bench bench;
     const auto path = bench.plan(1.25 + aside_m, -2.0, 0.5 * kPi + 0.1);
     ASSERT_TRUE(path.ok()) << path.reason();
-    EXPECT_EQ(bench.asked.size(), 1u);  // for the turn only
+    EXPECT_EQ(bench.queries.size(), 1u);  // for the turn only
     EXPECT_EQ(path->points.front().kind, PathKind::kTransit);
     EXPECT_NEAR((path->points.front().p_W.head<2>() - Vec(1.25 + aside_m, -2.0)).norm(), 0, 1e-9);
     const SweptVerdict verdict =
@@ -176,8 +176,8 @@ TEST(RoutePlanner, MergesFromALittleAside) {
 TEST(RoutePlanner, SearchesTheWayFromElsewhere) {
   Bench bench;
   const auto path = bench.plan(-1.0, -7.0, kPi);
-  ASSERT_EQ(bench.asked.size(), 2u);
-  EXPECT_EQ(bench.asked[0].problem, 0);
+  ASSERT_EQ(bench.queries.size(), 2u);
+  EXPECT_EQ(bench.queries[0].problem, 0);
   ASSERT_TRUE(path.ok()) << path.reason();
   EXPECT_EQ(path->points.front().kind, PathKind::kTransit);
   EXPECT_EQ(bench.number("turns"), 1.0);
@@ -217,9 +217,9 @@ TEST(RoutePlanner, RefusesAStartInCollision) {
   EXPECT_EQ(in_row.reason(),
             "start in collision: (2.50, 10.00) heading 90.0 deg is in a row: 0.00 m from the "
             "centre line of row 1, whose canopy is 0.60 m wide");
-  const auto beside = bench.plan(1.85, 10.0, 0.5 * kPi);
-  ASSERT_FALSE(beside.ok());
-  EXPECT_EQ(beside.reason(),
+  const auto at_canopy = bench.plan(1.85, 10.0, 0.5 * kPi);
+  ASSERT_FALSE(at_canopy.ok());
+  EXPECT_EQ(at_canopy.reason(),
             "start in collision: at (1.85, 10.00) heading 90.0 deg the footprint has 0.000 m of "
             "clearance, the margin is 0.050 m");
   const auto outside = bench.plan(1.25, -40.0, 0.5 * kPi);
@@ -266,10 +266,10 @@ TEST(RoutePlanner, TellsWhereASearchFailsThoughThereIsRoom) {
   const auto turn = bench.plan(1.25, -1.0, 0.5 * kPi, true);
   ASSERT_FALSE(turn.ok());
   EXPECT_EQ(turn.reason(), "no turn from alley 0 to alley 1 found: no luck");
-  const auto way = bench.plan(-1.0, -7.0, kPi, true);
-  ASSERT_FALSE(way.ok());
+  const auto approach = bench.plan(-1.0, -7.0, kPi, true);
+  ASSERT_FALSE(approach.ok());
   EXPECT_EQ(
-      way.reason(),
+      approach.reason(),
       "no path from the start at (-1.00, -7.00) heading 180.0 deg to the entrance of alley 0 at "
       "(1.25, 0.00) heading 90.0 deg: no luck");
   // A wall across the headland: no ground joins the alleys at all.

@@ -114,7 +114,7 @@ TEST(PathCost, IsTheIntegralOfLackingClearance) {
   EXPECT_EQ(controllers::PathCost({0.0, 1.0, 0.1, 0.25}, footprint).of(along), 8.0);
   EXPECT_EQ(controllers::PathCost({0.5, 0.3, 0.1, 0.25}, footprint).of(along),
             8.0);  // all that is wanted
-  EXPECT_NEAR(cost.most_of(8.0), 12.2, 1e-12);
+  EXPECT_NEAR(cost.max_of(8.0), 12.2, 1e-12);
   // Every change of curvature counts once, also between pieces of a Dubins path.
   const controllers::DubinsPath loop =
       controllers::calc_dubins({{0, 0}, 0.5 * kPi}, {{2.5, 0}, -0.5 * kPi}, 1.767);
@@ -132,7 +132,7 @@ TEST(PathCost, IsTheIntegralOfLackingClearance) {
                                          -1,
                                          0.0};
     EXPECT_GE(cost.of(piece), piece.length_m);
-    EXPECT_LE(cost.of(piece), cost.most_of(piece.length_m) + 1e-12);
+    EXPECT_LE(cost.of(piece), cost.max_of(piece.length_m) + 1e-12);
   }
 }
 
@@ -144,9 +144,9 @@ TEST(Shorten, KeepsEndsAndNeverCostsMore) {
   // A detour over a pose far out in the headland.
   const std::vector<controllers::Pose2> poses = {
       {{1.25, 8.0}, 0.5 * kPi}, {{2.5, 15.0}, 0.0}, {{3.75, 8.0}, -0.5 * kPi}};
-  const auto way = controllers::join_poses(poses, 1.767);
-  const auto shorter = controllers::shorten_by_cost(way, 1.767, footprint, cost, 0.1);
-  EXPECT_LT(cost.of(shorter), 0.9 * cost.of(way));
+  const auto detour = controllers::join_poses(poses, 1.767);
+  const auto shorter = controllers::shorten_by_cost(detour, 1.767, footprint, cost, 0.1);
+  EXPECT_LT(cost.of(shorter), 0.9 * cost.of(detour));
   EXPECT_TRUE(controllers::is_free(shorter, footprint, 0.1));
   EXPECT_NEAR((shorter.front().start.p - poses[0].p).norm(), 0.0, 1e-9);
   EXPECT_NEAR((shorter.back().end().p - poses[2].p).norm(), 0.0, 1e-6);
@@ -171,7 +171,7 @@ TEST(CarPlanners, SameSeedSameTreeWhateverRunsBetween) {
   };
   for (const auto run : {controllers::run_rrt_star, controllers::run_rrt}) {
     const controllers::CarTree first = run(problem, sampling, RandomStream(1, "a", "b"));
-    EXPECT_FALSE(first.way.empty());
+    EXPECT_FALSE(first.waypoints.empty());
     const controllers::CarTree other = run(problem, sampling, RandomStream(2, "a", "b"));
     controllers::run_rrt(problem, sampling, RandomStream(3, "a", "b"));
     controllers::run_rrt_star(problem, sampling, RandomStream(4, "a", "b"));
@@ -179,9 +179,10 @@ TEST(CarPlanners, SameSeedSameTreeWhateverRunsBetween) {
     EXPECT_EQ(positions(first), positions(again));
     EXPECT_EQ(first.iterations, again.iterations);
     EXPECT_NE(positions(first), positions(other));
-    EXPECT_TRUE(controllers::is_free(controllers::join_poses(first.way, 1.767), footprint, 0.1));
-    EXPECT_NEAR((first.way.front().p - sampling.from.p).norm(), 0.0, 1e-12);
-    EXPECT_NEAR((first.way.back().p - sampling.to.p).norm(), 0.0, 1e-6);
+    EXPECT_TRUE(
+        controllers::is_free(controllers::join_poses(first.waypoints, 1.767), footprint, 0.1));
+    EXPECT_NEAR((first.waypoints.front().p - sampling.from.p).norm(), 0.0, 1e-12);
+    EXPECT_NEAR((first.waypoints.back().p - sampling.to.p).norm(), 0.0, 1e-6);
   }
 }
 

@@ -37,10 +37,10 @@ TEST(SurveyLanes, RunAlongTheDirectionOfLeastWidth) {
     }
     return high - low;
   };
-  double least = 1e9;
-  for (int i = 0; i < 1800; ++i) least = std::min(least, width_of(rad_from_deg(0.1 * i)));
-  EXPECT_LE(width_of(controllers::choose_lane_yaw_rad(strip)), least);
-  EXPECT_GT(width_of(controllers::choose_lane_yaw_rad(strip)), least - 1.0);
+  double min_width = 1e9;
+  for (int i = 0; i < 1800; ++i) min_width = std::min(min_width, width_of(rad_from_deg(0.1 * i)));
+  EXPECT_LE(width_of(controllers::choose_lane_yaw_rad(strip)), min_width);
+  EXPECT_GT(width_of(controllers::choose_lane_yaw_rad(strip)), min_width - 1.0);
 }
 
 TEST(SurveyLanes, CountAndSpacingFollowThePaper) {
@@ -84,16 +84,17 @@ TEST(SurveyLanes, EveryPlaceIsSeenFromTheLanesBesideIt) {
         for (double y = 0.5; y < 200.0; y += 3.0) {
           if (!contains(polygon, {x, y})) continue;
           const Vector2d at = frame.to_lane({x, y});
-          int seen = 0, beside = 0;
+          int covering = 0, adjacent = 0;
           for (const controllers::SurveyLane& lane : lanes) {
             if (std::abs(lane.across_m - at.y()) > spacing) continue;
-            ++beside;
+            ++adjacent;
             for (const controllers::LaneSegment& piece : lane.pieces) {
-              seen += at.x() >= piece.from_m + 15.0 - 1e-6 && at.x() <= piece.to_m - 15.0 + 1e-6;
+              covering +=
+                  at.x() >= piece.from_m + 15.0 - 1e-6 && at.x() <= piece.to_m - 15.0 + 1e-6;
             }
           }
-          ASSERT_GE(beside, 2) << x << " " << y << " " << yaw;
-          ASSERT_EQ(seen, beside) << x << " " << y << " " << yaw;
+          ASSERT_GE(adjacent, 2) << x << " " << y << " " << yaw;
+          ASSERT_EQ(covering, adjacent) << x << " " << y << " " << yaw;
         }
       }
     }
@@ -107,7 +108,7 @@ TEST(SurveyLanes, SwitchTheCameraOffAboveLongNotches) {
   needs.footprint_length_m = 20.0;
   // A U: arms 50 m wide at both ends, 200 m between them.
   const Polygon u = {{0, 0},    {300, 0}, {300, 200}, {250, 200},
-                                   {250, 60}, {50, 60}, {50, 200},  {0, 200}};
+                     {250, 60}, {50, 60}, {50, 200},  {0, 200}};
   const auto lanes = controllers::cut_lanes(u, {0.0}, needs);
   EXPECT_EQ(lanes.front().pieces.size(), 1u);
   ASSERT_EQ(lanes.back().pieces.size(), 2u);

@@ -59,11 +59,11 @@ TEST(SurveyOrder, SkipsLanesThatAreTooNear) {
     EXPECT_GE(std::abs(order.lanes[i] - order.lanes[i - 1]), 2);
   }
   // Nine turns of two lanes or more, and one odd step at least to get to the lanes between.
-  double way = 0.0;
+  double distance_m = 0.0;
   for (std::size_t i = 1; i < order.lanes.size(); ++i) {
-    way += 26.7 * std::abs(order.lanes[i] - order.lanes[i - 1]);
+    distance_m += 26.7 * std::abs(order.lanes[i] - order.lanes[i - 1]);
   }
-  EXPECT_GE(way, 26.7 * 19.0 - 1e-6);
+  EXPECT_GE(distance_m, 26.7 * 19.0 - 1e-6);
   EXPECT_LT(order.extra_distance_m, controllers::order_lanes_as_snake(task).extra_distance_m);
 }
 

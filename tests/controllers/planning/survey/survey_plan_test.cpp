@@ -167,11 +167,11 @@ TEST(SurveyPlan, KeepsTheRampErrorAndTheSlope) {
   const PlannedPath& path = plan->path;
   double min_m = 1e9, max_m = -1e9;
   for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
-    const Eigen::Vector3d way = path.points[i + 1].p_W - path.points[i].p_W;
-    EXPECT_LE(std::abs(way.z()), 0.12 * way.head<2>().norm() + 1e-9);
+    const Eigen::Vector3d displacement = path.points[i + 1].p_W - path.points[i].p_W;
+    EXPECT_LE(std::abs(displacement.z()), 0.12 * displacement.head<2>().norm() + 1e-9);
     if (path.points[i].kind == PathKind::kTransit) continue;  // the climb is not looked at here
     for (double share = 0.0; share < 1.0; share += 0.01) {
-      const Vector2d p = path.points[i].p_W.head<2>() + share * way.head<2>();
+      const Vector2d p = path.points[i].p_W.head<2>() + share * displacement.head<2>();
       const double above_m = height_of_path(path, i, share) - hills_m(p);
       EXPECT_GE(above_m, 148.0);
       if (path.points[i].kind != PathKind::kLeg) continue;
@@ -322,17 +322,17 @@ TEST(SurveyPlan, ClimbsInLapsWhereTheFirstLaneIsNear) {
   const PlannedPath& path = plan->path;
   // 150 m at 12 % are 1250 m of way.
   EXPECT_NEAR(plan->numbers.at("climb_way_m"), (150.0 - 0.3) / 0.12, 2.0);
-  double way_m = 0.0;
+  double distance_m = 0.0;
   for (std::size_t i = 0; path.points[i].kind == PathKind::kTransit; ++i) {
     const Eigen::Vector3d step = path.points[i + 1].p_W - path.points[i].p_W;
     EXPECT_LE(std::abs(step.z()), 0.12 * step.head<2>().norm() + 1e-9) << i;
-    way_m += step.head<2>().norm();
+    distance_m += step.head<2>().norm();
     if (i == 0) {  // straight on first
       EXPECT_NEAR(path.points[0].yaw_rad, 0.5, 1e-9);
     }
   }
-  EXPECT_GT(way_m, 1250.0);
-  EXPECT_LT(way_m, 1700.0);
+  EXPECT_GT(distance_m, 1250.0);
+  EXPECT_LT(distance_m, 1700.0);
   for (const PathPoint& point : path.points) {
     if (point.kind == PathKind::kLeg) {
       EXPECT_NEAR(point.p_W.z(), 150.0, 1e-9);

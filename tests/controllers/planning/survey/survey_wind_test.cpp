@@ -53,8 +53,8 @@ Flight fly(const controllers::SurveyPlan& plan, const Vector2d& wind_W) {
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
     if (points[i].kind != PathKind::kLeg) continue;
     if (i > 0 && points[i - 1].alley == points[i].alley) continue;
-    const Vector2d way = (points[i + 1].p_W - points[i].p_W).head<2>();
-    flight.lanes.push_back({points[i].p_W.head<2>(), way.normalized()});
+    const Vector2d displacement = (points[i + 1].p_W - points[i].p_W).head<2>();
+    flight.lanes.push_back({points[i].p_W.head<2>(), displacement.normalized()});
   }
   PlaneOptions options;
   options.start_W = points.front().p_W;

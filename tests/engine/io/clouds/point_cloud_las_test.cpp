@@ -125,8 +125,8 @@ const std::vector<HandPoint> kPoints = {
 
 TEST_F(Las, ReadsEveryVersionAndPointFormat) {
   for (int minor = 2; minor <= 4; ++minor) {
-    const int most = minor == 2 ? 3 : minor == 3 ? 5 : 10;
-    for (int format = 0; format <= most; ++format) {
+    const int max_format = minor == 2 ? 3 : minor == 3 ? 5 : 10;
+    for (int format = 0; format <= max_format; ++format) {
       for (const int extra : {0, 5}) {
         SCOPED_TRACE(::testing::Message() << "1." << minor << " format " << format);
         HandFile f;

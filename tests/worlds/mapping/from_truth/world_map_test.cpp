@@ -38,9 +38,10 @@ TEST(WorldMap, ParcelFHasTurningAreasOfTwoSpacings) {
   // At the grid's angle steps to eight neighbours are up to 8 % longer than the way.
   const auto& first = world->rows->alleys.front().line_W;
   const auto& last = world->rows->alleys.back().line_W;
-  const double way_m = test::way_m(grid, first.front().head<2>(), last.back().head<2>());
-  EXPECT_GT(way_m, 15 * 118.0);
-  EXPECT_LT(way_m, 1.083 * (15 * 118.0 + 14 * 2.5));
+  const double path_length_m =
+      test::path_length_m(grid, first.front().head<2>(), last.back().head<2>());
+  EXPECT_GT(path_length_m, 15 * 118.0);
+  EXPECT_LT(path_length_m, 1.083 * (15 * 118.0 + 14 * 2.5));
 }
 
 TEST(WorldMap, EveryAlleyOfEveryWorldIsFreeAndEveryRowTaken) {
@@ -57,7 +58,7 @@ TEST(WorldMap, EveryAlleyOfEveryWorldIsFreeAndEveryRowTaken) {
         for (int i = 0; i <= 50; ++i) {
           const Vector2d p =
               (alley.line_W[k] + i / 50.0 * (alley.line_W[k + 1] - alley.line_W[k])).head<2>();
-          EXPECT_FALSE(test::taken_at(grid, p)) << "alley " << alley.id;
+          EXPECT_FALSE(test::occupied_at(grid, p)) << "alley " << alley.id;
         }
       }
     }
@@ -66,7 +67,7 @@ TEST(WorldMap, EveryAlleyOfEveryWorldIsFreeAndEveryRowTaken) {
         for (int i = 1; i < 50; ++i) {
           const Vector2d p =
               (row.line_W[k] + i / 50.0 * (row.line_W[k + 1] - row.line_W[k])).head<2>();
-          EXPECT_TRUE(test::taken_at(grid, p)) << "row " << row.id;
+          EXPECT_TRUE(test::occupied_at(grid, p)) << "row " << row.id;
         }
       }
     }
@@ -78,10 +79,11 @@ TEST(WorldMap, EveryAlleyOfEveryWorldIsFreeAndEveryRowTaken) {
     for (const Alley& alley : alleys) {
       centre_lines_m += (alley.line_W.back() - alley.line_W.front()).head<2>().norm();
     }
-    const double way_m = test::way_m(grid, alleys.front().line_W.front().head<2>(),
-                                     (forward ? last.back() : last.front()).head<2>());
-    EXPECT_TRUE(std::isfinite(way_m));
-    EXPECT_GT(way_m, 0.95 * centre_lines_m);
+    const double path_length_m =
+        test::path_length_m(grid, alleys.front().line_W.front().head<2>(),
+                            (forward ? last.back() : last.front()).head<2>());
+    EXPECT_TRUE(std::isfinite(path_length_m));
+    EXPECT_GT(path_length_m, 0.95 * centre_lines_m);
   }
 }
 
@@ -102,8 +104,8 @@ TEST(WorldMap, SdfRowsHaveOneToo) {
   const auto world = test::make_world("mesh", parameters);
   ASSERT_EQ(world->rows->rows.size(), 3u);
   EXPECT_FALSE(world->rows->occupancy.empty());
-  EXPECT_TRUE(test::taken_at(world->rows->occupancy, {5.0, 3.0}));
-  EXPECT_FALSE(test::taken_at(world->rows->occupancy, {5.0, 1.5}));
+  EXPECT_TRUE(test::occupied_at(world->rows->occupancy, {5.0, 3.0}));
+  EXPECT_FALSE(test::occupied_at(world->rows->occupancy, {5.0, 1.5}));
 }
 
 TEST(WorldMap, CanBeLeftOutOrBeWithoutWalls) {
@@ -113,18 +115,18 @@ TEST(WorldMap, CanBeLeftOutOrBeWithoutWalls) {
   parameters.set("occupancy_cell_m", 0.1).set("virtual_walls", false);
   const auto world = test::make_world("vineyard", parameters);
   const auto& alleys = world->rows->alleys;
-  const double across_m = test::way_m(world->rows->occupancy, alleys[0].line_W[0].head<2>(),
-                                      alleys[2].line_W[0].head<2>());
+  const double across_m = test::path_length_m(world->rows->occupancy, alleys[0].line_W[0].head<2>(),
+                                              alleys[2].line_W[0].head<2>());
   EXPECT_LT(across_m, 8.0);
   parameters.set("virtual_walls", true);
   const auto walled = test::make_world("vineyard", parameters);
-  EXPECT_GT(test::way_m(walled->rows->occupancy, alleys[0].line_W[0].head<2>(),
-                        alleys[2].line_W[0].head<2>()),
+  EXPECT_GT(test::path_length_m(walled->rows->occupancy, alleys[0].line_W[0].head<2>(),
+                                alleys[2].line_W[0].head<2>()),
             40.0);
   parameters.set("first_wall", std::string("first"));
   const auto flipped = test::make_world("vineyard", parameters);
-  EXPECT_LT(test::way_m(flipped->rows->occupancy, alleys[0].line_W[0].head<2>(),
-                        alleys[1].line_W[0].head<2>()),
+  EXPECT_LT(test::path_length_m(flipped->rows->occupancy, alleys[0].line_W[0].head<2>(),
+                                alleys[1].line_W[0].head<2>()),
             5.0);
 }
 

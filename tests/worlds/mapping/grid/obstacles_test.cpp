@@ -1,5 +1,5 @@
-#include "engine/api/world_model.h"
 #include "worlds/parts/obstacles.h"
+#include "engine/api/world_model.h"
 
 #include <gtest/gtest.h>
 
@@ -103,8 +103,8 @@ TEST(Obstacles, AreOnTheMapOnlyIfMapped) {
   const Wanted known{"b", {{"alley", 0}, {"distance_m", 12}}, {0.6, 0.4, 0.5}, true};
   const auto world = test::make_world("vineyard", with_obstacles(block(), {unknown, known}));
   const OccupancyGrid& grid = world->rows->occupancy;
-  EXPECT_FALSE(test::taken_at(grid, find(*world, "obstacle/a")->X_WM.p.head<2>()));
-  EXPECT_TRUE(test::taken_at(grid, find(*world, "obstacle/b")->X_WM.p.head<2>()));
+  EXPECT_FALSE(test::occupied_at(grid, find(*world, "obstacle/a")->X_WM.p.head<2>()));
+  EXPECT_TRUE(test::occupied_at(grid, find(*world, "obstacle/b")->X_WM.p.head<2>()));
 }
 
 TEST(Obstacles, WrongOnesAreNamed) {

@@ -12,9 +12,9 @@ namespace vinerow::mapping::occupancy_test {
 namespace {
 
 using Eigen::Vector2d;
+using test::occupied_at;
+using test::path_length_m;
 using test::straight_map;
-using test::taken_at;
-using test::way_m;
 
 OccupancyOptions with_cell(double cell_m) {
   OccupancyOptions options;
@@ -27,17 +27,17 @@ TEST(Occupancy, RowsBoundaryAndOutsideAreTakenTheRestIsFree) {
   OccupancyOptions options = with_cell(0.05);
   options.virtual_walls = false;
   const OccupancyGrid grid = make_occupancy_grid(map, options);
-  EXPECT_TRUE(taken_at(grid, {10.0, 0.28}));
-  EXPECT_FALSE(taken_at(grid, {10.0, 0.33}));
-  EXPECT_TRUE(taken_at(grid, {19.97, 0.0}));
-  EXPECT_FALSE(taken_at(grid, {20.03, 0.0})) << "square ends at the row's end";
-  EXPECT_FALSE(taken_at(grid, {10.0, 1.25}));
-  EXPECT_FALSE(taken_at(grid, {27.9, 4.0}));
-  EXPECT_TRUE(taken_at(grid, {28.01, 4.0}));
-  EXPECT_TRUE(taken_at(grid, {10.0, -2.51}));
-  EXPECT_TRUE(taken_at(grid, {-30.0, 0.0})) << "beyond the grid";
+  EXPECT_TRUE(occupied_at(grid, {10.0, 0.28}));
+  EXPECT_FALSE(occupied_at(grid, {10.0, 0.33}));
+  EXPECT_TRUE(occupied_at(grid, {19.97, 0.0}));
+  EXPECT_FALSE(occupied_at(grid, {20.03, 0.0})) << "square ends at the row's end";
+  EXPECT_FALSE(occupied_at(grid, {10.0, 1.25}));
+  EXPECT_FALSE(occupied_at(grid, {27.9, 4.0}));
+  EXPECT_TRUE(occupied_at(grid, {28.01, 4.0}));
+  EXPECT_TRUE(occupied_at(grid, {10.0, -2.51}));
+  EXPECT_TRUE(occupied_at(grid, {-30.0, 0.0})) << "beyond the grid";
   options.row_end_margin_m = 0.3;
-  EXPECT_TRUE(taken_at(make_occupancy_grid(map, options), {20.28, 0.0}));
+  EXPECT_TRUE(occupied_at(make_occupancy_grid(map, options), {20.28, 0.0}));
 }
 
 TEST(Occupancy, FreeAreaIsParcelLessRows) {
@@ -58,27 +58,27 @@ TEST(Occupancy, BentRowsAreStripsWithoutGaps) {
   const OccupancyGrid grid = make_occupancy_grid(map, options);
   // The mitre of a bend by 45 deg to the left: outer corner at half width * tan(22.5 deg) beyond
   // it.
-  EXPECT_TRUE(taken_at(grid, {10.0 + 0.5 * std::tan(0.3927) - 0.04, -0.47}));
-  EXPECT_FALSE(taken_at(grid, {10.0 + 0.5 * std::tan(0.3927) + 0.04, -0.47}));
-  double taken_m2 = 0.0;
+  EXPECT_TRUE(occupied_at(grid, {10.0 + 0.5 * std::tan(0.3927) - 0.04, -0.47}));
+  EXPECT_FALSE(occupied_at(grid, {10.0 + 0.5 * std::tan(0.3927) + 0.04, -0.47}));
+  double occupied_m2 = 0.0;
   for (int j = 0; j < grid.rows; ++j) {
     for (int i = 0; i < grid.columns; ++i) {
       const Vector2d p = grid.corner_W + 0.02 * Vector2d(i + 0.5, j + 0.5);
       if (p.x() > -5 && p.x() < 25 && p.y() > -5 && p.y() < 9) {
-        taken_m2 += 0.0004 * grid.occupied(i, j);
+        occupied_m2 += 0.0004 * grid.occupied(i, j);
       }
     }
   }
   // A mitred strip has the area of width times the length of its centre line.
-  EXPECT_NEAR(taken_m2, 1.0 * (10.0 + std::hypot(7.0, 7.0)), 0.05);
+  EXPECT_NEAR(occupied_m2, 1.0 * (10.0 + std::hypot(7.0, 7.0)), 0.05);
 }
 
 TEST(Occupancy, ObstaclesOnTheMapAreTaken) {
   const RowMap map = straight_map(2, 20.0, 2.5, 8.0);
   OccupancyOptions options = with_cell(0.05);
   options.obstacles_W = {{{9, 1}, {10, 1}, {10, 1.5}, {9, 1.5}}};
-  EXPECT_TRUE(taken_at(make_occupancy_grid(map, options), {9.5, 1.25}));
-  EXPECT_FALSE(taken_at(make_occupancy_grid(map, with_cell(0.05)), {9.5, 1.25}));
+  EXPECT_TRUE(occupied_at(make_occupancy_grid(map, options), {9.5, 1.25}));
+  EXPECT_FALSE(occupied_at(make_occupancy_grid(map, with_cell(0.05)), {9.5, 1.25}));
 }
 
 /// A parcel as large as Parcel F, along x.
@@ -91,7 +91,7 @@ const Vector2d kStart(0.0, 1.25), kGoal(118.0, 14.5 * 2.5);
 
 TEST(Occupancy, TheShortestFreeWayIsTheSerpentine) {
   const OccupancyGrid walled = make_occupancy_grid(large_map(), with_cell(0.1));
-  const double geodesic_m = way_m(walled, kStart, kGoal);
+  const double geodesic_m = path_length_m(walled, kStart, kGoal);
   // 15 alleys, and 14 turns that may hug the row ends. A serpentine over the centre lines is
   // longer.
   const double serpentine_m = 15 * 118.0 + 14 * 2.5;
@@ -99,7 +99,7 @@ TEST(Occupancy, TheShortestFreeWayIsTheSerpentine) {
   EXPECT_LE(geodesic_m, serpentine_m);
   OccupancyOptions open = with_cell(0.1);
   open.virtual_walls = false;
-  const double shortcut_m = way_m(make_occupancy_grid(large_map(), open), kStart, kGoal);
+  const double shortcut_m = path_length_m(make_occupancy_grid(large_map(), open), kStart, kGoal);
   EXPECT_LT(shortcut_m, 118.0 + 14 * 2.5 + 1.0);
   RecordProperty("geodesic_m", std::to_string(geodesic_m));
   RecordProperty("without_walls_m", std::to_string(shortcut_m));
@@ -112,12 +112,13 @@ TEST(Occupancy, EveryAlleyIsTheOnlyWay) {
     const Eigen::Rotation2Dd turn(bearing);
     const Vector2d start = turn * Vector2d(0, 1.25), goal = turn * Vector2d(20.0, 4.5 * 2.5);
     const OccupancyGrid grid = make_occupancy_grid(map, with_cell(0.1));
-    EXPECT_TRUE(std::isfinite(way_m(grid, start, goal)));
+    EXPECT_TRUE(std::isfinite(path_length_m(grid, start, goal)));
     for (int alley = 0; alley < 5; ++alley) {
       OccupancyGrid plugged = grid;
       mark_segment(plugged, turn * Vector2d(10.0, 2.5 * alley),
                    turn * Vector2d(10.0, 2.5 * alley + 2.5), 1);
-      EXPECT_FALSE(std::isfinite(way_m(plugged, start, goal))) << bearing << ", alley " << alley;
+      EXPECT_FALSE(std::isfinite(path_length_m(plugged, start, goal)))
+          << bearing << ", alley " << alley;
     }
   }
 }
@@ -128,8 +129,8 @@ TEST(Occupancy, TheOtherOrderOpensTheOtherSerpentine) {
   options.first_wall = RowEnd::kFirst;
   const OccupancyGrid grid = make_occupancy_grid(map, options);
   // From alley 0's last point backwards.
-  EXPECT_NEAR(way_m(grid, {20.0, 1.25}, {0.0, 6.25}), 3 * 20.0 + 2 * 1.0, 2.0);
-  EXPECT_LT(way_m(grid, {0.0, 1.25}, {0.0, 3.75}), 4.0) << "open at the first point";
+  EXPECT_NEAR(path_length_m(grid, {20.0, 1.25}, {0.0, 6.25}), 3 * 20.0 + 2 * 1.0, 2.0);
+  EXPECT_LT(path_length_m(grid, {0.0, 1.25}, {0.0, 3.75}), 4.0) << "open at the first point";
 }
 
 TEST(Occupancy, WallsEndAtTheFirstBoundaryInABay) {
@@ -140,9 +141,9 @@ TEST(Occupancy, WallsEndAtTheFirstBoundaryInABay) {
   ASSERT_EQ(report.walls.size(), 5u);
   EXPECT_LT((report.walls[2].to_W - Vector2d(33, 5)).norm(), 1e-12);
   const OccupancyGrid grid = make_occupancy_grid(map, with_cell(0.05), report);
-  EXPECT_TRUE(taken_at(grid, {35.0, 5.0})) << "in the bay";
-  EXPECT_TRUE(taken_at(grid, {32.0, 5.0})) << "the wall";
-  EXPECT_FALSE(taken_at(grid, {32.0, 4.0}));
+  EXPECT_TRUE(occupied_at(grid, {35.0, 5.0})) << "in the bay";
+  EXPECT_TRUE(occupied_at(grid, {32.0, 5.0})) << "the wall";
+  EXPECT_FALSE(occupied_at(grid, {32.0, 4.0}));
 }
 
 TEST(Occupancy, FiveMillionCellsAreQuick) {

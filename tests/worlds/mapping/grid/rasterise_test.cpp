@@ -121,7 +121,7 @@ TEST(Rasterise, NoWayLeadsAcrossASegment) {
     const Vector2d d(std::cos(a), std::sin(a)), n(-d.y(), d.x()), c(10.0, 10.0);
     OccupancyGrid grid = empty_grid(0.5);
     mark_segment(grid, c - 40.0 * d, c + 40.0 * d, 1);
-    EXPECT_FALSE(std::isfinite(test::way_m(grid, c - 3.0 * n, c + 3.0 * n))) << k;
+    EXPECT_FALSE(std::isfinite(test::path_length_m(grid, c - 3.0 * n, c + 3.0 * n))) << k;
   }
 }
 

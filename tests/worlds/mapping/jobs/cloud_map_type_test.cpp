@@ -1,13 +1,13 @@
 /// The map `cloud_map`, and how a map comes into another frame.
 
-#include "engine/api/world_model.h"
 #include "worlds/mapping/jobs/cloud_map_type.h"
+#include "engine/api/world_model.h"
 
 #include <gtest/gtest.h>
 
 #include "engine/core/log.h"
-#include "engine/math/geo.h"
 #include "engine/math/angles.h"
+#include "engine/math/geo.h"
 #include "tests/worlds/mapping/cloud_map_fixture.h"
 #include "worlds/mapping/folder/map_frame.h"
 #include "worlds/mapping/grid/occupancy.h"
@@ -49,8 +49,8 @@ class CloudMapType : public ::testing::Test {
 };
 
 /// The same place seen from another origin, by geodesy alone.
-GeoOrigin origin_beside(const GeoOrigin& origin, const Vector3d& way) {
-  const Geodetic place = LocalFrame(origin).to_geodetic(way);
+GeoOrigin shifted_origin(const GeoOrigin& origin, const Vector3d& offset) {
+  const Geodetic place = LocalFrame(origin).to_geodetic(offset);
   return {place.latitude_rad, place.longitude_rad, place.altitude_m};
 }
 
@@ -100,7 +100,7 @@ TEST_F(CloudMapType, MovesAMapOfAnotherOriginToWhereItIs) {
   const Notes notes;
   // The same map as a survey that was referred to a stone 900 m away would have it.
   CloudMap moved = truth();
-  const GeoOrigin stone = origin_beside(truth().origin, {-700.0, 560.0, 85.0});
+  const GeoOrigin stone = shifted_origin(truth().origin, {-700.0, 560.0, 85.0});
   move_map(stone, moved);
   // Every point by geodesy.
   const LocalFrame from(truth().origin), to(stone);
@@ -143,7 +143,7 @@ TEST_F(CloudMapType, MovesAMapOfAnotherOriginToWhereItIs) {
 
 TEST_F(CloudMapType, RefusesAMapOfAnotherPlaceWithTheDistance) {
   CloudMap elsewhere = truth();
-  elsewhere.origin = origin_beside(truth().origin, {3000.0, 4000.0, 0.0});
+  elsewhere.origin = shifted_origin(truth().origin, {3000.0, 4000.0, 0.0});
   const std::string folder = save(elsewhere);
   const std::string error = test::config_error_of([&] { make(parameters(folder)); });
   // 5 km less what the two boxes reach towards each other.

@@ -14,9 +14,9 @@
 #include "engine/scenario/scenario.h"
 #include "engine/sim/simulation.h"
 #include "tests/worlds/mapping/jobs/job_fixture.h"
-#include "worlds/mapping/jobs/cloud_map_type.h"
 #include "worlds/mapping/folder/map_folder.h"
 #include "worlds/mapping/folder/map_points.h"
+#include "worlds/mapping/jobs/cloud_map_type.h"
 #include "worlds/mapping/model/parcel_cloud.h"
 #include "worlds/mapping/photogrammetry/cloud_truth.h"
 
@@ -99,28 +99,28 @@ TEST_F(FlownSurvey, TheCloudLiesWhereTheAutopilotThoughtItFlew) {
     EXPECT_TRUE(made) << made.reason();
     return *made;
   };
-  const JobOutcome exact = cloud_by("truth"), told = cloud_by("direct"),
+  const JobOutcome exact = cloud_by("truth"), direct = cloud_by("direct"),
                    marked = cloud_by("control_points");
   std::printf("direct: %.1f mm off, %.1f mm up; control points: %.1f mm, %.1f mm\n",
-              1e3 * told.numbers.at("georeference_shift_m"),
-              1e3 * told.numbers.at("georeference_height_m"),
+              1e3 * direct.numbers.at("georeference_shift_m"),
+              1e3 * direct.numbers.at("georeference_height_m"),
               1e3 * marked.numbers.at("georeference_shift_m"),
               1e3 * marked.numbers.at("georeference_height_m"));
   EXPECT_EQ(exact.numbers.at("georeference_shift_m"), 0.0);
   // Centimetres, as RTK is: neither nothing nor decimetres.
-  EXPECT_GT(told.numbers.at("georeference_shift_m"), 5e-4);
-  EXPECT_LT(told.numbers.at("georeference_shift_m"), 0.06);
-  EXPECT_LT(std::abs(told.numbers.at("georeference_height_m")), 0.10);
+  EXPECT_GT(direct.numbers.at("georeference_shift_m"), 5e-4);
+  EXPECT_LT(direct.numbers.at("georeference_shift_m"), 0.06);
+  EXPECT_LT(std::abs(direct.numbers.at("georeference_height_m")), 0.10);
   EXPECT_LT(marked.numbers.at("georeference_shift_m"), 0.02);
   // All points moved by what the numbers say: the means of the clouds differ by it.
-  const auto truth = read_points(exact.product.file), moved = read_points(told.product.file);
+  const auto truth = read_points(exact.product.file), moved = read_points(direct.product.file);
   ASSERT_EQ(truth.size(), moved.size());
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < truth.size(); ++i) {
     mean += (moved[i].position - truth[i].position) / static_cast<double>(truth.size());
   }
-  EXPECT_NEAR(mean.head<2>().norm(), told.numbers.at("georeference_shift_m"), 0.005);
-  EXPECT_NEAR(mean.z(), told.numbers.at("georeference_height_m"), 0.005);
+  EXPECT_NEAR(mean.head<2>().norm(), direct.numbers.at("georeference_shift_m"), 0.005);
+  EXPECT_NEAR(mean.z(), direct.numbers.at("georeference_height_m"), 0.005);
 }
 
 TEST_F(FlownSurvey, JobsMakeTheBytesThatTheCommandsMake) {
@@ -197,27 +197,27 @@ TEST(CloudMapJob, GivesTheMapThatItsFolderHoldsForVehicles) {
   EXPECT_EQ(std::ssize(cloud.classes), report.points);
   ParameterSet of_folder = test::map_parameters("cloud_map");
   of_folder.set("folder", made->product.file.string());
-  const auto told =
+  const auto loaded =
       mapping::make_map_of_folder(of_folder, test::surveyed_world("vineyard").context());
   const RowMap& map = *made->product.map;
-  ASSERT_EQ(map.rows.size(), told->rows.size());
+  ASSERT_EQ(map.rows.size(), loaded->rows.size());
   for (std::size_t r = 0; r < map.rows.size(); ++r) {
-    EXPECT_EQ(map.rows[r].id, told->rows[r].id);
-    EXPECT_TRUE(same_lines(map.rows[r].line_W, told->rows[r].line_W));
-    EXPECT_EQ(map.rows[r].canopy_width_m, told->rows[r].canopy_width_m);
+    EXPECT_EQ(map.rows[r].id, loaded->rows[r].id);
+    EXPECT_TRUE(same_lines(map.rows[r].line_W, loaded->rows[r].line_W));
+    EXPECT_EQ(map.rows[r].canopy_width_m, loaded->rows[r].canopy_width_m);
   }
-  ASSERT_EQ(map.alleys.size(), told->alleys.size());
+  ASSERT_EQ(map.alleys.size(), loaded->alleys.size());
   for (std::size_t a = 0; a < map.alleys.size(); ++a) {
-    EXPECT_TRUE(same_lines(map.alleys[a].line_W, told->alleys[a].line_W));
+    EXPECT_TRUE(same_lines(map.alleys[a].line_W, loaded->alleys[a].line_W));
   }
-  EXPECT_EQ(map.boundary_W, told->boundary_W);
-  EXPECT_EQ(map.occupancy.cells, told->occupancy.cells);
-  EXPECT_EQ(map.occupancy.corner_W, told->occupancy.corner_W);
-  EXPECT_EQ(map.terrain->heights_m, told->terrain->heights_m);
-  EXPECT_EQ(map.accuracy.surface_std_m, told->accuracy.surface_std_m);
-  ASSERT_EQ(map.meshes.size(), told->meshes.size());
+  EXPECT_EQ(map.boundary_W, loaded->boundary_W);
+  EXPECT_EQ(map.occupancy.cells, loaded->occupancy.cells);
+  EXPECT_EQ(map.occupancy.corner_W, loaded->occupancy.corner_W);
+  EXPECT_EQ(map.terrain->heights_m, loaded->terrain->heights_m);
+  EXPECT_EQ(map.accuracy.surface_std_m, loaded->accuracy.surface_std_m);
+  ASSERT_EQ(map.meshes.size(), loaded->meshes.size());
   for (std::size_t m = 0; m < map.meshes.size(); ++m) {
-    EXPECT_EQ(map.meshes[m].mesh_W.vertices, told->meshes[m].mesh_W.vertices);
+    EXPECT_EQ(map.meshes[m].mesh_W.vertices, loaded->meshes[m].mesh_W.vertices);
   }
   // Alleys as the world counts them, so that a mission may name them before the map is there.
   const std::vector<Alley>& alleys = test::surveyed_world("vineyard").model->rows->alleys;
@@ -280,10 +280,10 @@ TEST(CloudMapJob, TellsThatARowIsMissing) {
 TEST(PlanJob, PlansForItsVehicleOnTheMapThatItIsGiven) {
   const ScratchFolder folder("plan_job");
   JobContext context = test::job_context(folder.path());
-  std::string asked;
+  std::string requested;
   std::shared_ptr<const RowMap> on;
   context.plan = [&](const std::string& vehicle, std::shared_ptr<const RowMap> map) {
-    asked = vehicle;
+    requested = vehicle;
     on = std::move(map);
     return test::plan_for(vehicle, nullptr);
   };
@@ -292,7 +292,7 @@ TEST(PlanJob, PlansForItsVehicleOnTheMapThatItIsGiven) {
   const auto job = test::all_parts().make_job("plan", parameters, context);
   const auto own = job->run({});
   ASSERT_TRUE(own) << own.reason();
-  EXPECT_EQ(asked, "rover");
+  EXPECT_EQ(requested, "rover");
   EXPECT_EQ(on, nullptr) << "the map that it has without the job";
   EXPECT_EQ(own->numbers, (std::map<std::string, double>{{"length_m", 2.0}, {"points", 3.0}}));
   EXPECT_EQ(own->product.plan->points.size(), 3u);

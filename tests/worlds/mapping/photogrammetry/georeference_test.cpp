@@ -56,10 +56,11 @@ TEST(Georeference, AgreesWithUmeyamasFitOfNoisyPlaces) {
   Eigen::Matrix3Xd from(3, 60), to(3, 60);
   int i = 0;
   for (const Vector3d& p : flown()) {
-    const Vector3d told = p + 0.02 * Vector3d(random.normal(), random.normal(), random.normal());
-    known.push_back({p, told});
+    const Vector3d measured =
+        p + 0.02 * Vector3d(random.normal(), random.normal(), random.normal());
+    known.push_back({p, measured});
     from.col(i) = p;
-    to.col(i++) = told;
+    to.col(i++) = measured;
   }
   const auto fit = fit_georeference(known, {0.02, 0.02});
   ASSERT_TRUE(fit);

@@ -139,10 +139,10 @@ TEST(MapComparison, ARowWithoutCanopyIsNotAskedFor) {
 
 TEST(MapComparison, ARowHalfASpacingAwayIsAnother) {
   const double limit_m = 0.5 * kSpacing_m;
-  for (const double beside_m : {limit_m - 0.01, limit_m + 0.01}) {
+  for (const double offset_m : {limit_m - 0.01, limit_m + 0.01}) {
     const MapComparison found =
-        compare_with_truth(make_map({{0, {1, -beside_m, 0}, {39, -beside_m, 0}}}), make_truth(1));
-    EXPECT_EQ(found.found(), beside_m < limit_m ? 1 : 0) << beside_m;
+        compare_with_truth(make_map({{0, {1, -offset_m, 0}, {39, -offset_m, 0}}}), make_truth(1));
+    EXPECT_EQ(found.found(), offset_m < limit_m ? 1 : 0) << offset_m;
   }
 }
 

@@ -35,15 +35,15 @@ PhotogrammetryOptions plain(double density_per_m2) {
   return options;
 }
 
-struct Made {
+struct Sampled {
   test::Collected cloud;
   PhotogrammetryReport report;
 };
 
-Made sample(const WorldModel& world, const std::vector<Pose>& poses, double half_m,
-            const PhotogrammetryOptions& options) {
+Sampled sample(const WorldModel& world, const std::vector<Pose>& poses, double half_m,
+               const PhotogrammetryOptions& options) {
   const physics::WorldScene scene(world);
-  Made made;
+  Sampled made;
   made.report =
       sample_photogrammetry(scene, world, test::square_camera(), poses,
                             SurveyArea(test::square(half_m), 0.0), options, made.cloud.sink());
@@ -69,7 +69,7 @@ Side side_of(const Vector3d& p) {
   return Side::kNotFound;
 }
 
-std::map<Side, int> count_sides(const Made& made) {
+std::map<Side, int> count_sides(const Sampled& made) {
   std::map<Side, int> count;
   for (const SampledPoint& point : made.cloud.points) ++count[side_of(point.p_W)];
   return count;
@@ -83,7 +83,7 @@ Vector2d shadow(const Vector3d& eye, const Vector3d& p) {
 TEST(Photogrammetry, ABoxHasPointsWhereRaysMeetItAndNowhereElse) {
   const WorldModel world = test::level_world(50.0, {test::box(kLow, kHigh)});
   const double density = 1500.0;
-  const Made made = sample(world, grid_poses(), 8.0, plain(density));
+  const Sampled made = sample(world, grid_poses(), 8.0, plain(density));
   const std::map<Side, int> count = count_sides(made);
   EXPECT_EQ(count.count(Side::kNotFound), 0u) << "on no surface, or below the box";
 
@@ -119,7 +119,7 @@ TEST(Photogrammetry, WhatIsHiddenFromAllPicturesIsMissing) {
   const std::vector<Pose> poses = {test::looking_down(12.0, -3.0, kHeight_m),
                                    test::looking_down(12.0, 0.0, kHeight_m),
                                    test::looking_down(12.0, 3.0, kHeight_m)};
-  const Made made = sample(world, poses, 7.5, plain(1500.0));
+  const Sampled made = sample(world, poses, 7.5, plain(1500.0));
   const std::map<Side, int> count = count_sides(made);
   EXPECT_EQ(count.count(Side::kWest), 0u);
   EXPECT_EQ(count.count(Side::kSouth), 0u) << "only the southern picture sees it";
@@ -147,7 +147,7 @@ TEST(Photogrammetry, ThreePicturesMakeAPointAndTwoDoNot) {
     for (const double c : {-12.0, -4.0, 4.0, 12.0}) views += std::abs(x - c) < 10.0 ? 1 : 0;
     return views;
   };
-  const Made made = sample(world, poses, 9.0, plain(400.0));
+  const Sampled made = sample(world, poses, 9.0, plain(400.0));
   int inside = 0;
   for (const SampledPoint& point : made.cloud.points) {
     EXPECT_GE(views_at(point.p_W.x()), 3) << point.p_W.x();
@@ -159,7 +159,7 @@ TEST(Photogrammetry, ThreePicturesMakeAPointAndTwoDoNot) {
 
   PhotogrammetryOptions two = plain(400.0);
   two.min_views = 2;
-  const Made more = sample(world, poses, 9.0, two);
+  const Sampled more = sample(world, poses, 9.0, two);
   EXPECT_NEAR(static_cast<double>(more.cloud.points.size()), 400.0 * 18.0 * 18.0,
               0.01 * 400.0 * 18.0 * 18.0);
 }
@@ -189,14 +189,14 @@ TEST(Photogrammetry, GrazingViewsSeeNothing) {
 TEST(Photogrammetry, LevelGroundHasTheWantedDensity) {
   const WorldModel world = test::level_world(50.0, {});
   for (const double density : {3.0, 250.0, 1500.0}) {
-    const Made made = sample(world, grid_poses(), 7.0, plain(density));
+    const Sampled made = sample(world, grid_poses(), 7.0, plain(density));
     EXPECT_NEAR(static_cast<double>(made.cloud.points.size()), density * 196.0,
                 0.02 * density * 196.0 + 3.0);
   }
   // One pixel of 40 m / 1000 is 1 / 625 m2.
   PhotogrammetryOptions options = plain(1.0);
   options.density_per_m2.reset();
-  const Made made = sample(world, grid_poses(), 7.0, options);
+  const Sampled made = sample(world, grid_poses(), 7.0, options);
   EXPECT_NEAR(made.report.gsd_m, 0.04, 1e-12);
   EXPECT_NEAR(static_cast<double>(made.cloud.points.size()), 625.0 * 196.0, 0.01 * 625.0 * 196.0);
 }
@@ -208,7 +208,7 @@ TEST(Photogrammetry, ErrorsAreThoseOfForwardIntersection) {
                                    test::looking_down(8.0, 0.0, 40.0)};
   PhotogrammetryOptions options = plain(20000.0);
   options.match_px = 0.5;
-  const Made made = sample(world, poses, 1.0, options);
+  const Sampled made = sample(world, poses, 1.0, options);
   // GSD 40 mm; as in the normal case of stereo with a third picture between. Off the middle by up
   // to 1 m in 40 m, which changes less than 1 %.
   const double across = 0.5 * 0.04 / std::sqrt(3.0),
@@ -225,15 +225,15 @@ TEST(Photogrammetry, TheSameSeedGivesTheSameBitsHoweverItIsScheduled) {
   const WorldModel world = test::level_world(50.0, {test::box(kLow, kHigh)});
   PhotogrammetryOptions options = plain(700.0);
   options.match_px = 0.5;
-  const Made alone = sample(world, grid_poses(), 8.0, options);
-  Made crowded[3];
+  const Sampled alone = sample(world, grid_poses(), 8.0, options);
+  Sampled crowded[3];
   {
     std::vector<std::jthread> threads;
-    for (Made& made : crowded) {
+    for (Sampled& made : crowded) {
       threads.emplace_back([&] { made = sample(world, grid_poses(), 8.0, options); });
     }
   }
-  for (const Made& made : crowded) {
+  for (const Sampled& made : crowded) {
     EXPECT_TRUE(made.cloud == alone.cloud);
     EXPECT_EQ(made.report.tally.height_error2_m2, alone.report.tally.height_error2_m2);
   }

@@ -1,5 +1,5 @@
-#include "engine/api/map.h"
 #include "worlds/mapping/photogrammetry/uniform_cloud.h"
+#include "engine/api/map.h"
 
 #include <gtest/gtest.h>
 
@@ -11,13 +11,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-struct Made {
+struct Sampled {
   test::Collected cloud;
   CloudTally tally;
 };
 
-Made sample(const WorldModel& world, double half_m, const UniformCloudOptions& options) {
-  Made made;
+Sampled sample(const WorldModel& world, double half_m, const UniformCloudOptions& options) {
+  Sampled made;
   made.tally =
       sample_uniformly(world, SurveyArea(test::square(half_m), 0.0), options, made.cloud.sink());
   EXPECT_EQ(made.tally.points, static_cast<std::int64_t>(made.cloud.points.size()));
@@ -28,7 +28,7 @@ TEST(UniformCloud, EverySquareMetreOfSurfaceHasItsPoints) {
   const WorldModel world = test::level_world(50.0, {test::box({-2, -1, 0.5}, {2, 1, 2.0})});
   UniformCloudOptions options;
   options.density_per_m2 = 900.0;
-  const Made made = sample(world, 5.0, options);
+  const Sampled made = sample(world, 5.0, options);
   int ground = 0, top = 0, bottom = 0, sides = 0;
   for (const SampledPoint& point : made.cloud.points) {
     const Vector3d& p = point.p_W;
@@ -65,7 +65,7 @@ TEST(UniformCloud, NoiseIsTheSameAlongAllAxes) {
   const WorldModel world = test::level_world(50.0, {});
   UniformCloudOptions options;
   options.noise_m = 0.05;
-  const Made made = sample(world, 10.0, options);  // 80000 points: 0.25 % of a deviation
+  const Sampled made = sample(world, 10.0, options);  // 80000 points: 0.25 % of a deviation
   EXPECT_NEAR(made.tally.height_rms_m(), 0.05, 0.0007);
   EXPECT_NEAR(made.tally.horizontal_rms_m(), 0.05 * std::sqrt(2.0), 0.0007);
   double sum = 0.0;
@@ -81,7 +81,7 @@ TEST(UniformCloud, WeedsGrowBetweenRowsUpToTheirHeight) {
   world.rows->rows.push_back(row);
   UniformCloudOptions options;
   options.weeds.height_m = 0.5;
-  const Made made = sample(world, 15.0, options);
+  const Sampled made = sample(world, 15.0, options);
   double highest = 0.0, nearest = 100.0;
   int weeds = 0;
   for (const SampledPoint& point : made.cloud.points) {
@@ -105,7 +105,7 @@ TEST(UniformCloud, OutliersAreTheirShare) {
   const WorldModel world = test::level_world(50.0, {});
   UniformCloudOptions options;
   options.outliers = 0.1;
-  const Made made = sample(world, 10.0, options);
+  const Sampled made = sample(world, 10.0, options);
   const double count = static_cast<double>(made.cloud.points.size());
   EXPECT_NEAR(static_cast<double>(made.tally.outliers), 0.1 * count, 0.005 * count);
   int off = 0;
@@ -123,7 +123,7 @@ TEST(UniformCloud, TheSameSeedGivesTheSameBits) {
   options.noise_m = 0.02;
   options.weeds.height_m = 0.3;
   options.outliers = 0.01;
-  const Made one = sample(world, 12.0, options);
+  const Sampled one = sample(world, 12.0, options);
   EXPECT_TRUE(sample(world, 12.0, options).cloud == one.cloud);
   options.seed = 9;
   EXPECT_FALSE(sample(world, 12.0, options).cloud == one.cloud);

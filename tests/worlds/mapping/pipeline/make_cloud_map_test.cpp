@@ -71,20 +71,20 @@ TEST(MakeCloudMap, GivesAVehicleEverythingThatAWorldWould) {
 
   ASSERT_FALSE(map.occupancy.empty());
   // A row is taken, an alley free, and of every row one end is walled.
-  const auto is_taken = [&](const Eigen::Vector2d& p) {
+  const auto is_occupied = [&](const Eigen::Vector2d& p) {
     const Eigen::Vector2d cell = (p - map.occupancy.corner_W) / map.occupancy.cell_m;
     return map.occupancy.occupied(static_cast<int>(cell.x()), static_cast<int>(cell.y()));
   };
   int walled = 0;
   for (int k = 0; k < 5; ++k) {
-    EXPECT_TRUE(is_taken(parcel.place_W(k, 20.0, 0.0)));
+    EXPECT_TRUE(is_occupied(parcel.place_W(k, 20.0, 0.0)));
     if (k < 4) {
-      EXPECT_FALSE(is_taken(parcel.place_W(k, 20.0, 1.25)));
+      EXPECT_FALSE(is_occupied(parcel.place_W(k, 20.0, 1.25)));
     }
     const auto wall_at = [&](double s_m) {
       int hits = 0;
       for (double y_m = -0.2; y_m <= 0.2; y_m += 0.05) {
-        hits += is_taken(parcel.place_W(k, s_m, y_m)) ? 1 : 0;
+        hits += is_occupied(parcel.place_W(k, s_m, y_m)) ? 1 : 0;
       }
       return hits > 0;
     };
@@ -360,10 +360,10 @@ TEST(MakeCloudMap, ThinCloudsKeepTheirRowsAndSaySo) {
     for (const PlantRow& row : made.map.rows) EXPECT_LT(match(row, parcel).end_m, parcel.vine_m);
     EXPECT_NEAR(made.report.spacing_m, 2.5, 0.02);
     EXPECT_NEAR(made.report.bearing_deg, 67.0, 0.2);
-    const bool is_told = std::any_of(
+    const bool is_noted = std::any_of(
         made.report.notes.begin(), made.report.notes.end(),
         [](const auto& note) { return note.find("the cloud is thin") != std::string::npos; });
-    EXPECT_TRUE(is_told);
+    EXPECT_TRUE(is_noted);
   }
 }
 

@@ -371,7 +371,7 @@ TEST(RowPoints, TallWeedsBesideARowAreNotItsCanopy) {
       body_height_m(found.cloud, HeightAbove(found.terrain.field, found.cloud.origin_W), 0.55, 6.0);
   EXPECT_GT(options.body_cut_m, 0.7);
   gather_row_canopies(found.cloud, found.terrain.field, found.lines, options);
-  std::size_t weeds = 0, taken = 0;
+  std::size_t weeds = 0, misclassified = 0;
   for (std::size_t k = 0; k < found.cloud.points.size(); ++k) {
     const Eigen::Vector3d p = found.cloud.point_W(k);
     const double across = (p.y() - parcel.middle_W.y()) / parcel.spacing_m + 1.5;
@@ -379,10 +379,10 @@ TEST(RowPoints, TallWeedsBesideARowAreNotItsCanopy) {
     const double height_m = p.z() - parcel.ground_m(p.x(), p.y());
     if (off_m < 0.6 || across < -0.4 || across > 3.4 || height_m < 0.6) continue;
     ++weeds;
-    taken += found.cloud.classes[k] == PointClass::kCanopy ? 1 : 0;
+    misclassified += found.cloud.classes[k] == PointClass::kCanopy ? 1 : 0;
   }
   EXPECT_GT(weeds, 1000u);
-  EXPECT_LT(taken, weeds / 100);
+  EXPECT_LT(misclassified, weeds / 100);
 }
 
 }  // namespace

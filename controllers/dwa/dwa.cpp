@@ -70,7 +70,7 @@ class Dwa final : public Guidance {
     }
     seen_ranges_.assign(ranges_.size(), 0);
     out_ = ports.write<LocalCommand>("local_command");
-    news_ = ports.write<Event>("guidance_event");
+    event_writer_ = ports.write<Event>("guidance_event");
   }
 
   void step(Time now) override {
@@ -89,7 +89,7 @@ class Dwa final : public Guidance {
     }
     last_ = {command.front_axle_rad, command.rear_axle_rad};
     out_.write(now, command);
-    tell(now);
+    report_event(now);
   }
 
  private:
@@ -106,7 +106,7 @@ class Dwa final : public Guidance {
   }
 
   /// Reports the oldest pending event; allocates only if there is one.
-  void tell(Time now) {
+  void report_event(Time now) {
     DwaEvent pending;
     if (!guide_.take_event(&pending)) return;
     Event event;
@@ -135,7 +135,7 @@ class Dwa final : public Guidance {
         event.text = fmt::format("follows the plan again at ({:.2f}, {:.2f})", x, y);
         break;
     }
-    news_.write(now, event);
+    event_writer_.write(now, event);
   }
 
   std::string source_;
@@ -153,7 +153,7 @@ class Dwa final : public Guidance {
   SteeringReader actuators_;
   std::vector<SignalReader<RangeSample>> ranges_;
   SignalWriter<LocalCommand> out_;
-  SignalWriter<Event> news_;
+  SignalWriter<Event> event_writer_;
 };
 
 }  // namespace

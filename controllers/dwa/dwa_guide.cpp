@@ -44,14 +44,14 @@ void DwaGuide::set_plan(const PlannedPath& plan, Time now) {
 
 bool DwaGuide::take_event(DwaEvent* event) {
   if (event_count_ == 0) return false;
-  *event = news_[0];
-  std::move(news_.begin() + 1, news_.begin() + event_count_, news_.begin());
+  *event = events_[0];
+  std::move(events_.begin() + 1, events_.begin() + event_count_, events_.begin());
   --event_count_;
   return true;
 }
 
-void DwaGuide::tell(DwaEvent::Kind kind, const Eigen::Vector2d& p_W, double distance_m) {
-  if (event_count_ < kEventCapacity) news_[event_count_++] = {kind, p_W, distance_m};
+void DwaGuide::report_event(DwaEvent::Kind kind, const Eigen::Vector2d& p_W, double distance_m) {
+  if (event_count_ < kEventCapacity) events_[event_count_++] = {kind, p_W, distance_m};
 }
 
 void DwaGuide::report_obstacles(Time now, const Pose2& pose, const ObstacleMemory& memory) {
@@ -61,7 +61,7 @@ void DwaGuide::report_obstacles(Time now, const Pose2& pose, const ObstacleMemor
     for (const Eigen::Vector2d& p : memory.obstacles_W()) {
       if ((p - pose.p).norm() < (nearest - pose.p).norm()) nearest = p;
     }
-    tell(DwaEvent::Kind::kSeen, nearest, (nearest - pose.p).norm());
+    report_event(DwaEvent::Kind::kSeen, nearest, (nearest - pose.p).norm());
   }
   has_seen_ = true;
   last_seen_ = now;
@@ -108,7 +108,7 @@ LocalCommand DwaGuide::drive_forward(Time now, const DwaState& state,
     recovery_.forward(now, plan_.distance_m(), state.v_mps, true, true);
     if (is_off_plan_ && !recovery_.is_in_trouble() && (now - free_since_).s() >= kFollowAgain_s) {
       is_off_plan_ = false;
-      tell(DwaEvent::Kind::kFollow, state.pose.p, 0.0);
+      report_event(DwaEvent::Kind::kFollow, state.pose.p, 0.0);
     }
     return make_follow(state, speed, free_m);
   }
@@ -139,8 +139,9 @@ LocalCommand DwaGuide::drive_forward(Time now, const DwaState& state,
     return recovery_.state() == Recovery::State::kForward ? command : make_stop(state);
   }
   const double ahead_m = memory.nearest_ahead_m(state.pose, front_m_, half_width_m_);
-  tell(change == Recovery::Change::kReverse ? DwaEvent::Kind::kReverse : DwaEvent::Kind::kBlocked,
-       state.pose.p, ahead_m);
+  report_event(
+      change == Recovery::Change::kReverse ? DwaEvent::Kind::kReverse : DwaEvent::Kind::kBlocked,
+      state.pose.p, ahead_m);
   return make_stop(state);
 }
 

@@ -74,7 +74,7 @@ class DwaGuide {
   LocalCommand make_drive(const DwaChoice& choice) const;
   LocalCommand make_stop(const DwaState& state) const;
   double calc_follow_score(double speed_mps, double free_m, const DwaTask& task) const;
-  void tell(DwaEvent::Kind kind, const Eigen::Vector2d& p_W, double distance_m);
+  void report_event(DwaEvent::Kind kind, const Eigen::Vector2d& p_W, double distance_m);
   void report_obstacles(Time now, const Pose2& pose, const ObstacleMemory& memory);
 
   DwaGuideParams params_;
@@ -97,7 +97,7 @@ class DwaGuide {
   bool has_seen_ = false;
   Time last_seen_;
   static constexpr int kEventCapacity = 8;
-  std::array<DwaEvent, kEventCapacity> news_;
+  std::array<DwaEvent, kEventCapacity> events_;
   int event_count_ = 0;
 };
 

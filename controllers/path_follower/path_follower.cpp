@@ -128,7 +128,7 @@ class PathFollower final : public Controller, public MayFail {
       watch_.reset();
       fault_ = ports_.find_fault_in_plan();
       const std::string slower = describe_too_fast_plan(ports_.plan(), speed_mps_, "speed_mps");
-      if (!slower.empty()) ports_.tell(now, Event::Level::kWarning, slower);
+      if (!slower.empty()) ports_.report_event(now, Event::Level::kWarning, slower);
     }
     VelocityCommand command;
     if (ports_.has_estimate() && !watch_.is_lost() && fault_.empty()) {

@@ -106,7 +106,7 @@ class PurePursuit final : public Controller, public MayFail {
  private:
   void take_plan(Time now) {
     const std::string slower = describe_too_fast_plan(ports_.plan(), speed_mps_, "speed_mps");
-    if (!slower.empty()) ports_.tell(now, Event::Level::kWarning, slower);
+    if (!slower.empty()) ports_.report_event(now, Event::Level::kWarning, slower);
     law_.set_path(ports_.plan());
     stop_.reset();
     watch_.reset();

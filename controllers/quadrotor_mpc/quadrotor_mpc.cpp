@@ -115,11 +115,11 @@ class QuadrotorMpc final : public Controller {
     if (fails != has_failed_) {
       has_failed_ = fails;
       if (fails) {
-        tell(now, Event::Level::kError,
-             fmt::format("no optimal inputs (QP: {}): the last valid ones are used",
-                         to_string(law_.status())));
+        report_event(now, Event::Level::kError,
+                     fmt::format("no optimal inputs (QP: {}): the last valid ones are used",
+                                 to_string(law_.status())));
       } else {
-        tell(now, Event::Level::kInfo, "optimal inputs again");
+        report_event(now, Event::Level::kInfo, "optimal inputs again");
       }
       return;
     }
@@ -129,18 +129,19 @@ class QuadrotorMpc final : public Controller {
       case LimitWatch::PendingEvent::kNone:
         break;
       case LimitWatch::PendingEvent::kLeft:
-        tell(now, Event::Level::kWarning,
-             fmt::format("state outside its bounds: {}; soft constraints take over",
-                         watch_.describe(off)));
+        report_event(now, Event::Level::kWarning,
+                     fmt::format("state outside its bounds: {}; soft constraints take over",
+                                 watch_.describe(off)));
         break;
       case LimitWatch::PendingEvent::kBack:
-        tell(now, Event::Level::kInfo,
-             fmt::format("state back inside its bounds after {:.2f} s", watch_.outside_s()));
+        report_event(
+            now, Event::Level::kInfo,
+            fmt::format("state back inside its bounds after {:.2f} s", watch_.outside_s()));
         break;
     }
   }
 
-  void tell(Time now, Event::Level level, const std::string& text) {
+  void report_event(Time now, Event::Level level, const std::string& text) {
     event_.write(now, {level, part_, text});
   }
 

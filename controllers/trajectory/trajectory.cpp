@@ -34,7 +34,7 @@ class Trajectory final : public Guidance {
     if (!params_.hover_m) plan_ = ports.read<PlannedPath>("plan");
     authority_ = ports.read_optional<MovementAuthority>("authority");
     out_ = ports.write<ReferenceTrajectory>("reference");
-    news_ = ports.write<Event>("guidance_event");
+    event_writer_ = ports.write<Event>("guidance_event");
   }
 
   void step(Time now) override {
@@ -73,9 +73,9 @@ class Trajectory final : public Guidance {
         params_.hover_m ? ""
                         : describe_too_fast_plan(plan_.value(), params_.flight.limits.row_speed_mps,
                                                  "row_speed_mps");
-    tell(now, slower.empty() ? Event::Level::kInfo : Event::Level::kWarning,
-         fmt::format("takes off for {:.1f} m in {:.1f} s{}{}", flight_.length_m(),
-                     flight_.duration_s(), slower.empty() ? "" : "; ", slower));
+    report_event(now, slower.empty() ? Event::Level::kInfo : Event::Level::kWarning,
+                 fmt::format("takes off for {:.1f} m in {:.1f} s{}{}", flight_.length_m(),
+                             flight_.duration_s(), slower.empty() ? "" : "; ", slower));
   }
 
   /// Place at which the flight waits until it may continue.
@@ -107,9 +107,9 @@ class Trajectory final : public Guidance {
     has_landed_ = true;
     rest_.p_W = estimate.X_WB.p;
     rest_.yaw_rad = present.point.yaw_rad;
-    tell(now, Event::Level::kInfo,
-         fmt::format("landed at ({:.2f}, {:.2f}), {:.2f} m above the end of its plan",
-                     rest_.p_W.x(), rest_.p_W.y(), observation.above_end_m));
+    report_event(now, Event::Level::kInfo,
+                 fmt::format("landed at ({:.2f}, {:.2f}), {:.2f} m above the end of its plan",
+                             rest_.p_W.x(), rest_.p_W.y(), observation.above_end_m));
   }
 
   void write(Time now) {
@@ -156,14 +156,15 @@ class Trajectory final : public Guidance {
     }
     if (is_waiting_) return;
     is_waiting_ = true;
-    tell(now, Event::Level::kWarning,
-         fmt::format("the vehicle is {:.2f} m from the reference after {:.1f} m: waits for it",
-                     away_m, distance_m));
+    report_event(
+        now, Event::Level::kWarning,
+        fmt::format("the vehicle is {:.2f} m from the reference after {:.1f} m: waits for it",
+                    away_m, distance_m));
   }
 
   /// Allocates.
-  void tell(Time now, Event::Level level, std::string text) {
-    news_.write(now, {level, source_, std::move(text)});
+  void report_event(Time now, Event::Level level, std::string text) {
+    event_writer_.write(now, {level, source_, std::move(text)});
   }
 
   std::string source_;
@@ -183,7 +184,7 @@ class Trajectory final : public Guidance {
   SignalReader<PlannedPath> plan_;
   SignalReader<MovementAuthority> authority_;
   SignalWriter<ReferenceTrajectory> out_;
-  SignalWriter<Event> news_;
+  SignalWriter<Event> event_writer_;
 };
 
 }  // namespace

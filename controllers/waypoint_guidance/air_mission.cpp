@@ -48,7 +48,7 @@ bool AirMission::is_flying(const GuidanceState& state) const {
 }
 
 void AirMission::advance(double dt_s, const GuidanceState& state) {
-  news_.clear();
+  event_text_.clear();
   Wanted wanted;
   switch (stage_) {
     case Stage::kWait:
@@ -124,14 +124,16 @@ void AirMission::end_plan(const GuidanceState& state) {
   switch (params_.end) {
     case End::kStop:
       stage_ = Stage::kInAir;
-      tell(false,
-           fmt::format("ends its mission in the air at the last waypoint, after {:.0f} m, and "
-                       "circles about it",
-                       length_m_));
+      report_event(
+          false,
+          fmt::format("ends its mission in the air at the last waypoint, after {:.0f} m, and "
+                      "circles about it",
+                      length_m_));
       return;
     case End::kLoiter:
       stage_ = Stage::kLoiter;
-      tell(false, fmt::format("circles about the last waypoint for {:.0f} s", params_.loiter_s));
+      report_event(false,
+                   fmt::format("circles about the last waypoint for {:.0f} s", params_.loiter_s));
       return;
     case End::kLand:
       lay_landing(state);
@@ -145,9 +147,10 @@ AirMission::Wanted AirMission::fly_loiter(double dt_s, const GuidanceState& stat
   circling_s_ += dt_s;
   if (stage_ == Stage::kLoiter && circling_s_ >= params_.loiter_s) {
     stage_ = Stage::kInAir;
-    tell(false,
-         fmt::format("ends its mission in the air after {:.0f} s of circles, and keeps circling",
-                     circling_s_));
+    report_event(
+        false,
+        fmt::format("ends its mission in the air after {:.0f} s of circles, and keeps circling",
+                    circling_s_));
   }
   return wanted;
 }
@@ -223,13 +226,14 @@ void AirMission::watch_wind(double dt_s, const GuidanceState& state) {
   against_s_ = is_possible ? 0.0 : against_s_ + dt_s;
   if (has_reported_wind_ || against_s_ < kPatience_s) return;
   has_reported_wind_ = true;
-  tell(true, fmt::format("wind of {:.1f} m/s: no heading holds bearing {:.0f} deg at {:.1f} "
-                         "m/s through the air, points as far into the wind as useful",
-                         state.wind.norm(), bearing_deg(course_.course_rad), airspeed_mps_));
+  report_event(true,
+               fmt::format("wind of {:.1f} m/s: no heading holds bearing {:.0f} deg at {:.1f} "
+                           "m/s through the air, points as far into the wind as useful",
+                           state.wind.norm(), bearing_deg(course_.course_rad), airspeed_mps_));
 }
 
-void AirMission::tell(bool is_bad, std::string text) {
-  news_ = std::move(text);
+void AirMission::report_event(bool is_bad, std::string text) {
+  event_text_ = std::move(text);
   is_warning_ = is_bad;
 }
 

@@ -51,7 +51,7 @@ class AirMission {
   double distance_m(const GuidanceState& state) const;
   double length_m() const { return length_m_; }
   /// Event of the last call, "" if none; and whether it is a warning.
-  const std::string& event_text() const { return news_; }
+  const std::string& event_text() const { return event_text_; }
   bool is_warning() const { return is_warning_; }
   /// Place of the touchdown, once the vehicle is on its way there.
   std::optional<Eigen::Vector2d> touchdown() const;
@@ -108,7 +108,7 @@ class AirMission {
   Approach choose_approach(const GuidanceState& state, const Eigen::Vector2d& place) const;
   bool is_on_final(const GuidanceState& state) const;
   void watch_wind(double dt_s, const GuidanceState& state);
-  void tell(bool is_bad, std::string text);
+  void report_event(bool is_bad, std::string text);
 
   WaypointGuidanceParams params_;
   std::vector<FlightLeg> legs_;   // preceded by a path to the plan, if there is one
@@ -135,7 +135,7 @@ class AirMission {
   double against_s_ = 0.0;
   bool has_reported_wind_ = false;
   WantedCourse course_;
-  std::string news_;
+  std::string event_text_;
   std::string failure_;
   bool is_warning_ = false;
 };

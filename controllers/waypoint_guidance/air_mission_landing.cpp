@@ -129,7 +129,7 @@ void AirMission::lay_landing(const GuidanceState& state) {
         "land_bearing_deg or loiter_side",
         approach.clearance_m);
   }
-  tell(is_guess || is_low, std::move(text));
+  report_event(is_guess || is_low, std::move(text));
 }
 
 AirMission::Wanted AirMission::fly_descend(const GuidanceState& state) {
@@ -143,8 +143,8 @@ AirMission::Wanted AirMission::fly_descend(const GuidanceState& state) {
     stage_ = Stage::kLand;
     wanted_airspeed_mps_ = params_.approach_mps;
     pilot_.start(final_, 0, state, generator_.heading_rad(), false);
-    tell(false, fmt::format("glides from {:.1f} m above the touchdown",
-                            state.height_m - final_.front().frame.to_W().z()));
+    report_event(false, fmt::format("glides from {:.1f} m above the touchdown",
+                                    state.height_m - final_.front().frame.to_W().z()));
   }
   return wanted;
 }
@@ -202,10 +202,11 @@ AirMission::Wanted AirMission::fly_land(double dt_s, const GuidanceState& state)
   if (stationary_s_ >= kStationary_s) {
     stage_ = Stage::kDone;
     const Eigen::Vector2d goal = frame.to_W().head<2>();
-    tell(false, fmt::format("landed at ({:.1f}, {:.1f}), {:.1f} m from the planned touchdown and "
-                            "{:.2f} m above it",
-                            state.position.x(), state.position.y(), (state.position - goal).norm(),
-                            above_m));
+    report_event(false,
+                 fmt::format("landed at ({:.1f}, {:.1f}), {:.1f} m from the planned touchdown and "
+                             "{:.2f} m above it",
+                             state.position.x(), state.position.y(), (state.position - goal).norm(),
+                             above_m));
     const double off_m = (state.position - goal).norm();
     if (off_m > params_.land_tolerance_m) {
       failure_ = fmt::format(

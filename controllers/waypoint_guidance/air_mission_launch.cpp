@@ -14,8 +14,8 @@ void AirMission::launch(const GuidanceState& state) {
   generator_.start(state.yaw_rad, state.bank_left_rad);
   height_.start(state.height_m);
   course_ = {state.yaw_rad, 0.0};
-  tell(false, fmt::format("launches on bearing {:.0f} deg for {:.0f} m of plan",
-                          bearing_deg(state.yaw_rad), length_m_));
+  report_event(false, fmt::format("launches on bearing {:.0f} deg for {:.0f} m of plan",
+                                  bearing_deg(state.yaw_rad), length_m_));
 }
 
 void AirMission::join(const GuidanceState& state) {
@@ -29,8 +29,9 @@ void AirMission::join(const GuidanceState& state) {
     height_.start(state.height_m);
     course_ = {unwrap_near(state.course_rad(), state.yaw_rad), 0.0};
     stage_ = Stage::kLaunch;
-    tell(false, fmt::format("is in the air, {:.0f} m from the plan's first leg: flies to its start",
-                            away_m));
+    report_event(
+        false, fmt::format("is in the air, {:.0f} m from the plan's first leg: flies to its start",
+                           away_m));
     return;
   }
   stage_ = Stage::kLegs;
@@ -49,8 +50,9 @@ void AirMission::join(const GuidanceState& state) {
   generator_.start(points_along ? heading_rad : state.yaw_rad,
                    points_along ? 0.0 : state.bank_left_rad);
   height_.start(is_level ? height_m : state.height_m);
-  tell(false, fmt::format("is in the air, {:.1f} m from the plan's first leg: follows {:.0f} m",
-                          away_m, length_m_));
+  report_event(false,
+               fmt::format("is in the air, {:.1f} m from the plan's first leg: follows {:.0f} m",
+                           away_m, length_m_));
 }
 
 AirMission::Wanted AirMission::fly_launch(const GuidanceState& state) {
@@ -72,9 +74,10 @@ AirMission::Wanted AirMission::fly_launch(const GuidanceState& state) {
       if (climbs) {
         circle_ = circle;
         stage_ = Stage::kClimb;
-        tell(false, fmt::format("circles to climb from {:.0f} m until the path to the first "
-                                "waypoint at {:.0f} m can be flown",
-                                state.height_m, goal_W_.z()));
+        report_event(false,
+                     fmt::format("circles to climb from {:.0f} m until the path to the first "
+                                 "waypoint at {:.0f} m can be flown",
+                                 state.height_m, goal_W_.z()));
       } else {
         start_transit(state);
       }

@@ -41,7 +41,7 @@ class WaypointGuidance final : public Guidance, public MayFail, public SeesGroun
     plan_ = ports.read<PlannedPath>("plan");
     if (!params_.air_data.empty()) air_ = ports.read<AirData>(params_.air_data);
     out_ = ports.write<AirReference>("reference");
-    news_ = ports.write<Event>("guidance_event");
+    event_writer_ = ports.write<Event>("guidance_event");
     landing_out_ = ports.write<NamedValues>("landing");
   }
 
@@ -88,7 +88,7 @@ class WaypointGuidance final : public Guidance, public MayFail, public SeesGroun
     if (!plan_.is_newer_than(seen_plan_)) return;
     Result<FlightLegs> plan = make_flight_legs(plan_.value(), params_.legs);
     if (!plan) {
-      tell(now, Event::Level::kWarning, plan.reason() + ": waits for another");
+      report_event(now, Event::Level::kWarning, plan.reason() + ": waits for another");
       return;
     }
     for (const std::string& warning : plan->warnings) {
@@ -123,8 +123,8 @@ class WaypointGuidance final : public Guidance, public MayFail, public SeesGroun
     const std::string& event_text = mission_.event_text();
     if (event_text.empty() && warnings_.empty()) return;
     const bool is_bad = !warnings_.empty() || mission_.is_warning();
-    tell(now, is_bad ? Event::Level::kWarning : Event::Level::kInfo,
-         event_text + (event_text.empty() || warnings_.empty() ? "" : "; ") + warnings_);
+    report_event(now, is_bad ? Event::Level::kWarning : Event::Level::kInfo,
+                 event_text + (event_text.empty() || warnings_.empty() ? "" : "; ") + warnings_);
     warnings_.clear();
   }
 
@@ -156,8 +156,8 @@ class WaypointGuidance final : public Guidance, public MayFail, public SeesGroun
   }
 
   /// Allocates.
-  void tell(Time now, Event::Level level, std::string text) {
-    news_.write(now, {level, source_, std::move(text)});
+  void report_event(Time now, Event::Level level, std::string text) {
+    event_writer_.write(now, {level, source_, std::move(text)});
   }
 
   std::string source_;
@@ -175,7 +175,7 @@ class WaypointGuidance final : public Guidance, public MayFail, public SeesGroun
   SignalReader<PlannedPath> plan_;
   SignalReader<AirData> air_;
   SignalWriter<AirReference> out_;
-  SignalWriter<Event> news_;
+  SignalWriter<Event> event_writer_;
   SignalWriter<NamedValues> landing_out_;  ///< planned touchdown, once
   NamedValues landing_;
   bool has_written_landing_ = false;

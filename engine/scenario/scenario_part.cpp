@@ -253,9 +253,9 @@ std::vector<std::string> fixed_signals(const PartSpec& spec) {
   return signals;
 }
 
-ReadPart read_part(const io::YamlEntry& given, const std::string& path, PartKind kind,
+ReadPart read_part(const io::YamlEntry& original, const std::string& path, PartKind kind,
                    const ReadContext& context, const std::vector<std::string>& extra_keys) {
-  io::YamlEntry entry = given;
+  io::YamlEntry entry = original;
   const std::vector<std::string> types = context.registry.names(kind);
   io::YamlNode located = entry.value;
   if (located.is_null()) located.mark = entry.mark;

@@ -188,17 +188,17 @@ void VehicleRuntime::try_to_plan(Time now) {
   }
   planned_ = true;
   parts_->plan.write(now, *plan);
-  std::string told =
+  std::string event_text =
       fmt::format("planned {:.2f} m with {} points", plan->length_m, plan->points.size());
   if (const PlanReport* report = parts_->planner ? parts_->planner->report() : nullptr) {
     plan_numbers_ = report->numbers;
     if (!report->tree.points_W.empty()) parts_->tree.write(now, report->tree);
     // Some planners report dozens of numbers, too many for a sentence.
     if (!report->numbers.empty()) {
-      told += fmt::format("; its numbers are in summary.json, planning.{}", config_.name);
+      event_text += fmt::format("; its numbers are in summary.json, planning.{}", config_.name);
     }
   }
-  run_.emit(Event::Level::kInfo, config_.name + ".planner", told);
+  run_.emit(Event::Level::kInfo, config_.name + ".planner", event_text);
 }
 
 void VehicleRuntime::check_command(const SignalBase& value) const {
@@ -266,7 +266,8 @@ std::map<std::string, double> VehicleRuntime::metric_results() const {
   for (const auto& [payload, part] : parts_->payloads) {
     for (const auto& [name, value] : part->results()) all[payload + "_" + name] = value;
   }
-  if (separation_) all["min_vehicle_distance_m"] = separation_->least(separation_index_).distance_m;
+  if (separation_)
+    all["min_vehicle_distance_m"] = separation_->closest(separation_index_).distance_m;
   if (!worked_) {
     for (auto& [name, value] : all) value = std::numeric_limits<double>::quiet_NaN();
   }

@@ -179,11 +179,11 @@ void VehicleWatch::watch_contacts(Time now) {
 
 void VehicleWatch::check_progress(Time now, const Eigen::Vector3d& p_W,
                                   const std::vector<double>& actuators) {
-  std::string told = progress_.update(now, p_W, actuators, now - progress_seen_);
+  std::string reason = progress_.update(now, p_W, actuators, now - progress_seen_);
   progress_seen_ = now;
-  if (told.empty()) return;
-  told += fmt::format(", at x = {:.2f} m, y = {:.2f} m", p_W.x(), p_W.y());
-  set_crash(now, EndKind::kStuck, std::move(told));
+  if (reason.empty()) return;
+  reason += fmt::format(", at x = {:.2f} m, y = {:.2f} m", p_W.x(), p_W.y());
+  set_crash(now, EndKind::kStuck, std::move(reason));
 }
 
 }  // namespace vinerow

@@ -126,23 +126,23 @@ void FixedWing::meet_faults(Time now) {
         break;
       case FixedWingFault::Kind::kMotorFailure:
         motor_runs_ = false;
-        tell(Event::Level::kError, "the motor fails");
+        report_event(Event::Level::kError, "the motor fails");
         break;
       case FixedWingFault::Kind::kElevonStuck:
         stuck_[fault.left ? 0 : 1] = true;
-        tell(Event::Level::kError,
-             fmt::format("the {} elevon is stuck at {:.1f} deg", fault.left ? "left" : "right",
-                         deg_from_rad(states_[fault.left ? 1 : 2])));
+        report_event(Event::Level::kError, fmt::format("the {} elevon is stuck at {:.1f} deg",
+                                                       fault.left ? "left" : "right",
+                                                       deg_from_rad(states_[fault.left ? 1 : 2])));
         break;
     }
   }
   if (motor_runs_ && battery_.charge <= 0.0) {
     motor_runs_ = false;
-    tell(Event::Level::kError, "battery empty: the motor stops");
+    report_event(Event::Level::kError, "battery empty: the motor stops");
   }
 }
 
-void FixedWing::tell(Event::Level level, std::string text) {
+void FixedWing::report_event(Event::Level level, std::string text) {
   news_.push_back({level, name_, std::move(text)});
 }
 
@@ -210,7 +210,7 @@ void FixedWing::after_physics(Time now, Duration dt) {
     f_W += launcher_.acceleration_W();
     if (!launcher_.holds()) {
       world_->set_kinematic(body_id_, false);
-      tell(Event::Level::kInfo, fmt::format("launched at {:.1f} m/s", state.v_WB_W.norm()));
+      report_event(Event::Level::kInfo, fmt::format("launched at {:.1f} m/s", state.v_WB_W.norm()));
     }
     world_->set_state(body_id_, state);
     motion_.take(state, dt.s());

@@ -80,7 +80,7 @@ class FixedWing final : public Vehicle {
   void meet_faults(Time now);
   /// Advances motor and servos. @returns the mean of the throttle squared over the step
   double move_actuators(Duration dt, Elevons& middle);
-  void tell(Event::Level level, std::string text);
+  void report_event(Event::Level level, std::string text);
   double wanted_throttle() const;
 
   FixedWingParams params_;

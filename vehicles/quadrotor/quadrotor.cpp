@@ -126,16 +126,16 @@ void Quadrotor::meet_faults(Time now) {
     }
     // Thrust goes with the speed squared.
     speed_share_[*fault.rotor] = std::sqrt(fault.remaining);
-    tell(Event::Level::kError, fmt::format("rotor {} fails: {:.0f} % of its thrust left",
-                                           *fault.rotor + 1, 100.0 * fault.remaining));
+    report_event(Event::Level::kError, fmt::format("rotor {} fails: {:.0f} % of its thrust left",
+                                                   *fault.rotor + 1, 100.0 * fault.remaining));
   }
   if (powered_ && battery_.charge <= 0.0) {
     powered_ = false;
-    tell(Event::Level::kError, "battery empty: the rotors stop");
+    report_event(Event::Level::kError, "battery empty: the rotors stop");
   }
 }
 
-void Quadrotor::tell(Event::Level level, std::string text) {
+void Quadrotor::report_event(Event::Level level, std::string text) {
   news_.push_back({level, name_, std::move(text)});
 }
 

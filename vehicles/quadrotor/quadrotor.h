@@ -92,7 +92,7 @@ class Quadrotor final : public Vehicle {
   void feel_ground();
   void press_feet(Eigen::Vector3d& force_W, Eigen::Vector3d& torque_W);
   Load run_rotors(double dt_s, const Eigen::Vector3d& air_B, const Eigen::Vector3d& w_B);
-  void tell(Event::Level level, std::string text);
+  void report_event(Event::Level level, std::string text);
   double wanted_radps(std::size_t rotor) const;
 
   QuadrotorParams params_;

@@ -154,7 +154,7 @@ class SdfModels {
     for (const io::SdfMesh& mesh : model.meshes) {
       std::error_code error;
       if (!std::filesystem::is_regular_file(mesh.file, error)) {
-        tell(fmt::format("model '{}': mesh '{}' is missing", include.model, mesh.uri));
+        report_event(fmt::format("model '{}': mesh '{}' is missing", include.model, mesh.uri));
         miss(include, fmt::format("model '{}': mesh '{}' is not at '{}'", include.model, mesh.uri,
                                   mesh.file.lexically_normal().string()));
         continue;
@@ -170,8 +170,8 @@ class SdfModels {
     std::vector<std::string> left_out = model.other_shapes;
     std::erase(left_out, "plane");  // `ground` lays one
     if (!left_out.empty()) {
-      tell(fmt::format("model '{}': {} left out, only meshes are read", include.model,
-                       words_once(std::move(left_out))));
+      report_event(fmt::format("model '{}': {} left out, only meshes are read", include.model,
+                               words_once(std::move(left_out))));
     }
     if (object.begin == object.end) return;
     objects_.push_back(object);
@@ -182,7 +182,7 @@ class SdfModels {
     if (!first_miss_.empty()) return;
     first_miss_ = fmt::format("{}:{}: {}", params_.sdf_file.string(), include.line, sentence);
   }
-  void tell(const std::string& note) {
+  void report_event(const std::string& note) {
     const auto known = std::find(world_.notes.begin(), world_.notes.end(), note);
     if (known == world_.notes.end()) world_.notes.push_back(note);
   }

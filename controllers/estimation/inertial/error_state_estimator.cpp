@@ -33,11 +33,11 @@ class ErrorStateEstimator final : public Estimator {
     if (!options_.starts_level) truth_ = ports.read<Odometry>("truth");
     estimate_ = ports.write<Odometry>("estimate");
     state_ = ports.write<NamedValues>("estimator_state");
-    news_.connect(ports);
+    events_.connect(ports);
   }
 
   void step(Time now) override {
-    news_.write(now);
+    events_.write(now);
     if (!filter_.started() && !try_to_start(now)) return;
     predict(now);
     sources_.correct(!is_silent_);
@@ -161,7 +161,7 @@ class ErrorStateEstimator final : public Estimator {
   SignalReader<ImuSample> imu_;
   SignalWriter<Odometry> estimate_;
   SignalWriter<NamedValues> state_;
-  EstimatorEvents news_;
+  EstimatorEvents events_;
 };
 
 }  // namespace

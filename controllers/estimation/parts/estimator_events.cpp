@@ -4,7 +4,7 @@
 
 namespace vinerow::controllers {
 
-void EstimatorEvents::tell(Event::Level level, std::string text) {
+void EstimatorEvents::report_event(Event::Level level, std::string text) {
   Event event;  // its source is the writer of the signal
   event.level = level;
   event.text = std::move(text);

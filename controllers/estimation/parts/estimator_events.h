@@ -32,7 +32,7 @@ class CountedEvent {
 class EstimatorEvents {
  public:
   void connect(Ports& ports) { out_ = ports.write<Event>("estimator_event"); }
-  void tell(Event::Level level, std::string text);
+  void report_event(Event::Level level, std::string text);
   /// Writes the next waiting event. A signal holds one event, so events of the same tick are
   /// written in successive ticks. Allocates only when events are queued.
   void write(Time now);

@@ -121,7 +121,7 @@ class DistanceFilter final : public Estimator {
     estimate_ = ports.write<Odometry>("estimate");
     ellipsoid_ = ports.write<PositionEllipsoid>("ellipsoid");
     state_out_ = ports.write<NamedValues>("estimator_state");
-    news_.connect(ports);
+    events_.connect(ports);
   }
 
   void step(Time now) override {
@@ -136,7 +136,7 @@ class DistanceFilter final : public Estimator {
       law_.take_plane(plane->measured, plane->normal_W, plane->offset_m, plane->std_m);
     }
     take_ranges();
-    tell(now);
+    report_event(now);
     write(now);
   }
 
@@ -197,23 +197,25 @@ class DistanceFilter final : public Estimator {
     }
   }
 
-  void tell(Time now) {
+  void report_event(Time now) {
     const Pose X_WB{law_.q_WB(), law_.kalman().p_W()};
     const DistanceFilterLaw::Counters& counters = law_.counters();
     if (lost_event_.is_due(now, counters.lost)) {
-      news_.tell(Event::Level::kWarning,
-                 fmt::format("lost near ({:.1f}, {:.1f}): echoes or fixes contradict the estimate; "
-                             "its variance has been increased ({} so far)",
-                             X_WB.p.x(), X_WB.p.y(), counters.lost));
+      events_.report_event(
+          Event::Level::kWarning,
+          fmt::format("lost near ({:.1f}, {:.1f}): echoes or fixes contradict the estimate; "
+                      "its variance has been increased ({} so far)",
+                      X_WB.p.x(), X_WB.p.y(), counters.lost));
     }
     if (has_event_.is_due(now, counters.set_restarts)) {
-      news_.tell(Event::Level::kWarning,
-                 fmt::format("the ellipsoid was empty near ({:.1f}, {:.1f}): its bounds contradict "
-                             "each other; it restarts at the estimate ({} so far)",
-                             X_WB.p.x(), X_WB.p.y(), counters.set_restarts));
+      events_.report_event(
+          Event::Level::kWarning,
+          fmt::format("the ellipsoid was empty near ({:.1f}, {:.1f}): its bounds contradict "
+                      "each other; it restarts at the estimate ({} so far)",
+                      X_WB.p.x(), X_WB.p.y(), counters.set_restarts));
     }
-    if (index_) watch_.look(now, *index_, sensors_, X_WB, reach_m_, news_);
-    news_.write(now);
+    if (index_) watch_.look(now, *index_, sensors_, X_WB, reach_m_, events_);
+    events_.write(now);
   }
 
   void write(Time now) {
@@ -266,7 +268,7 @@ class DistanceFilter final : public Estimator {
   Eigen::Quaterniond q_start_WB_ = Eigen::Quaterniond::Identity();
   MapWatch watch_;
   CountedEvent lost_event_, has_event_;
-  EstimatorEvents news_;
+  EstimatorEvents events_;
   NamedValues state_;
   std::uint64_t seen_ins_ = 0, seen_fix_ = 0;
   SignalReader<Odometry> truth_, ins_;

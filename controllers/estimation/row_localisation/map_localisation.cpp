@@ -157,7 +157,7 @@ class MapLocalisation final : public Estimator {
     ground_.connect(ports);
     estimate_ = ports.write<Odometry>("estimate");
     state_writer_ = ports.write<NamedValues>("estimator_state");
-    news_.connect(ports);
+    events_.connect(ports);
     state_.names = {"filters",     "best_weight",      "nis_range",          "nis_gnss_position",
                     "echoes",      "echoes_gated",     "echoes_unexplained", "fixes",
                     "fixes_gated", "heights",          "heights_gated",      "refused",
@@ -187,7 +187,7 @@ class MapLocalisation final : public Estimator {
       law_.correct_plane(plane->measured, plane->normal_W, plane->offset_m, plane->std_m);
     }
     for (std::size_t i = 0; i < ranges_.size(); ++i) take_range(static_cast<int>(i));
-    tell(now);
+    report_event(now);
     write(now, known_ins_);
   }
 
@@ -221,18 +221,19 @@ class MapLocalisation final : public Estimator {
     law_.correct_range(stamp, i, sample.range_m, std::max(period_s, 1e-3));
   }
 
-  void tell(Time now) {
+  void report_event(Time now) {
     const LocalisationState& state = law_.state();
     const int lost = law_.counters().lost;
     if (lost_event_.is_due(now, lost)) {
-      news_.tell(Event::Level::kWarning,
-                 fmt::format("lost: echoes or fixes contradict the estimate; it restarts near "
-                             "({:.1f}, {:.1f}), possible alleys: {} ({} so far)",
-                             state.p_W().x(), state.p_W().y(), law_.filter_count(), lost));
+      events_.report_event(
+          Event::Level::kWarning,
+          fmt::format("lost: echoes or fixes contradict the estimate; it restarts near "
+                      "({:.1f}, {:.1f}), possible alleys: {} ({} so far)",
+                      state.p_W().x(), state.p_W().y(), law_.filter_count(), lost));
     }
     const Pose X_MB{known_ins_.X_WB.q, state.p_W() - state.map_shift_W()};
-    watch_.look(now, index_, sensors_, X_MB, max_range_m_, news_);
-    news_.write(now);
+    watch_.look(now, index_, sensors_, X_MB, max_range_m_, events_);
+    events_.write(now);
   }
 
   void write(Time now, const Odometry& ins) {
@@ -293,7 +294,7 @@ class MapLocalisation final : public Estimator {
   MapWatch watch_;
   int ground_echoes_ = 0;
   CountedEvent lost_event_;
-  EstimatorEvents news_;
+  EstimatorEvents events_;
   std::uint64_t seen_fix_ = 0;
   SignalWriter<Odometry> estimate_;
   SignalWriter<NamedValues> state_writer_;

@@ -20,13 +20,13 @@ void MapWatch::look(Time now, const RowMeshIndex& map, const std::vector<RangeSe
     last_wall_ = now;
     if (!is_without_) return;
     is_without_ = false;
-    events.tell(Event::Level::kInfo,
-                fmt::format("the map has walls within reach again at ({:.1f}, {:.1f})", X_MB.p.x(),
-                            X_MB.p.y()));
+    events.report_event(Event::Level::kInfo,
+                        fmt::format("the map has walls within reach again at ({:.1f}, {:.1f})",
+                                    X_MB.p.x(), X_MB.p.y()));
   } else if (!is_without_ && now - last_wall_ > kLong) {
     is_without_ = true;
     ++times_without_;
-    events.tell(
+    events.report_event(
         Event::Level::kInfo,
         fmt::format("the map has had no wall within {:.1f} m of the range sensors for {:.0f} "
                     "s, now at ({:.1f}, {:.1f}): echoes are not used",

@@ -52,7 +52,7 @@ class AircraftMpc final : public Controller {
   void step(Time now) override {
     const bool has_reported = !promise_.empty();
     if (has_reported) {
-      tell(now, Event::Level::kInfo, promise_);
+      report_event(now, Event::Level::kInfo, promise_);
       promise_.clear();
     }
     if (!ports_.is_flying()) {
@@ -81,12 +81,13 @@ class AircraftMpc final : public Controller {
     if (fails != has_failed_) {
       has_failed_ = fails;
       if (fails) {
-        tell(now, Event::Level::kError,
-             fmt::format("no optimal inputs (QP: longitudinal {}, lateral {}): the feedback K x "
-                         "takes over",
-                         to_string(tube_.lon_status()), to_string(tube_.lat_status())));
+        report_event(
+            now, Event::Level::kError,
+            fmt::format("no optimal inputs (QP: longitudinal {}, lateral {}): the feedback K x "
+                        "takes over",
+                        to_string(tube_.lon_status()), to_string(tube_.lat_status())));
       } else {
-        tell(now, Event::Level::kInfo, "optimal inputs again");
+        report_event(now, Event::Level::kInfo, "optimal inputs again");
       }
       return;
     }
@@ -101,19 +102,20 @@ class AircraftMpc final : public Controller {
       case TubeWatch::PendingEvent::kNone:
         return false;
       case TubeWatch::PendingEvent::kLeft:
-        tell(now, Event::Level::kWarning,
-             fmt::format("{} axis outside its tube by {}; soft constraints take over", name,
-                         axis.describe_violation()));
+        report_event(now, Event::Level::kWarning,
+                     fmt::format("{} axis outside its tube by {}; soft constraints take over", name,
+                                 axis.describe_violation()));
         return true;
       case TubeWatch::PendingEvent::kBack:
-        tell(now, Event::Level::kInfo,
-             fmt::format("{} axis back inside its tube after {:.2f} s", name, watch.outside_s()));
+        report_event(
+            now, Event::Level::kInfo,
+            fmt::format("{} axis back inside its tube after {:.2f} s", name, watch.outside_s()));
         return true;
     }
     return false;
   }
 
-  void tell(Time now, Event::Level level, const std::string& text) {
+  void report_event(Time now, Event::Level level, const std::string& text) {
     event_.write(now, {level, part_, text});
   }
 

@@ -21,7 +21,7 @@ class DrivePorts {
   void connect(Ports& ports);
 
   /// Reports an event. Allocates.
-  void tell(Time now, Event::Level level, const std::string& text) {
+  void report_event(Time now, Event::Level level, const std::string& text) {
     event_.write(now, {level, part_, text});
   }
 

@@ -109,7 +109,7 @@ Result<PathSegments> drive_around(const RouteLeg& leg, const Footprint& footprin
     }
     if (!found) {
       return Failure{fmt::format("the leg in alley {} is blocked: {}; no path around it: {}",
-                                 leg.alley, clearance.tell(pose_on(straights, stretch.from_m)),
+                                 leg.alley, clearance.describe(pose_on(straights, stretch.from_m)),
                                  reason)};
     }
     path.insert(path.end(), found->begin(), found->end());

@@ -35,7 +35,7 @@ double RouteClearance::clearance_m(const PathSegment& piece) const {
   return footprint_.clearance_along_m(piece.start, piece.length_m, piece.curvature_per_m, step_m_);
 }
 
-std::string RouteClearance::tell(const Pose2& pose) const {
+std::string RouteClearance::describe(const Pose2& pose) const {
   double distance_m = 0.0;
   if (const PlantRow* row = find_row_at(map_, pose.p, distance_m)) {
     return fmt::format(
@@ -48,7 +48,7 @@ std::string RouteClearance::tell(const Pose2& pose) const {
 std::optional<std::string> RouteClearance::find_blocked_end(const RouteLeg& leg) const {
   for (const auto& [end, name] : {std::pair(leg.entry(), "entrance"), {leg.exit(), "exit"}}) {
     if (footprint_.is_free(end)) continue;
-    return fmt::format("{} of alley {} blocked: {}", name, leg.alley, tell(end));
+    return fmt::format("{} of alley {} blocked: {}", name, leg.alley, describe(end));
   }
   return std::nullopt;
 }
@@ -62,7 +62,7 @@ std::optional<std::string> RouteClearance::find_blocked(const RouteLeg& leg) con
     for (int i = 0; i <= parts; ++i) {
       const Pose2 pose = piece.at(piece.length_m * i / parts);
       if (footprint_.is_free(pose)) continue;
-      return fmt::format("the leg in alley {} is blocked: {}", leg.alley, tell(pose));
+      return fmt::format("the leg in alley {} is blocked: {}", leg.alley, describe(pose));
     }
   }
   return std::nullopt;

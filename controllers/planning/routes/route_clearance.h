@@ -21,7 +21,7 @@ class RouteClearance {
   double clearance_m(const PathSegment& piece) const;
   /// Reason why a pose is not free: "(1.25, 3.00) heading 90.0 deg is in a row: 0.10 m from the
   /// centre line of row 2, whose canopy is 0.60 m wide".
-  std::string tell(const Pose2& pose) const;
+  std::string describe(const Pose2& pose) const;
   /// @returns nullopt if both ends of the leg are free, else a sentence on the blocked one
   std::optional<std::string> find_blocked_end(const RouteLeg& leg) const;
   /// @returns nullopt if the whole leg is free, else a sentence with the blocked place

@@ -56,7 +56,8 @@ class RoutePlanner final : public Planner {
     auto legs = make_row_route(map_, params_.route, pose.p);
     if (!legs) return Failure{legs.reason()};
     std::vector<RouteLeg> route = *legs;
-    if (!footprint_.is_free(pose)) return Failure{"start in collision: " + clearance_.tell(pose)};
+    if (!footprint_.is_free(pose))
+      return Failure{"start in collision: " + clearance_.describe(pose)};
     for (const RouteLeg& leg : route) {
       if (const auto fault = clearance_.find_blocked_end(leg)) return Failure{*fault};
     }

@@ -21,7 +21,7 @@ std::optional<std::string> find_collision(const Pose2& pose, const char* name,
 }
 
 /// Adds a tree's nodes, iterations and edges, the latter as straight lines.
-void tell(const CarTree& tree, double radius_m, SearchReport& report) {
+void fill_report(const CarTree& tree, double radius_m, SearchReport& report) {
   constexpr double kStroke_m = 0.4;
   report.nodes += tree.nodes;
   report.iterations += tree.iterations;
@@ -74,7 +74,7 @@ Result<PathSegments> RrtStarSearch::find(const Pose2& from, const Pose2& to,
   } else {
     car.iterations = params_.first_iterations;
     const CarTree tree = run_rrt(car, sampling, random_of_(2 * problem));
-    tell(tree, car.radius_m, report);
+    fill_report(tree, car.radius_m, report);
     best = join_poses(tree.waypoints, car.radius_m);
     if (best.empty() || !is_free(best, footprint, params_.check_step_m)) {
       return Failure{
@@ -106,7 +106,7 @@ Result<PathSegments> RrtStarSearch::find(const Pose2& from, const Pose2& to,
   sampling.initial_path.erase(sampling.initial_path.begin());  // the root of the tree
   sampling.best_cost = [known] { return known; };
   const CarTree tree = run_rrt_star(car, sampling, random_of_(2 * problem + 1));
-  tell(tree, car.radius_m, report);
+  fill_report(tree, car.radius_m, report);
   if (tree.waypoints.size() > 1) improve(join_poses(tree.waypoints, car.radius_m));
   return best;
 } catch (const ompl::Exception& fault) {

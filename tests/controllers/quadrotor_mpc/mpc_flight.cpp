@@ -26,10 +26,10 @@ struct Sample {
 };
 
 /// Of the way: row, right arc, left arc, right arc, row.
-double curvature_at(const RowsAndTurnNumbers& n, double way_m, double total_m) {
+double curvature_at(const RowsAndTurnNumbers& n, double distance_m, double total_m) {
   const double R = n.radius_m, a = std::acos((R + 0.5 * n.spacing_m) / (2.0 * R));
-  double s = way_m - n.row_m;
-  if (s < 0.0 || way_m > total_m - n.row_m) return 0.0;
+  double s = distance_m - n.row_m;
+  if (s < 0.0 || distance_m > total_m - n.row_m) return 0.0;
   if (s < R * a) return -1.0 / R;
   s -= R * a;
   if (s < R * (M_PI + 2.0 * a)) return 1.0 / R;
@@ -44,19 +44,20 @@ RowsAndTurn make_rows_and_turn(const RowsAndTurnNumbers& n) {
   const double turn_m = n.radius_m * (M_PI + 4.0 * a), total_m = 2.0 * n.row_m + turn_m;
   const double k = 2.0 * M_PI / n.bump_length_m;
   auto table = std::make_shared<std::vector<Sample>>();
-  double way_m = 0.0, v = n.turn_mps;
+  double distance_m = 0.0, v = n.turn_mps;
   Eigen::Vector2d p(0.0, 0.0);
   double yaw = n.yaw_rad;
-  while (way_m < total_m) {
-    const bool in_turn = way_m >= n.row_m && way_m <= total_m - n.row_m;
+  while (distance_m < total_m) {
+    const bool in_turn = distance_m >= n.row_m && distance_m <= total_m - n.row_m;
     // Brakes so as to enter the turn, and to end, at the turn's speed.
-    const double left_m = way_m < n.row_m ? n.row_m - way_m : std::max(total_m - way_m, 0.0);
+    const double left_m =
+        distance_m < n.row_m ? n.row_m - distance_m : std::max(total_m - distance_m, 0.0);
     const double may = in_turn ? n.turn_mps
                                : std::min(n.row_mps, std::sqrt(n.turn_mps * n.turn_mps +
                                                                2.0 * n.acceleration_mps2 * left_m));
     double acceleration = std::clamp((may - v) / kDt_s, -n.acceleration_mps2, n.acceleration_mps2);
     if (std::abs(may - v) < 1e-9) acceleration = 0.0;
-    const double curvature = curvature_at(n, way_m, total_m);
+    const double curvature = curvature_at(n, distance_m, total_m);
     const Eigen::Vector2d t(std::cos(yaw), std::sin(yaw)), left(-t.y(), t.x());
     const Eigen::Vector2d east(std::cos(n.yaw_rad), std::sin(n.yaw_rad));
     // Height by the place along the first row.
@@ -78,7 +79,7 @@ RowsAndTurn make_rows_and_turn(const RowsAndTurnNumbers& n) {
     p += step * (std::cos(0.5 * bend) * t + std::sin(0.5 * bend) * left);
     yaw += bend;
     v += acceleration * kDt_s;
-    way_m += step;
+    distance_m += step;
   }
   const auto at = [table](double time_s) -> const Sample& {
     const long index = std::lround(time_s / kDt_s);

@@ -62,7 +62,7 @@ Duration control_period(const QuadrotorSetup& setup) {
 LoopSetup make_loop_setup(const QuadrotorSetup& setup) {
   LoopSetup loop;
   loop.vehicle = "drone";
-  loop.description = describe(setup.told.value_or(setup.numbers));
+  loop.description = describe(setup.assumed.value_or(setup.numbers));
   loop.tick = setup.tick.ns > 0 ? setup.tick : control_period(setup);
   loop.physics = setup.physics;
   loop.gravity_mps2 = setup.numbers.gravity_mps2;

@@ -26,7 +26,7 @@ FlightPath row_and_turn(const Eigen::Vector3d& p_W, double yaw_rad, double speed
 
 struct QuadrotorSetup {
   QuadrotorNumbers numbers = make_q4t();
-  std::optional<QuadrotorNumbers> told;  ///< description for the controller; default: the truth
+  std::optional<QuadrotorNumbers> assumed;  ///< description for the controller; default: the truth
   PartChoice controller{"quadrotor_pid", {}};
   double rate_Hz = 0.0;      ///< of the controller; 0: its own
   Duration tick{1'000'000};  ///< of the loop; 0: the controller's period

@@ -22,10 +22,10 @@ Registry renamed_registry() {
       fake_spec("turner",
                 {formerly(number_parameter("max_turn_deg", "deg", 20.0, 0.0, 90.0, "of a turn"),
                           "most_turn_deg"),
-                 group_parameter("limits",
-                                 {formerly(number_parameter("min_m", "m", 1.0, 0.0, 9.0, "near"),
-                                           "least_m")},
-                                 "of distances"),
+                 group_parameter(
+                     "limits",
+                     {formerly(number_parameter("min_m", "m", 1.0, 0.0, 9.0, "near"), "least_m")},
+                     "of distances"),
                  group_list_parameter(
                      "stops",
                      {formerly(number_parameter("max_s", "s", 1.0, 0.0, 9.0, "waits"), "most_s")},
@@ -36,11 +36,14 @@ Registry renamed_registry() {
 }
 
 Scenario parse(const std::string& controller, const std::vector<std::string>& sets = {}) {
-  return parse_scenario("vinerow: 1\nworld: {type: flat}\nvehicles:\n  rover:\n    type: cart\n"
-                        "    wheel_radius_m: 0.2\n    spawn: {alley: 0, offset_m: 3.0}\n"
-                        "    controller: " +
-                            controller + "\n",
-                        "/", renamed_registry(), {.sets = sets});
+  Overrides overrides;
+  overrides.sets = sets;
+  return parse_scenario(
+      "vinerow: 1\nworld: {type: flat}\nvehicles:\n  rover:\n    type: cart\n"
+      "    wheel_radius_m: 0.2\n    spawn: {alley: 0, offset_m: 3.0}\n"
+      "    controller: " +
+          controller + "\n",
+      "/", renamed_registry(), overrides);
 }
 
 TEST(FormerNames, AreReadWithAWarningThatNamesTheNewKey) {
@@ -68,8 +71,7 @@ TEST(FormerNames, TheResolvedScenarioHasTheNewKeyAndGivesNoWarning) {
 }
 
 TEST(FormerNames, OfAnOverrideNameTheOverride) {
-  const Scenario scenario =
-      parse("{type: turner}", {"rover.controller.most_turn_deg=50"});
+  const Scenario scenario = parse("{type: turner}", {"rover.controller.most_turn_deg=50"});
   EXPECT_EQ(scenario.vehicles[0].controller->parameters.number("max_turn_deg"), 50.0);
   EXPECT_THAT(scenario.warnings,
               ElementsAre("--set rover.controller.most_turn_deg=50: "

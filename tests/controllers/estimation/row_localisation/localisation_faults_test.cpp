@@ -96,31 +96,31 @@ TEST_P(FaultsOf, RangesThatAreNoneAreRefused) {
   AlleyRun run(GetParam());
   run.drive(300, 1.0);
   const double echoes = run.bench.value("echoes"), gated = run.bench.value("echoes_gated");
-  const auto tell = [&](double range_m, Time stamp) {
+  const auto write_echo = [&](double range_m, Time stamp) {
     run.bench.write_motion({{Eigen::Quaterniond::Identity(), run.p_W}},
                            {{Eigen::Quaterniond::Identity(), run.p_W}});
     run.bench.write_range(0, range_m, stamp);
     run.bench.step();
     run.expect_sound();
   };
-  tell(kNaN, run.bench.now);
+  write_echo(kNaN, run.bench.now);
   EXPECT_EQ(refused(run), 1.0);
-  tell(-1.0, run.bench.now);
+  write_echo(-1.0, run.bench.now);
   EXPECT_EQ(refused(run), 2.0);
   // A good one; the same stamp once more; one from before it.
-  tell(1.0, run.bench.now);
+  write_echo(1.0, run.bench.now);
   const Time last = run.bench.now - LocalisationBench::kTick;
   EXPECT_EQ(run.bench.value("echoes"), echoes + 1);
-  tell(1.0, last);
+  write_echo(1.0, last);
   EXPECT_EQ(refused(run), 3.0);
-  tell(1.0, last - Duration{500'000'000});
+  write_echo(1.0, last - Duration{500'000'000});
   EXPECT_EQ(refused(run), 4.0);
-  tell(1.0, Time{-1'000'000'000});
+  write_echo(1.0, Time{-1'000'000'000});
   EXPECT_EQ(refused(run), 5.0);
   // Zero is a distance, but no wall is there; infinity says that nothing was seen.
-  tell(0.0, run.bench.now);
+  write_echo(0.0, run.bench.now);
   EXPECT_EQ(run.bench.value("echoes_gated"), gated + 1);
-  tell(kInf, run.bench.now);
+  write_echo(kInf, run.bench.now);
   EXPECT_EQ(refused(run), 5.0);
   EXPECT_EQ(run.bench.value("echoes"), echoes + 1);
   EXPECT_NEAR(run.bench.p_W().y(), 1.25, 0.01);

@@ -296,19 +296,20 @@ void robustness() {
 
 /// The filter of ours on the same flights.
 void better() {
-  const auto tell = [](const std::string& name, const LabSetup& setup,
-                       const controllers::MapLocalisationParams& params = {}, bool on_map = false,
-                       const std::function<bool(const LabSample&)>& counts = {}) {
+  const auto print_row = [](const std::string& name, const LabSetup& setup,
+                            const controllers::MapLocalisationParams& params = {},
+                            bool on_map = false,
+                            const std::function<bool(const LabSample&)>& counts = {}) {
     print(name, study(setup, seeds, map_localisation(params, on_map), counts));
   };
-  tell("nominal", {});
+  print_row("nominal", {});
   LabSetup setup;
   setup.height_std_m = 0.0;
-  tell("no height told", setup);
+  print_row("no height told", setup);
   setup = {};
   setup.cone_rad = 15.0 * kDeg;
   setup.filter_fan_rays = 7;
-  tell("cone", setup);
+  print_row("cone", setup);
   LabSetup hard = setup;
   hard.missed_share = 0.3;
   hard.false_share = 0.2;
@@ -316,25 +317,25 @@ void better() {
   hard.fix_age = 20;
   setup = {};
   setup.false_share = 0.2;
-  tell("false 20 %", setup);
-  tell("cone, missed, false, correlated and late fixes", hard);
+  print_row("false 20 %", setup);
+  print_row("cone, missed, false, correlated and late fixes", hard);
   setup = {};
   setup.outage_from_s = 30.0;
   setup.outage_to_s = 40.0;
-  tell("outage", setup, {}, false,
-       [](const LabSample& b) { return b.time_s >= 30.0 && b.time_s < 40.0; });
+  print_row("outage", setup, {}, false,
+            [](const LabSample& b) { return b.time_s >= 30.0 && b.time_s < 40.0; });
   for (const bool in_truth : {true, false}) {
     setup = {};
     (in_truth ? setup.world.true_gaps : setup.world.map_gaps) = make_gaps();
-    tell(in_truth ? "gaps in truth" : "gaps in the map", setup);
+    print_row(in_truth ? "gaps in truth" : "gaps in the map", setup);
   }
   setup = {};
   setup.world.map_offset_W = {0.025, 0.0433013, 0};
   controllers::MapLocalisationParams shifted;
   shifted.map_shift_std_m = 0.05;
-  tell("map bias 5 cm, its shift a state", setup, shifted);
-  tell("the same, place on the map", setup, shifted, true);
-  tell("no bias, its shift a state", {}, shifted);
+  print_row("map bias 5 cm, its shift a state", setup, shifted);
+  print_row("the same, place on the map", setup, shifted, true);
+  print_row("no bias, its shift a state", {}, shifted);
   for (const double fix_time_s : {0.0, 60.0}) {
     int wrong = 0, all = 0;
     for (const int alleys_off : {-1, 0, 1}) {

@@ -26,7 +26,7 @@ struct Bench {
     deviation = world.read<NamedValues>("deviation");
     follower = world.read<FollowerState>("follower");
   }
-  void tell(const Odometry& odometry, const AirReference& wanted) {
+  void report_event(const Odometry& odometry, const AirReference& wanted) {
     estimate.write(Time{}, odometry);
     reference.write(Time{}, wanted);
     ports->take_over();
@@ -78,7 +78,7 @@ TEST(AircraftPorts, DeviationIsThatOfAviationInTheWind) {
     // A heading clockwise from north is 90 deg less it, from east to the left; whole turns do not
     // matter.
     wanted.heading_rad = 0.5 * kPi - psi + 4.0 * kPi;
-    bench.tell(moved_from_trim(trim, x, wanted.wind_W, psi, wanted.height_m), wanted);
+    bench.report_event(moved_from_trim(trim, x, wanted.wind_W, psi, wanted.height_m), wanted);
     EXPECT_LT((bench.ports->deviation().lon - x.lon).cwiseAbs().maxCoeff(), 1e-12) << psi;
     EXPECT_LT((bench.ports->deviation().lat - x.lat).cwiseAbs().maxCoeff(), 1e-12) << psi;
   }
@@ -105,7 +105,7 @@ TEST(AircraftPorts, AnotherAirspeedHasATrimOfItsOwn) {
   point.u_mps = trim->u_mps;
   point.w_mps = trim->w_mps;
   point.pitch_rad = trim->pitch_rad;
-  bench.tell(moved_from_trim(point, {}, Eigen::Vector3d::Zero(), 0.0, 90.0), wanted);
+  bench.report_event(moved_from_trim(point, {}, Eigen::Vector3d::Zero(), 0.0, 90.0), wanted);
   // Between tables 1 m/s apart.
   EXPECT_NEAR(bench.ports->deviation().lon.head<4>().norm(), 0.0, 5e-3);
   EXPECT_GT(12.4 - cruise_u_mps, 0.3) << "at the trim of the cruise speed it would deviate";
@@ -115,7 +115,7 @@ TEST(AircraftPorts, WritesTrimPlusDeviationWithinTheActuatorsRanges) {
   Bench bench;
   AirReference wanted = fly_straight(0.5 * kPi, 90.0)(0.0);
   const controllers::TrimPoint trim = bench.ports->trims().cruise().at(0.0, 0.0);
-  bench.tell(moved_from_trim(trim, {}, Eigen::Vector3d::Zero(), 0.0, 90.0), wanted);
+  bench.report_event(moved_from_trim(trim, {}, Eigen::Vector3d::Zero(), 0.0, 90.0), wanted);
   controllers::AircraftControls left = bench.ports->write(Time{}, {0.1, 0.05, 0.02});
   const double de = trim.controls.elevator_rad + 0.05, da = trim.controls.aileron_rad + 0.02;
   const std::vector<double>& values = bench.actuators.value().values;
@@ -133,7 +133,7 @@ TEST(AircraftPorts, WritesTrimPlusDeviationWithinTheActuatorsRanges) {
   EXPECT_EQ(bench.value_of("outside_lat_inputs"), 0.0);
   EXPECT_EQ(bench.value_of("outside_lon_states"), 0.0);
   wanted.power = false;
-  bench.tell(moved_from_trim(trim, {}, Eigen::Vector3d::Zero(), 0.0, 90.0), wanted);
+  bench.report_event(moved_from_trim(trim, {}, Eigen::Vector3d::Zero(), 0.0, 90.0), wanted);
   left = bench.ports->write(Time{}, {0.1, 0.0, 0.3});
   EXPECT_EQ(values[0], 0.0);
   EXPECT_EQ(left.throttle, 0.0);
@@ -151,7 +151,7 @@ TEST(AircraftPorts, JudgesEachStateByItsLimit) {
       controllers::AircraftDeviation x;
       (i < 5 ? x.lon(i) : x.lat(i - 5)) =
           -share * (i < 5 ? bench.limits.lon(i) : bench.limits.lat(i - 5));
-      bench.tell(moved_from_trim(trim, x, Eigen::Vector3d::Zero(), 0.0, 90.0), wanted);
+      bench.report_event(moved_from_trim(trim, x, Eigen::Vector3d::Zero(), 0.0, 90.0), wanted);
       bench.ports->write(Time{}, {});
       EXPECT_NEAR(bench.value_of("limit_share"), share, 1e-9) << i;
       EXPECT_EQ(bench.value_of(lon[i < 5 ? 0 : 1]), share > 1.0 ? 1.0 : 0.0) << i;
@@ -167,7 +167,7 @@ TEST(AircraftPorts, FollowerTellsWhatTheReferenceDoes) {
   wanted.distance_m = 100.0;
   wanted.remaining_m = 900.0;
   wanted.waypoint = 4;
-  bench.tell(Odometry{}, wanted);
+  bench.report_event(Odometry{}, wanted);
   bench.ports->write(Time{}, {});
   EXPECT_EQ(bench.follower.value().lateral_error_m, 1.5);
   EXPECT_EQ(bench.follower.value().distance_m, 100.0);

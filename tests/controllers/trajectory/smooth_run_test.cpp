@@ -1,4 +1,4 @@
-// Rounded curves, time laws and turns on the spot against closed forms.
+// Rounded curves against closed forms.
 
 #include "controllers/trajectory/smooth_run.h"
 
@@ -8,10 +8,6 @@
 
 #include "controllers/parts/paths/box_filter.h"
 #include "controllers/parts/paths/path_pieces.h"
-#include "controllers/trajectory/landing_watch.h"
-#include "controllers/trajectory/time_law.h"
-#include "controllers/trajectory/yaw_move.h"
-#include "engine/core/error.h"
 #include "engine/math/angles.h"
 
 namespace vinerow::test::smooth_run_test {
@@ -75,79 +71,6 @@ TEST(SmoothRun, CurvatureRampsOverTheBlend) {
   EXPECT_NEAR(run.at(10.2).yaw_per_m, 0.75 / kRadius_m, 0.015);
   EXPECT_NEAR(run.at(9.35).yaw_per_m, 0.0, 1e-3);
   EXPECT_NEAR(run.at(10.7).yaw_per_m, 1.0 / kRadius_m, 0.01);
-}
-
-TEST(TimeLaw, AFlightOfYearsIsRefusedBeforeItIsSampled) {
-  const controllers::SmoothRun run(make_hairpin(), kBlend_m);
-  controllers::TrajectoryLimits limits;
-  limits.lateral_acceleration_mps2 = 1e-308;
-  try {
-    const controllers::TimeLaw law(run, limits, 1e9);
-    FAIL() << "not refused";
-  } catch (const ConfigError& error) {
-    EXPECT_NE(std::string(error.what()).find("at most 56 h are planned: raise its speeds"),
-              std::string::npos)
-        << error.what();
-  }
-}
-
-TEST(TimeLaw, FliesAStraightAsFastAsItMay) {
-  const controllers::PathSegment straight{controllers::Pose2{}, 100.0, 0.0, PathKind::kLeg, 0, 0.0};
-  const auto runs =
-      controllers::make_curve_runs(controllers::make_planned_path({straight}, 0.5), 0.3);
-  const controllers::SmoothRun run(runs.front(), kBlend_m);
-  const controllers::TrajectoryLimits limits;
-  const controllers::TimeLaw law(run, limits, 1e9);
-  // v / a to speed up, the same to slow down, and what the easing adds.
-  const double min_s = 100.0 / 3.0 + 3.0 / limits.acceleration_mps2;
-  EXPECT_GT(law.duration_s(), min_s);
-  EXPECT_LT(law.duration_s(), min_s + limits.ease_s + 0.3);
-  EXPECT_NEAR(law.at(law.duration_s() / 2).value, 50.0, 0.05);
-  EXPECT_NEAR(law.at(law.duration_s() / 2).first, 3.0, 1e-9);
-  EXPECT_EQ(law.at(0.0).value, 0.0);
-  EXPECT_NEAR(law.at(1e9).value, 100.0, 1e-9);
-  EXPECT_NEAR(law.at(law.time_of(37.0)).value, 37.0, 1e-4);
-  double before = 0.0;
-  for (double t = 0.0; t < law.duration_s(); t += 0.01) {
-    const auto at = law.at(t);
-    ASSERT_GE(at.first, -1e-12);
-    ASSERT_LE(std::abs(at.second), limits.acceleration_mps2);
-    ASSERT_LT(std::abs(at.second - before), 0.01 * 2.2 / limits.ease_s);  // sets in over ease_s
-    before = at.second;
-  }
-}
-
-TEST(YawMove, TakesTheShortWayWithinBothLimits) {
-  const controllers::YawMove move = controllers::make_yaw_move(2.0, 3.0, -3.0, 1.5, 2.5);
-  EXPECT_NEAR(move.turn_rad, 2.0 * kPi - 6.0, 1e-12);
-  double rate = 0.0, acceleration = 0.0;
-  const controllers::YawMove wide = controllers::make_yaw_move(0.0, 0.0, 3.0, 1.5, 2.5);
-  for (double t = 0.0; t < wide.duration_s; t += 1e-3) {
-    rate = std::max(rate, wide.at(t).rate_radps);
-    acceleration =
-        std::max(acceleration, (wide.at(t + 1e-3).rate_radps - wide.at(t).rate_radps) / 1e-3);
-  }
-  EXPECT_LE(rate, 1.5 + 1e-9);
-  EXPECT_LE(acceleration, 2.5 + 1e-9);
-  EXPECT_TRUE(rate > 1.49 || acceleration > 2.48);
-  EXPECT_EQ(wide.at(-1.0).yaw_rad, 0.0);
-  EXPECT_NEAR(wide.at(1e9).yaw_rad, 3.0, 1e-12);
-}
-
-TEST(LandingWatch, FeelsTheGroundOnlyNearTheEndAndOnlyWhileSinking) {
-  constexpr double kTick_s = 0.05;
-  controllers::LandingWatch watch;
-  const auto ticks_until = [&](controllers::LandingWatch::Observation observation) {
-    watch = controllers::LandingWatch(controllers::LandingWatch::Params{});
-    int ticks = 0;
-    while (ticks < 100 && !watch.has_landed(observation, kTick_s)) ++ticks;
-    return ticks;
-  };
-  EXPECT_NEAR(ticks_until({-0.3, 0.0, 0.1, false}), 9, 1);  // half a second
-  EXPECT_EQ(ticks_until({-0.3, -0.3, 0.1, false}), 100);    // sinks
-  EXPECT_EQ(ticks_until({0.0, 0.0, 0.1, false}), 100);      // is not to sink
-  EXPECT_EQ(ticks_until({-0.3, 0.0, 3.0, false}), 100);     // high above
-  EXPECT_NEAR(ticks_until({0.0, 0.0, 3.0, true}), 39, 1);   // the plan is over for 2 s
 }
 
 }  // namespace

@@ -106,7 +106,7 @@ TEST(TableFlags, SayUnitRangeAndDefaultInTheHelp) {
   Map map;
   const CLI::Option* slice = map.app.get_option("--slice");
   EXPECT_EQ(slice->get_description(),
-            "between cross-sections, before any is left out (m, [0.02, 5])");
+            "distance between cross-sections before any is removed (m, [0.02, 5])");
   EXPECT_EQ(slice->get_default_str(), "0.14");
   EXPECT_EQ(slice->get_group(), "Method");
   EXPECT_NE(map.app.get_option("--crs")->get_group(), "Method");

@@ -399,7 +399,7 @@ echo 8""", squeue="true", scancel="true", sacct="echo COMPLETED", scontrol="echo
     @unittest.skipUnless(shutil.which("parallel"), "GNU parallel is absent")
     def test_gnu_parallel(self):
         self.write(self.TWO, name="my_study.yaml")
-        lines = self.example("    vinerow study list my_study.yaml --state", "\n[Snakemake]")
+        lines = self.example("vinerow study list my_study.yaml --state", "```")
         self.by_another(["bash", "-e", "-c", lines.replace("-N 10", "-N 5")])
 
     @unittest.skipUnless(shutil.which("snakemake"), "snakemake is absent")

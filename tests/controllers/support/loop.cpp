@@ -108,11 +108,6 @@ void Loop::move() {
   now_ = now_ + setup_.tick;
 }
 
-bool Loop::has(std::string_view name) const {
-  const SignalBase* signal = find(name);
-  return signal != nullptr && signal->sequence() > 0;
-}
-
 double Loop::value(std::string_view name, std::string_view entry) const {
   const NamedValues& all = read<NamedValues>(name);
   const auto at = std::find(all.names.begin(), all.names.end(), entry);

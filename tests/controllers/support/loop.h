@@ -86,7 +86,6 @@ class Loop {
 
   Time now() const { return now_; }
   double time_s() const { return now_.s(); }
-  Duration period() const { return setup_.tick; }
   const VehicleDescription& description() const { return setup_.description; }
   const Controller& controller() const { return *controller_; }
   bool finished() const { return controller_->finished(); }
@@ -103,11 +102,9 @@ class Loop {
   void give_authority(double stop_at_m) {
     write("authority", MovementAuthority{stop_at_m, -1, ""});
   }
-  bool has(std::string_view name) const;  ///< whether it was written
   /// @throws std::logic_error if no such signal of this type was written
   template <class T>
   const T& read(std::string_view name) const;
-  Time stamp(std::string_view name) const { return find(name)->stamp(); }
   /// An entry of a signal of named values. @throws std::logic_error if there is none
   double value(std::string_view name, std::string_view entry) const;
   const std::vector<double>& actuators() const { return read<NamedValues>("actuators").values; }

@@ -214,23 +214,38 @@ void check_part_signals(const VehicleConfig& vehicle, const std::string& path,
   }
 }
 
-/// Replaces former keys of parameters by the present ones, in groups too, and adds a warning each.
+/// Replaces a former key by the present one, with a warning. If both are given in one file, the
+/// user must choose; if an included file or the file below an override has one of them, the later
+/// one wins, as for equal keys.
+void use_present_name(io::YamlNode& mapping, const std::string& path, const ParameterSpec& spec,
+                      const ReadContext& context) {
+  const io::YamlEntry* former = mapping.find_entry(spec.former_name);
+  if (!former) return;
+  const std::string key_path = join_path(path, spec.former_name);
+  if (const io::YamlEntry* present = mapping.find_entry(spec.name)) {
+    if (present->mark.file == former->mark.file) {
+      io::fail_at(former->mark, fmt::format("{} is the former name of {}, which is given too",
+                                            key_path, spec.name));
+    }
+    // A merge appends keys that it does not find.
+    if (former < present) return mapping.erase(spec.former_name);
+    mapping.erase(spec.name);
+  }
+  for (io::YamlEntry& entry : mapping.entries) {
+    if (entry.key != spec.former_name) continue;
+    if (context.warnings) {
+      context.warnings->push_back(
+          fmt::format("{}: {}: this key is now named {}", entry.mark.text(), key_path, spec.name));
+    }
+    entry.key = spec.name;
+  }
+}
+
+/// The same for all parameters of a mapping, in groups too.
 void use_present_names(io::YamlNode& mapping, const std::string& path,
                        const std::vector<ParameterSpec>& specs, const ReadContext& context) {
   for (const ParameterSpec& spec : specs) {
-    for (io::YamlEntry& entry : mapping.entries) {
-      if (spec.former_name.empty() || entry.key != spec.former_name) continue;
-      const std::string key_path = join_path(path, entry.key);
-      if (mapping.has(spec.name)) {
-        io::fail_at(entry.mark, fmt::format("{} is the former name of {}, which is given too",
-                                            key_path, spec.name));
-      }
-      if (context.warnings) {
-        context.warnings->push_back(fmt::format("{}: {}: this key is now named {}",
-                                                entry.mark.text(), key_path, spec.name));
-      }
-      entry.key = spec.name;
-    }
+    if (!spec.former_name.empty()) use_present_name(mapping, path, spec, context);
     io::YamlNode* given = spec.fields.empty() ? nullptr : mapping.find(spec.name);
     if (!given) continue;
     const std::string group_path = join_path(path, spec.name);

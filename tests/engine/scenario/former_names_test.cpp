@@ -79,6 +79,17 @@ TEST(FormerNames, OfAnOverrideNameTheOverride) {
                           "max_turn_deg"));
 }
 
+TEST(FormerNames, AnOverrideReplacesTheOtherName) {
+  const Scenario newer =
+      parse("{type: turner, most_turn_deg: 35}", {"rover.controller.max_turn_deg=50"});
+  EXPECT_EQ(newer.vehicles[0].controller->parameters.number("max_turn_deg"), 50.0);
+  EXPECT_TRUE(newer.warnings.empty());
+  const Scenario older =
+      parse("{type: turner, max_turn_deg: 35}", {"rover.controller.most_turn_deg=50"});
+  EXPECT_EQ(older.vehicles[0].controller->parameters.number("max_turn_deg"), 50.0);
+  EXPECT_EQ(older.warnings.size(), 1u);
+}
+
 TEST(FormerNames, FormerAndNewKeyTogetherAreRefused) {
   try {
     parse("{type: turner, most_turn_deg: 35, max_turn_deg: 30}");

@@ -3,6 +3,7 @@
 /// planner, guidance, controller, payloads and metrics, connected in this order and scheduled.
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
-/// What the sensors of a flight between mapped rows tell an estimator, written down once, so that
-/// any law can be given the same again while it is timed.
+/// Sensor data of a flight between mapped rows, recorded once for an estimator. Any law can then be
+/// timed on the same data.
 
 #include <memory>
 #include <optional>

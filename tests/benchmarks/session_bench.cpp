@@ -1,4 +1,4 @@
-/// Sessions: beginning again against building anew, in CPU time.
+/// Sessions: a reset against opening a new session, in CPU time.
 
 #include <benchmark/benchmark.h>
 

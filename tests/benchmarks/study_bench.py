@@ -80,7 +80,7 @@ class Bench:
     def worlds(self) -> None:
         cells = 20
         file = self.study(f"scenario: {SCENARIOS}/vineyard_4ws_two_rows.yaml\nset: {{criteria: [], duration_s: 10}}\nseeds: {cells}\n")
-        # Files of plants are made once, by whoever comes first.
+        # The first process that needs the files of plants makes them, once.
         self.call(self.vinerow, "study", "cell", file, 0, "--out", self.folder / "first")
         shared_s = self.run(file, "shared", 1)[0]
         alone_s = sum(self.call(self.vinerow, "study", "cell", file, cell, "--out", self.folder / "alone")[0] for cell in range(cells))

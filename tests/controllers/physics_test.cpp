@@ -74,7 +74,7 @@ TEST(PurePursuitOnThePhysicalRover, DrivesTheHairpinsWithoutALimitOfItsYawRate) 
               0.004);
 }
 
-/// A registered controller that is told how far it may go: to stop_m while time_s < until_s.
+/// A registered controller with a limited movement authority: to stop_m while time_s < until_s.
 struct Halt {
   double stop_m, until_s;
 };

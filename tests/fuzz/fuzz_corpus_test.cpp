@@ -31,7 +31,7 @@ TEST_F(FuzzCorpus, SeedsAreReadOrRefusedAsTheyWereMade) {
                            seed.name == "scale_nan.las" || seed.name == "compressed.pcd";
     EXPECT_EQ(!sentence.empty(), is_broken) << sentence;
     refused += sentence.empty() ? 0 : 1;
-    // The first bytes tell the kind, whatever the extension.
+    // The first bytes determine the kind, whatever the extension.
     if (seed.kind != CloudKind::kXyz) {
       EXPECT_EQ(read(CloudKind::kAny, seed.bytes).empty(), sentence.empty());
     }

@@ -1,7 +1,7 @@
 // write_sample_clouds FOLDER: LAS files for another reader, without and with colour.
 // Point k of 1000: x = 500000.125 + k, y = 4649000.5 - 2.25 k, z = -3.5 + 0.125 k, colour
 // (k mod 256, 255 - k mod 256, 7), classification k mod 12
-// (copc.js tells 12, the overlap of flight lines, as a flag).
+// (copc.js returns 12, the overlap of flight lines, as a flag).
 #include <cstdio>
 #include <vector>
 

@@ -1,5 +1,5 @@
-/// The whole chain at the density that paper A surveyed with: a survey's cloud, its map, and what
-/// the map is off by. Bounds are what the map is asked for; the figures reached are printed.
+/// The whole chain at the density of paper A's survey: the cloud of a survey, its map, and the
+/// errors of the map. Bounds are the requirements for the map; the figures reached are printed.
 
 #include <gtest/gtest.h>
 

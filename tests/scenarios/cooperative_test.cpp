@@ -105,7 +105,7 @@ TEST_F(CooperativeMission, ACrashLeavesTheOtherAtWork) {
       run({"drone.faults=[{kind: rotor_failure, rotor: 1, at_s: 330, remaining: 0}]"});
   EXPECT_EQ(phase(result, "scout").state, PhaseState::kFailed);
   EXPECT_THAT(phase(result, "scout").reason, HasSubstr("drone crashed"));
-  // The rover goes on until it comes to the alley in which the wreck stands, and is told so.
+  // The rover goes on until it comes to the alley with the wreck; its phase fails for that reason.
   EXPECT_EQ(phase(result, "spray").state, PhaseState::kFailed);
   EXPECT_THAT(phase(result, "spray").reason,
               MatchesRegex("rover waits for alley [0-9]+, in which drone has stopped"));

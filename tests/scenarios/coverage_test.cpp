@@ -1,4 +1,4 @@
-/// What `vinerow run` and `vinerow coverage` tell of a survey's pictures, as a user sees it.
+/// Output of `vinerow run` and `vinerow coverage` about a survey's pictures, as a user sees it.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

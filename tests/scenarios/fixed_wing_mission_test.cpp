@@ -204,7 +204,7 @@ Outside stress(int seed, const Sets& controller) {
   return Outside(run);
 }
 
-/// Seeds 1 to 3, told on the console and in the report.
+/// Seeds 1 to 3, printed on the console and recorded in the report.
 std::vector<Outside> stresses(const std::string& name, const Sets& controller) {
   std::vector<Outside> seeds;
   for (int seed = 1; seed <= 3; ++seed) {

@@ -18,7 +18,7 @@ using testing::TestRun;
 
 constexpr double kNotReported = -1.0;
 
-/// Keeps what the run tells people.
+/// Keeps the events of the run.
 struct EventRecorder : RunObserver {
   std::vector<Event> events;
   void on_event(Time, const Event& event) override { events.push_back(event); }

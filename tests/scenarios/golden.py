@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Compares what a shipped scenario gives with golden.json: digest, metrics, phases and exit status.
 
-usage: golden.py check  VINEROW SCENARIO... [--plain]     against the file; exit status 1 tells what differs
+usage: golden.py check  VINEROW SCENARIO... [--plain]     against the file; exit status 1: prints what differs
        golden.py start  VINEROW SCENARIO... [--under EMULATOR]  the digest of the first seconds alone
        golden.py record VINEROW [SCENARIO...]             writes the file again (all of them, or those named)
 

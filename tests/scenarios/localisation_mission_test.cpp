@@ -1,5 +1,6 @@
-/// Paper C in whole runs: estimators beside the truth between the rows of a sloped vineyard, and
-/// missions on the estimate alone. Under full physics, with echoes from the true leaves.
+/// Paper C in whole runs: estimators as observers of a flight on the truth between the rows of a
+/// sloped vineyard, and missions on the estimate alone. Under full physics, with echoes from the
+/// true leaves.
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Opens a run's report in Chromium, as a stranger would from disk: it must render without an error on its console, its first
-screen must show the verdict, on a telephone nothing may reach beyond the window, every event of the run must be told, and a
+screen must show the verdict, on a telephone nothing may reach beyond the window, every event of the run must be listed, and a
 picture must open over the page. Exit status 77: there is no Chromium.
 
 usage: report_in_browser.py VINEROW SCENARIO FOLDER
@@ -68,7 +68,7 @@ def open_in(browser: str, page: pathlib.Path, folder: pathlib.Path, shot: pathli
         capture_output=True, text=True, timeout=240)
 
 
-# Tells of the page what only a browser knows; events fire as a user's click would make them.
+# Measures what only a browser knows of the page; events fire as after a click of a user.
 TRIAL = """<script>(function () {
   const root = document.documentElement, told = {width: root.scrollWidth, window: window.innerWidth};
   const wide = [...document.querySelectorAll('body *')].filter((e) => {
@@ -92,7 +92,7 @@ TRIAL = """<script>(function () {
 
 
 def try_page(browser: str, page: pathlib.Path, folder: pathlib.Path, width: int) -> dict:
-    """What TRIAL tells of a page as wide as this: inside a frame, as Chromium opens no window narrower than 500 pixels."""
+    """Result of TRIAL for a page of this width: inside a frame, as Chromium opens no window narrower than 500 pixels."""
     text, trial = page.read_text(encoding="utf-8"), folder / f"trial_{width}_{page.name}"
     end = text.rindex("</body>")
     trial.write_text(text[:end] + TRIAL + text[end:], encoding="utf-8")

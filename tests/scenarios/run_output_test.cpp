@@ -144,7 +144,7 @@ TEST(CtrlC, WhilePicturesAreDrawnKeepsWhatIsThere) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
   if (over) GTEST_SKIP() << "no pictures here: " << read_text(output);
-  // The verdict is known and told before.
+  // The verdict is known and printed before that.
   EXPECT_EQ(summary_in(out)["status"], "all criteria met");
   EXPECT_THAT(read_text(output), HasSubstr("\ndigest   "));
   kill(child, SIGINT);

@@ -191,7 +191,7 @@ TEST_P(VineyardRover, DrivesTheHillsideOnFixesAntennasInertialUnitAndWheels) {
   EXPECT_EQ(run.metric("rover", "alleys_driven"), 15.0);
   EXPECT_EQ(run.metric("rover", "contact_count"), 0.0);
   EXPECT_LE(run.metric("rover", "cross_track_rms_m"), 0.026);
-  // It has an estimate, and that errs: the truth would have no error to tell.
+  // It drives on an estimate, which has an error; the truth would have no error.
   EXPECT_GT(run.metric("rover", "estimate_yaw_rms_deg"), 0.05);
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, VineyardRover, ::testing::Values(1, 2, 3),

@@ -105,7 +105,7 @@ TEST(SurveyCommand, PlansTheSurveyOfAScenarioAsARunDoes) {
   EXPECT_NE(summary.find("\"waypoints\": " + waypoints + ".0"), std::string::npos) << waypoints;
 
   expect_refused("survey " + scenario + " --vehicle jet", "there is no vehicle 'jet'");
-  // The vehicle tells its stall speed.
+  // The stall speed comes from the vehicle's description.
   expect_refused("survey " + scenario + " --set plane.planner.height_m=59",
                  "at most 5.9 m/s at 59 m (below the stall speed of 8.");
   expect_refused("survey " + scenario + " --polygon x.csv", "give either a scenario or --polygon");

@@ -35,7 +35,7 @@ SmallWorld rover() {
   return std::move(SmallWorld().vehicle("rover", "diff_drive_rover"));
 }
 
-/// A message that is none of ours.
+/// A message type of a plugin, not one of Vinerow.
 struct SoilSample {
   static constexpr const char* kType = "acme/SoilSample";
   double depth_m = 0.0;
@@ -113,7 +113,7 @@ class StandStill final : public Guidance {
   SignalWriter<LocalCommand> command_;
 };
 
-/// Drives nothing, tells the alleys of its map, and has finished at its tenth tick.
+/// Drives nothing, publishes how many alleys its map has, and has finished at its tenth tick.
 class MapReader final : public Controller {
  public:
   explicit MapReader(const ControllerContext& context)

@@ -135,7 +135,8 @@ TEST(TrimCommand, RefusesInOneSentence) {
   expect_refused(file + " --climb 60", "it takes throttle 1.");
   expect_refused(file + " --bank 70", "no steady flight at 12.00 m/s, climb 0.0 deg, bank 70.0");
   // The Zagi scaled to the MH900's span: 0.104 m2 do not carry 1.2 kg at 12 m/s (reference,
-  // section 1: lift coefficient 1.29). The vehicle says so itself; told to be faster, it is built.
+  // section 1: lift coefficient 1.29). The vehicle itself rejects this; with a higher cruise speed
+  // it is valid.
   const std::string small = file + " --set wing_area_m2=0.104 --set wing_chord_m=0.12";
   expect_refused(small, "cruise_speed_mps = 12, but it stalls below");
   expect_refused(small + " --set cruise_speed_mps=16 --speed 12",

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Counts words of the old private dialect in docs, READMEs and comments of headers, and fails if there is one.
+"""Counts words of the old private dialect in docs, READMEs and comments of C++ files (also in tests/), and fails if there is one.
 
 docs/contributing/language.md has the rules. An entry: the pattern, and what to write instead. Code in backquotes and fenced blocks does not
-count, nor do the names of files. `--count` lists the counts of each folder, `--sources` looks at sources and their texts too.
+count, nor do the names of files. `--count` lists the counts of each folder. `--sources` also reads the strings of C++ files outside tests/.
 """
 
 import collections
@@ -12,6 +12,7 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+TESTS = ROOT / "tests"
 
 WORDS = {
     r"tell(s|ing)?|told": "report, describe, show, return, state; or name the fact directly",
@@ -35,7 +36,13 @@ WORDS = {
     r"so many": "that many; up to; or name the number",
 }
 CODE = re.compile(r"```.*?```|``[^`]*``|`[^`\n]*`|<!--.*?-->|\]\([^)]*\)", re.DOTALL)
-COMMENT = re.compile(r"//[^\n]*")
+# Comments and literals of C++. Literals are matched so that a // in one starts no comment; 65'536 has no literal.
+TOKEN = re.compile(r"""(?P<comment>//[^\n]*|/\*.*?\*/)
+                   |R"(?P<fence>[^()\\\s]{0,16})\((?P<raw>.*?)\)(?P=fence)"
+                   |"(?P<string>(?:\\.|[^"\\\n])*)"
+                   |(?<![0-9a-fA-F])'(?:\\.|[^'\\\n])+'""", re.DOTALL | re.VERBOSE)
+# A raw string has code of another language: only its comments and strings are prose.
+EMBEDDED = re.compile(r"""//[^\n]*|"(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])*'""")
 
 
 def prose(path: pathlib.Path, sources: bool) -> list[tuple[int, str]]:
@@ -44,20 +51,26 @@ def prose(path: pathlib.Path, sources: bool) -> list[tuple[int, str]]:
     if path.suffix == ".md":
         text = CODE.sub(lambda m: re.sub(r"[^\n]", " ", m.group(0)), text)
         return list(enumerate(text.split("\n"), 1))
+    groups = ("comment", "string", "raw") if sources and TESTS not in path.parents else ("comment",)
     lines = []
-    for number, line in enumerate(text.split("\n"), 1):
-        found = COMMENT.search(line)
-        if found:
-            lines.append((number, re.sub(r"`[^`]*`", " ", found.group(0))))
-        if sources:
-            lines += [(number, quoted) for quoted in re.findall(r'"((?:\\.|[^"\\])*)"', line)]
+    for token in TOKEN.finditer(text):
+        group = token.lastgroup
+        if group not in groups:
+            continue
+        pieces = [(0, token.group(group))]
+        if group == "comment":
+            pieces = [(0, re.sub(r"`[^`\n]*`", " ", token.group(group)))]
+        elif group == "raw":
+            pieces = [(found.start(), found.group(0)) for found in EMBEDDED.finditer(token.group(group))]
+        for start, piece in pieces:
+            lines += enumerate(piece.split("\n"), text.count("\n", 0, token.start(group) + start) + 1)
     return lines
 
 
-def files(sources: bool) -> list[pathlib.Path]:
-    names = subprocess.run(["git", "ls-files", "*.md", "*.h"] + (["*.cpp"] if sources else []), cwd=ROOT, capture_output=True,
-                           text=True, check=True).stdout.split()
-    skip = ("tests/", "docs/contributing/language.md", "docs/glossary.md", "docs/reference/parts.md")
+def files() -> list[pathlib.Path]:
+    names = subprocess.run(["git", "ls-files", "*.md", "*.h", "*.cpp"], cwd=ROOT, capture_output=True, text=True,
+                           check=True).stdout.split()
+    skip = ("docs/contributing/language.md", "docs/glossary.md", "docs/reference/parts.md")
     return [ROOT / name for name in names if not name.startswith(skip) and (ROOT / name).exists()]
 
 
@@ -66,7 +79,7 @@ def main() -> int:
     patterns = [(re.compile(rf"\b(?:{word})\b", re.IGNORECASE), instead) for word, instead in WORDS.items()]
     counts = collections.Counter()
     only = [argument for argument in sys.argv[1:] if not argument.startswith("--")]
-    for path in files(sources):
+    for path in files():
         name = path.relative_to(ROOT).as_posix()
         if only and not name.startswith(tuple(only)):
             continue

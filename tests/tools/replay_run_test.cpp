@@ -1,4 +1,4 @@
-/// The replay of a short run: what its page holds is what its log tells.
+/// The replay of a short run: its page must have the contents of its log.
 
 #include <gtest/gtest.h>
 
@@ -119,7 +119,7 @@ TEST_F(ReplayRunPage, HoldsThePosesOfTheLog) {
     EXPECT_NEAR(heights[i], 1e-3 * positions[3 * i + 2] - ground_m, 2e-3);
   }
 
-  // The body does not move against itself; rotors spin faster than samples can tell.
+  // The body does not move against itself; rotors spin faster than samples can resolve.
   ASSERT_EQ(vehicle["links"].size(), run.vehicles[0]->links().size());
   EXPECT_FALSE(vehicle["links"][0].contains("rotations"));
   for (std::size_t l = 1; l < vehicle["links"].size(); ++l) {

@@ -162,7 +162,7 @@ class Video(unittest.TestCase):
     def test_every_class_of_a_plot_has_a_rule(self):
         run = self.vinerow("report", "run", "--out", "page.html", "--plots", "plots")
         self.assertEqual(run.returncode, 0, run.stderr)
-        # Curves that this run has none of too: the speed over ground is a plane's alone.
+        # Also curves that this run lacks: only a plane has the speed over ground.
         page = (self.folder / "page.html").read_text()
         coloured = re.findall(r"(?:^|\} )\.(\w+) \{ --c: var\(", page, re.M)
         self.assertIn("ground", coloured)

@@ -139,8 +139,8 @@ class Rig {
     vehicle_->actuate(values_);
   }
 
-  /// Rim speeds of both sides, m/s. A vehicle that steers is asked for the same twist: the yaw rate
-  /// of two sides that roll on the track, as far as its steering lets it.
+  /// Rim speeds of both sides, m/s. A vehicle that steers gets the same twist as a command: the yaw
+  /// rate of two sides that roll on the track, within the limits of its steering.
   void drive(double left_mps, double right_mps) {
     const double radius = about().wheeled->wheel_radius_m;
     const bool steers = about().actuators[0].name == "axle_front_steer_rad";
@@ -491,7 +491,7 @@ TEST_P(FlyingConformance, LiftsOffAtFullThrustAndKeepsLevel) {
   EXPECT_TRUE(rig.vehicle().crash().empty());
 }
 
-/// What controllers are told makes the vehicle hover: out of the ground's reach it keeps its
+/// The hover speed in the description makes the vehicle hover: out of ground effect it keeps its
 /// height.
 TEST_P(FlyingConformance, HoversAtTheSpeedThatItsNumbersTell) {
   Rig rig(GetParam(), make_flat_world());

@@ -1,4 +1,4 @@
-/// What every registered world must keep, whoever wrote it.
+/// Requirements for every registered world, built in or from a plugin.
 
 #include <gtest/gtest.h>
 

@@ -62,7 +62,7 @@ struct Drive {
   double farthest_off_plan_m = 0.0;
   int reversals = 0;  ///< times the vehicle began to go backwards
   int drive_ticks = 0, follow_ticks = 0, stop_ticks = 0;
-  std::size_t allocations = 0;  ///< in steps that tell no event, the first one left out
+  std::size_t allocations = 0;  ///< in steps without an event, except the first step
   std::vector<LoopEvent> events;
   std::vector<controllers::Pose2> poses;  ///< 10 Hz
   std::vector<LocalCommand> commands;     ///< 10 Hz

@@ -40,7 +40,7 @@ struct Bench {
         sample.range_m = range_m;
         sample.max_range_m = 4.0;
         sample.half_angle_rad = half_angle_rad;
-        sample.X_WS.p = {1e3, 1e3, 0.0};  // truth: nobody's business
+        sample.X_WS.p = {1e3, 1e3, 0.0};  // truth: must not be read
         memory.read(i++, sample);
       }
       now = now + Duration{100'000'000};

@@ -13,7 +13,7 @@ namespace vinerow::test::fixed_wing_pid_test {
 namespace {
 
 TEST(FixedWingPid, LearnsWhatItIsNotToldOf) {
-  // Heavier, crooked and with a weaker propeller than told: nothing is left.
+  // The plane is heavier, crooked and has a weaker propeller than stated: no error remains.
   AircraftSetup setup;
   setup.controller.type = "fixed_wing_pid";
   setup.assumed = setup.numbers;

@@ -25,7 +25,7 @@ struct LoopOptions {
   SteeredPlantOptions plant = {};
   Eigen::Vector2d offset_m = Eigen::Vector2d::Zero();  ///< of the start
   double heading_error_rad = 0.0;                      ///< of the start
-  bool encoders = false;                               ///< tells the true axle angles
+  bool encoders = false;                               ///< measure the true axle angles
   double settle_m = 0.0;                               ///< errors count from here on
   double longest_s = 200.0;
 };

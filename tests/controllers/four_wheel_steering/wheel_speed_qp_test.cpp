@@ -170,7 +170,7 @@ TEST(WheelSpeedQp, AsPrintedSlipsInATurn) {
         controllers::calc_rolling({}, {side * kLimit_rad, -side * kLimit_rad});
     ASSERT_EQ(qp.solve(rolling, 0.8), controllers::QpStatus::kSolved);
     EXPECT_LT(qp.cost(qp.rim_mps()), 1e-8);
-    // The inner wheels are told to be as fast as the outer ones, or faster.
+    // The commands of the inner wheels are as fast as those of the outer ones, or faster.
     EXPECT_GT(qp.slip_mps(qp.rim_mps()).cwiseAbs().maxCoeff(), 0.1);
   }
 }

@@ -113,7 +113,7 @@ TEST(QuadrotorMpcFlight, FliesThePlusLayoutAndAnotherVehicle) {
   EXPECT_LT(fly_rows(3.0, 1.0, m100).errors.lateral_max_m, 0.023);
 }
 
-// A vehicle that is not what the controller was told: mass + 15 %, inertia + 20 %, lag + 40 %.
+// A vehicle that differs from the controller's model: mass + 15 %, inertia + 20 %, lag + 40 %.
 TEST(QuadrotorMpcFlight, BearsAWrongModel) {
   MpcSetup wrong;
   wrong.assumed = wrong.numbers;

@@ -1,5 +1,5 @@
 // Starts outside the limits, saturated rotors, estimates that are no numbers: soft limits take
-// over, people are told once, the vehicle comes back.
+// over, the controller reports it once, the vehicle recovers.
 
 #include <gtest/gtest.h>
 

@@ -59,7 +59,7 @@ std::pair<Eigen::Vector3d, Eigen::Vector3d> calc_aero(const AircraftNumbers& num
                                                       const Eigen::Vector3d& rates,
                                                       const Eigen::Vector3d& controls);
 
-/// What a vehicle on wings of these numbers tells, with a FlightModel.
+/// Description of a winged vehicle with these numbers, with a FlightModel.
 VehicleDescription describe(const AircraftNumbers& numbers);
 
 class AircraftSim final : public Plant {
@@ -69,7 +69,7 @@ class AircraftSim final : public Plant {
   AircraftState& state() { return state_; }
   const AircraftState& state() const { return state_; }
   const AircraftNumbers& numbers() const { return numbers_; }
-  /// The field tells the wind in W, places in W.
+  /// The field returns the wind in W at a place in W.
   void set_wind(WindField wind) { wind_ = std::move(wind); }
   /// A wind in body axes of aviation beside it, as the linear models know it.
   void set_body_gust(const Eigen::Vector3d& gust) { body_gust_ = gust; }

@@ -32,7 +32,7 @@ void mark(OccupancyGrid& grid, const Eigen::Vector2d& a_W, const Eigen::Vector2d
 /// Block coordinates to W.
 Eigen::Vector2d block_point(const BlockSetup& setup, double x, double y);
 
-/// The rover of paper A as planners are told of it: hull 1.5 x 1.0 m, wheel noses to 0.95 m.
+/// Description of the rover of paper A for planners: hull 1.5 x 1.0 m, wheel noses to 0.95 m.
 VehicleDescription make_four_wheel_description(double min_turning_radius_m = 1.767);
 
 }  // namespace vinerow::test

@@ -41,7 +41,7 @@ QuadrotorNumbers make_m100();
 /// The same vehicle, turned by 45 deg on its arms: a rotor ahead.
 QuadrotorNumbers with_plus_layout(QuadrotorNumbers numbers);
 
-/// What the vehicle `quadrotor` tells of these numbers.
+/// Description of the vehicle `quadrotor` with these numbers.
 VehicleDescription describe(const QuadrotorNumbers& numbers);
 
 struct QuadrotorState {

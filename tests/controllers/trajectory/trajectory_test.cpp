@@ -475,7 +475,7 @@ TEST(Trajectory, HoldsAPlaceWithoutAPlan) {
                                   Phase::kDone));
   EXPECT_NEAR(held_s, 5.0, 0.1);
   EXPECT_NEAR((end.p_W - Vec3(4, 3, 10.2)).norm(), 0.0, 1e-6);
-  // For ever.
+  // Hovers endlessly.
   GuideBench still({{"hover_m", std::vector<double>{0.0, 0.0, 2.0}}});
   Phase last = Phase::kWait;
   still.fly({0, 0, 0.2}, 300.0, 0.2,

@@ -31,7 +31,7 @@ struct PlaneOptions {
   double yaw_lag_s = 0.2;
   double speed_mps = 12.0;
   double ground_m = 0.0;  ///< z where the fuselage lies, on flat ground
-  /// Height of ground that is not flat, as the guidance is told it.
+  /// Height of ground that is not flat, as the guidance receives it.
   std::function<double(const Eigen::Vector2d&)> terrain;
 };
 

@@ -15,7 +15,7 @@
 namespace vinerow::vehicle_test {
 namespace {
 
-/// Weighs what it is told to and feels no air.
+/// Has the given mass and no air loads.
 class StillModel final : public FlightModel {
  public:
   explicit StillModel(double mass_kg) : mass_kg_(mass_kg) {}
@@ -39,10 +39,8 @@ VehicleDescription make_rover() {
   rover.height_above_ground_m = 0.4;
   rover.max_speed_mps = 1.6;
   rover.min_turning_radius_m = 1.8;
-  rover.wheeled = {.track_m = 0.85,
-                   .wheel_base_m = 1.5,
-                   .wheel_radius_m = 0.2,
-                   .wheel_speed_limit_radps = 8.0};
+  rover.wheeled = {
+      .track_m = 0.85, .wheel_base_m = 1.5, .wheel_radius_m = 0.2, .wheel_speed_limit_radps = 8.0};
   rover.steered = {.front_axle_m = 0.75,
                    .rear_axle_m = 0.75,
                    .max_axle_steer_rad = 0.4,
@@ -222,8 +220,7 @@ TEST(VehicleCheck, SaysWhatIsWrongWithASteeredFrontAxle) {
 TEST(VehicleCheck, SaysWhatIsWrongWithRotors) {
   using V = VehicleDescription;
   const V drone = make_drone();
-  EXPECT_EQ(fault(drone, [](V& v) { v.rotorcraft->rotors.clear(); }),
-            "rotorcraft.rotors is empty");
+  EXPECT_EQ(fault(drone, [](V& v) { v.rotorcraft->rotors.clear(); }), "rotorcraft.rotors is empty");
   EXPECT_EQ(fault(drone, [](V& v) { v.rotorcraft->inertia_kgm2.z() = 0.0; }),
             "an entry of rotorcraft.inertia_kgm2 = 0, must be > 0");
   EXPECT_EQ(fault(drone, [](V& v) { v.rotorcraft->min_rotor_radps = 700.0; }),
@@ -248,11 +245,10 @@ TEST(VehicleCheck, SaysWhatIsWrongWithWings) {
             "fixed_wing.cruise_speed_mps = 12, must be > stall_speed_mps = 13");
   EXPECT_EQ(fault(plane, [](V& v) { v.fixed_wing->launch_throttle = 1.0; }),
             "fixed_wing.launch_throttle = 1, must be >= 0 and < 1");
-  EXPECT_EQ(fault(plane,
-                  [](V& v) {
-                    v.fixed_wing->start_height_m = std::numeric_limits<double>::infinity();
-                  }),
-            "fixed_wing.start_height_m = inf, must be > 0");
+  EXPECT_EQ(
+      fault(plane,
+            [](V& v) { v.fixed_wing->start_height_m = std::numeric_limits<double>::infinity(); }),
+      "fixed_wing.start_height_m = inf, must be > 0");
   EXPECT_EQ(fault(plane, [](V& v) { v.actuators[0].name = "power"; }),
             "fixed_wing is given, but there is no actuator 'throttle'");
 }

@@ -3,7 +3,7 @@
 
 usage: bindings.py VINEROW
 
-The dynamic linker tells where it binds each symbol (LD_DEBUG=bindings). The C library chooses its functions by what the
+The dynamic linker prints where it binds each symbol (LD_DEBUG=bindings). The C library chooses its functions by what the
 processor offers, so a single call that reaches it makes the digest of a run that of one kind of processor.
 """
 

@@ -25,7 +25,7 @@ double ground_m(double x) {
   return 0.1 * x;
 }
 
-/// Rows along x from -8 to 8 m at y = 0, 2.5 and 5, the middle one told from east to west. Canopy
+/// Rows along x from -8 to 8 m at y = 0, 2.5 and 5; the middle one runs from east to west. Canopy
 /// of the first is 0.4 m wide, of the others 0.8 m: the first alley's walls are at 0.2 and 2.1 m,
 /// its middle at 1.15 m; the second's at 2.9 and 4.6 m, its middle at 3.75 m.
 constexpr double kMiddle0_m = 1.15, kMiddle1_m = 3.75;

@@ -139,7 +139,7 @@ TEST(EstimationMetric, JudgesByTheTurnedCovariance) {
   EXPECT_NEAR(bench.result("nees_mean"), (5.0 + 7.25) / 2, 1e-9);
   EXPECT_EQ(bench.result("nees_in_95_share"), 0.5);
   EXPECT_TRUE(std::isnan(bench.result("estimate_consistent"))) << "two samples tell nothing";
-  // A covariance that is none contains nothing and is never consistent.
+  // An invalid covariance contains nothing and is never consistent.
   bench.write_truth({0, 0, 0}, 0.0);
   bench.write_estimate({0, 0, 0}, 0, Vector3d(-1, 1, 1).asDiagonal());
   bench.look();

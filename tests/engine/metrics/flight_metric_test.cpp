@@ -32,7 +32,7 @@ test::PlainScene slope_with_a_row() {
   return scene;
 }
 
-/// Is wrecked when told so.
+/// Is wrecked once `crash_` has a text.
 class Craft final : public Vehicle {
  public:
   const VehicleDescription& description() const override { return description_; }

@@ -1,5 +1,5 @@
-/// The ground sampling distance that is told, against the data sheet's numbers: by the formula at
-/// the height flown, and by where a pinhole camera sees two places of the ground.
+/// The reported ground sampling distance against the data sheet's numbers: by the formula at the
+/// height flown, and by the images of two ground points in a pinhole camera.
 
 #include <gtest/gtest.h>
 

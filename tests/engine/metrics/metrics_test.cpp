@@ -398,7 +398,7 @@ TEST(Travel, StandingDriftCountsFromWhereTheSpringsHaveSettled) {
   EXPECT_DOUBLE_EQ(at(21.0, 0.08, 0.2), 0.04);    // it drives: no more
   EXPECT_DOUBLE_EQ(at(30.0, 5.0, 0.0), 0.04);
   EXPECT_DOUBLE_EQ(at(33.0, 5.0, 0.0), 0.04);   // the next stand has its own place
-  EXPECT_DOUBLE_EQ(at(40.0, 5.03, 0.0), 0.04);  // and the largest drift of all is told
+  EXPECT_DOUBLE_EQ(at(40.0, 5.03, 0.0), 0.04);  // and the largest drift of all is reported
 }
 
 }  // namespace

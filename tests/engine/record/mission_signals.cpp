@@ -107,7 +107,7 @@ void MissionSignals::write_motion(Time now) {
 
 void MissionSignals::write_wheels(Time now) {
   for (std::size_t i = 0; i < wheels_.values.size(); ++i) {
-    const bool is_steer = i % 8 == 1;  // skid steering has none
+    const bool is_steer = i % 8 == 1;  // skid steering has no steering angles
     wheels_.values[i] = is_steer ? 0.0 : 5.0 + random_.normal();
   }
   wheels_out_.write(now, wheels_);

@@ -116,7 +116,7 @@ TEST(PluginMessage, DamagedBytesAreRefused) {
   ASSERT_TRUE(RosMapping<SoilSample>::read(whole, frames, value));
   expect_same(value, make_sample());
 
-  // A state that is none.
+  // An invalid state.
   SoilSample strange = make_sample();
   strange.state = static_cast<SoilSample::State>(2);
   ByteBuffer other;

@@ -35,7 +35,7 @@ Image draw_grass(double metres_per_pixel) {
   return renderer->draw(frame);
 }
 
-/// Correlation of a picture's green with itself, moved by so many metres east and north.
+/// Correlation of a picture's green channel with itself, shifted by `by_m` (east, north).
 double correlation(const Image& image, double metres_per_pixel, const Eigen::Vector2d& by_m) {
   const int dx = static_cast<int>(std::lround(by_m.x() / metres_per_pixel));
   const int dy = static_cast<int>(std::lround(-by_m.y() / metres_per_pixel));

@@ -10,7 +10,7 @@
 namespace vinerow::run::observer_run_test {
 namespace {
 
-/// The truth and so much to the east, with a covariance of one; tells its offset once.
+/// The truth with an offset to the east and a covariance of one; writes one event.
 class OffsetEstimator final : public Estimator {
  public:
   explicit OffsetEstimator(double offset_m) : offset_m_(offset_m) {}

@@ -1,5 +1,5 @@
-/// What parts tell beside their work reaches the files of a run: events, planners' numbers, trees
-/// and maps.
+/// Additional output of parts reaches the files of a run: events, planners' numbers, trees and
+/// maps.
 
 #include "engine/run/run.h"
 

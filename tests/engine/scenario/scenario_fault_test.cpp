@@ -302,7 +302,7 @@ TEST(ScenarioFault, NoPartIsWiredToTheTruth) {
             "scenario:11: vehicles.rover.estimator.gps = 'drone/gps_truth'" + end);
   EXPECT_EQ(fusion("ranges: [us_left, us_right_truth]"),
             "scenario:11: vehicles.rover.estimator.ranges = 'us_right_truth'" + end);
-  // What is asked for by name as one of a parameter's choices is said openly.
+  // A named choice of a parameter may be the truth: the scenario then states it openly.
   EXPECT_EQ(fusion("heading: truth"), "");
   EXPECT_EQ(fault_of(with_line(11,
                                "    observers: {ekf: {type: fusion, gps: gps_truth}}\n"

@@ -56,7 +56,7 @@ class GnssBench {
   const GnssFix& step() {
     bench_.truth.write(next_, truth_);
     sensor_->step(next_);
-    // A receiver with a delay below its period tells before the next tick.
+    // A receiver with a delay below its period delivers its fix before the next tick.
     if (sensor_->delay().ns > 0) sensor_->deliver(next_ + sensor_->delay());
     next_ = next_ + period_;
     return fix_.value();

@@ -18,7 +18,7 @@ using Rig = SensorRig<ImuSample>;
 
 constexpr double kGravity = 9.80665;
 
-/// Without noise, and what else is asked for.
+/// Without noise, with the other values given.
 SensorValues silent(SensorValues more = {}) {
   more.emplace_back("gyro_noise_dps_rtHz", 0.0);
   more.emplace_back("accel_noise_mps2_rtHz", 0.0);
@@ -88,8 +88,8 @@ TEST(Imu, ItsMeansAreThoseOfASlowMotion) {
   }
 }
 
-// The first reading tells the moment: what the centre of mass feels and, on a lever r, the turn's
-// w x (w x r), which points to the axis.
+// The first reading is instantaneous: the specific force of the centre of mass and, on a lever r,
+// the centripetal w x (w x r), which points to the axis.
 TEST(Imu, TheFirstReadingHasTheLeverArmsCentripetalForce) {
   Rig rig("imu",
           silent({{"position_m", std::vector<double>{0.4, -0.1, 0.2}},

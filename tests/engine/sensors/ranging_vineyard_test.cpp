@@ -56,7 +56,7 @@ struct ConeError {
   double p95_m = 0.0;
 };
 
-/// First return of a bundle of so many rings less that of 4,921 rays, at 240 poses in all alleys.
+/// First return of a bundle of `rings` minus that of 4,921 rays, at 240 poses in all alleys.
 ConeError error_on_the_canopy(int rings) {
   std::vector<double> errors;
   for (const double yaw_deg : {45.0, 90.0, 135.0}) {
@@ -132,8 +132,8 @@ std::vector<Eigen::Vector2d> detect_posts(const std::string& name) {
 // drone, had a median error of 0.21 m and a largest of 1.05 m. Here the scanner's pose is the true
 // one, and the world stands off the survey by itself: vines up to 6 cm beside, as they are put onto
 // the straight row, end posts 6 cm along it, as they lean (12 deg, 0.3 m above the ground); stems
-// are crooked by up to 5 cm. A post is 60 mm thick and a vine's stem as much: which is which, such
-// scans do not tell.
+// are crooked by up to 5 cm. A post and a vine's stem are both 60 mm thick: such scans cannot
+// distinguish them.
 TEST(RangingInAVineyard, WhatAScannerSeesAreTheSurveyedPolesAndVines) {
   const io::SurveyFile survey = io::read_survey(test::riseholme_file());
   const std::vector<Eigen::Vector2d> poles = in_plane(survey.poles), vines = in_plane(survey.vines);

@@ -8,7 +8,7 @@
 
 namespace vinerow::test {
 
-/// Only tells the specific force, the velocity through the air, and the states of one steered axle
+/// Only has the specific force, the velocity through the air, and the states of one steered axle
 /// and one wheel.
 class FixedVehicle final : public Vehicle {
  public:

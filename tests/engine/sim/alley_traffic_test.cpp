@@ -217,7 +217,7 @@ TEST(AlleyStretches, MatchByPlaceNotByNumber) {
   ASSERT_EQ(stretches.size(), 3u);
   EXPECT_EQ(stretches[0].needs, (std::vector<int>{3}));
   EXPECT_EQ(stretches[2].needs, (std::vector<int>{2}));
-  // A made map lies 0.3 m beside the true one and tells no numbers.
+  // A made map is 0.3 m next to the true one and has no alley numbers.
   PlannedPath plan = tour.plan;
   for (PathPoint& point : plan.points) {
     point.p_W.y() += 0.3;
@@ -401,7 +401,7 @@ TEST(AlleyTraffic, WhatAnEarlierRequestNeedsIsKeptForIt) {
 
 TEST(AlleyTraffic, AnEarlierRequestThatCannotBeServedFirstIsOvertaken) {
   // The rover asked for {1, 2, 3} first, the drone holds 3 and wants 2: waiting for the rover's
-  // turn would be for ever.
+  // turn would be a deadlock.
   AlleyTraffic traffic(make_alleys(4), {make_vehicle("rover"), make_vehicle("drone")});
   traffic.begin(0, Time{}, make_tour({0, 3}, 0.0).plan);
   traffic.begin(1, Time{}, make_tour({3, 2}, 0.0).plan);

@@ -1,4 +1,4 @@
-/// A vehicle that is wrecked ends or fails the run, and everybody is told who, why and when.
+/// A wrecked vehicle ends or fails the run; the output states the vehicle, the reason and the time.
 
 #include <gtest/gtest.h>
 

@@ -71,7 +71,7 @@ TEST(Judge, ALongListOfMetricsIsCutWhereOneIsNear) {
   EXPECT_NE(far.find("rover.slip_rms_wheel_9)"), std::string::npos) << far;
 }
 
-/// What is said of a criterion before the run, of a scenario with these metrics.
+/// The message about a criterion before the run, for a scenario with these metrics.
 std::string refusal_of(const std::string& metric, std::optional<double> min,
                        std::optional<double> max, const std::vector<std::string>& types) {
   Registry registry;

@@ -1,7 +1,7 @@
-/// The ground that planners are told where a map has its own.
+/// The ground that planners receive if a map has its own terrain.
 
-#include "engine/api/height_field.h"
 #include "engine/sim/map_ground.h"
+#include "engine/api/height_field.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Small parts for tests of missions: jobs that make, refuse and tell what they were given, a
-/// camera that takes a picture a second, a controller that tells which map its vehicle has.
+/// Small parts for tests of missions: jobs that make a map, fail, or report their inputs, a camera
+/// that takes a picture a second, a controller that publishes which map its vehicle has.
 
 #include <memory>
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace vinerow::test {
 
-/// A picture every second, at (n, 0, 0), and each told twice.
+/// A picture every second, at (n, 0, 0); each is published twice.
 class Clicker final : public Sensor {
  public:
   explicit Clicker(std::string name) : name_(std::move(name)) {}
@@ -50,7 +50,7 @@ class RowCounter final : public Job {
   bool fails_;
 };
 
-/// Finishes `work_s` after its first tick and tells the rows of its map by its plan's x.
+/// Finishes `work_s` after its first tick and publishes how many rows its map has.
 class Worker final : public Controller {
  public:
   Worker(const ParameterSet& parameters, const ControllerContext& context)

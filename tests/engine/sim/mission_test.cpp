@@ -105,7 +105,7 @@ TEST_F(MissionRun, PhasesBeginWhenWhatTheyWaitForIsDone) {
 
 TEST_F(MissionRun, ProductsReachThoseWhoNameThem) {
   const run::RunResult result = run();
-  // Pictures at 0, 1 and 2 s, each told twice: the one at 2.0 falls into the survey's last tick.
+  // Pictures at 0, 1 and 2 s, each published twice: the one at 2.0 is in the survey's last tick.
   EXPECT_EQ(phase(result, "build_map").numbers.at("rows"), 3.0);
   const record::LogReader log(folder_ / "log.mcap");
   std::vector<double> rows;

@@ -58,7 +58,7 @@ TEST(PictureCollector, TellsWhereTheEstimateHasTheCameraAtTheShot) {
   ASSERT_EQ(pictures.estimated_W.size(), 1u);
   // 0.2 m ahead of the body, which is north, and 10 ms at 12 m/s.
   EXPECT_NEAR((pictures.estimated_W[0] - Vector3d(99.0, 2.0 + 0.2 + 0.12, 93.9)).norm(), 0.0, 1e-9);
-  // A shot that is told late is as old as its stamp.
+  // The stamp of a late shot counts, not the time of its arrival.
   bench.estimates.write(Time{2'000'000'000}, estimate);
   bench.shoot(Time{1'900'000'000}, 1);
   EXPECT_NEAR((pictures.estimated_W[1] - Vector3d(99.0, 2.2 - 1.2, 93.9)).norm(), 0.0, 1e-9);

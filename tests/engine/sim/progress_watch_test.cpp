@@ -17,8 +17,8 @@ VehicleDescription rover() {
   return description;
 }
 
-/// When a vehicle is told to be stuck, s; it moves at `moved_mps` and is commanded l, r. -1: never
-/// within 100 s.
+/// Time of the report that a vehicle is stuck, s. It moves at `moved_mps`; its commands are l, r.
+/// -1: not within 100 s.
 double stuck_after_s(double moved_mps, double l, double r) {
   ProgressWatch watch(rover());
   const Duration dt{50'000'000};

@@ -1,6 +1,6 @@
 #pragma once
 /// Parts for tests of the kernel: level ground with a map, a vehicle that stands, a planner that
-/// reports, a controller that tells events.
+/// reports, a controller that writes events.
 
 #include <memory>
 
@@ -102,8 +102,8 @@ class StraightAhead final : public Planner {
   PlanReport report_;
 };
 
-/// Writes an event of its own at 0.1 s and, with another source, at 0.3 s, where `tells` says so.
-/// Has finished from `finish_s` on where that is given, and then says so as a follower.
+/// If `tells` is set, writes an event of its own at 0.1 s and one with another source at 0.3 s.
+/// If `finish_s` is given, it has finished from then on and reports that as a follower.
 class EventReporter final : public Controller {
  public:
   explicit EventReporter(const ParameterSet& parameters)

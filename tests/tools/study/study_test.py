@@ -379,7 +379,7 @@ echo 8""", squeue="true", scancel="true", sacct="echo COMPLETED", scontrol="echo
             told = self.study("check", file)
             cells = int(told.split("= ")[1].split()[0])
             self.assertRegex(page, rf"\| `{file.stem}` \| .* \| {cells} \|", "the page says how many cells it has")
-        # One that a user could type: paper B's, whose tables docs/papers/results.md holds (tools/results --quick makes them anew).
+        # One that a user could type: paper B's, whose tables docs/papers/results.md holds (tools/results --quick recomputes them).
         self.assertLessEqual(len((ROOT / "assets" / "studies" / "orchard_lookahead.yaml").read_text().splitlines()), 30)
 
     def example(self, begin, end):

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Opens the sample page of a study's plots in Chromium: a click or Enter on a mark must show the command of its cell, arrows must go
 from mark to mark, nothing may reach beyond a telephone's window, no text of a plot may be smaller than 9 pixels there, and the
-console must tell no error. Exit status 77: there is no Chromium.
+console must show no error. Exit status 77: there is no Chromium.
 
 usage: in_browser_test.py STUDY_PLOTS_SAMPLE FOLDER
 """
@@ -50,7 +50,7 @@ TRIAL = """<script>(function () {
 
 
 def tell(browser: str, page: pathlib.Path, folder: pathlib.Path, width: int) -> tuple[dict, list[str]]:
-    """What TRIAL tells of a window as wide as this: inside a frame, as Chromium opens none narrower than 500 pixels."""
+    """Result of TRIAL for a window of this width: inside a frame, as Chromium opens none narrower than 500 pixels."""
     text, trial, outer = page.read_text(encoding="utf-8"), folder / f"trial_{width}.html", folder / f"frame_{width}.html"
     end = text.rindex("</body>")
     trial.write_text(text[:end] + TRIAL + text[end:], encoding="utf-8")

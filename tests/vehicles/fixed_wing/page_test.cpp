@@ -1,5 +1,5 @@
 /// The reference of paper A, section 1, prints trim, modes and sampled matrices of its aircraft.
-/// They must come out of the flight model that the vehicle flies by and tells its controllers.
+/// They must come out of the flight model that the vehicle uses and gives to its controllers.
 /// Central differences and series of the matrix exponential are this test's own.
 
 #include <gtest/gtest.h>

@@ -125,7 +125,7 @@ TEST(CanopyPatches, CutsAWallBesideACurvedRowAtItsSteps) {
 }
 
 TEST(CanopyPatches, StandAsHighAboveHollowsAndHumps) {
-  // Ground in waves of 0.8 m, a row that is told by its ends alone, and a wall of 1 m that stands
+  // Ground in waves of 0.8 m, a row with no points but its ends, and a wall of 1 m that stands
   // 0.5 m above the ground: sheared upright, it keeps its areas.
   WorldModel world = make_flat_world();
   HeightField ground;

@@ -28,7 +28,7 @@ class PayloadConformance : public ::testing::TestWithParam<std::string> {
   const PartSpec& spec() const { return vehicle_registry().spec(PartKind::kPayload, GetParam()); }
 };
 
-/// Everything it tells, at every tick and at the end.
+/// Hash of all its outputs, at every tick and at the end.
 std::string digest_of(const std::string& type, std::uint64_t seed) {
   PayloadRig rig(type, windy_rows(), {}, seed);
   Hasher hasher;

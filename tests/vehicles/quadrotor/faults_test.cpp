@@ -94,7 +94,7 @@ TEST(QuadrotorFaults, TheBatteryFailsWhenTheScenarioSaysSo) {
   EXPECT_NEAR(rig.vehicle.rotors()[0].speed_radps, params.hover_radps(), 1e-9);
   listener.run(0.5);
   EXPECT_LT(rig.vehicle.rotors()[3].speed_radps, 0.01 * params.hover_radps());
-  // Two at once are told one after the other.
+  // Two faults at once are reported one after the other.
   EXPECT_EQ(listener.texts.size(), 2u);
 }
 

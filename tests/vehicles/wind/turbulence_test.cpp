@@ -221,8 +221,8 @@ TEST(Turbulence, SpectrumFallsWithSlopeMinusTwo) {
 }
 
 TEST(Turbulence, SpectrumIsLevelAtLongWaves) {
-  // Samples a twelfth of L apart fold less than 1 % of the level back to long waves. So many half
-  // hours that the octaves' levels are known to 4 % and the slope to 0.025.
+  // Samples a twelfth of L apart fold less than 1 % of the level back to long waves. There are
+  // enough half hours to know the octaves' levels to 4 % and the slope to 0.025.
   const DrydenScales scales = calc_dryden_scales(2.0, 8.0);
   struct Case {
     std::vector<std::size_t> components;

@@ -162,7 +162,7 @@ TEST(WindProbe, MeasuresHeightAboveTheGroundBelow) {
   // At x = 40 m the ground is at 20 m; outside its edge continues.
   EXPECT_NEAR(probe.sample({}, {40, 30, 21}, Vector3d::Zero(), kStep).x(), 3.0, 1e-6);
   EXPECT_NEAR(probe.sample({}, {-40, 30, 10}, Vector3d::Zero(), kStep).x(), 6.0, 1e-6);
-  // Without terrain the scene tells; where it tells nothing, the last height counts.
+  // Without terrain the scene's height counts; if the scene has no height, the last one counts.
   WindRig rig(wind);
   rig.scene.height = [](double, double) { return -9.0; };
   EXPECT_NEAR(rig.sample(kStep, {0, 0, 1}).x(), 6.0, 1e-12);

@@ -1,4 +1,4 @@
-// Whether the error-state filter is right about itself: many runs with the noise that it is told.
+// Whether the error-state filter is consistent: many runs with the stated noise.
 
 #include <gtest/gtest.h>
 
@@ -63,7 +63,7 @@ struct Flight {
   int fixes = 0;
 };
 
-/// Noise of the world as a share of what the filter is told.
+/// Noise of the world as a share of the noise stated to the filter.
 struct NoiseShare {
   double fixes = 1.0, imu = 1.0;
 };
@@ -166,7 +166,7 @@ TEST_P(Consistency, ErrorsAreAsLargeAsTheCovarianceSays) {
 }
 
 TEST_P(Consistency, TellsAFilterThatIsWrongAboutItsFixes) {
-  // Told half the fixes' standard deviation: such bounds must refuse it.
+  // If only half the fixes' standard deviation is stated, the bounds must reject the filter.
   double sum = 0.0;
   for (int seed = 0; seed < 10; ++seed) {
     sum += nees(run_once(GetParam(), seed, 0.25).looks[kLooks - 1], 0, 6);

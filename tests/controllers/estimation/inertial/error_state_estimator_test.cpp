@@ -98,7 +98,7 @@ class Bench {
     return sample;
   }
 
-  /// What two antennas 1.2 m apart tell, 7 mm on each axis.
+  /// Measurement of two antennas 1.2 m apart, 7 mm on each axis.
   GnssHeading baseline_at(double t) const {
     GnssHeading reading;
     reading.valid = true;
@@ -386,7 +386,8 @@ TEST(ErrorStateEstimator, GoesStraightOnWithoutReadingsAndComesBack) {
 TEST(ErrorStateEstimator, BeginsAnewWhereAllFixesContradictIt) {
   Bench bench(lively_course());
   bench.run(20.0);
-  // The receiver was wrong all along and now tells the truth, 30 m away: the same to a filter.
+  // Fixes jump by 30 m. To the filter this is the same as a receiver whose earlier fixes were all
+  // wrong.
   const auto shifted = [&](double seconds) {
     for (const std::int64_t end = bench.ticks + std::llround(seconds * 100); bench.ticks < end;) {
       if (bench.ticks % 20 == 0) {

@@ -10,11 +10,10 @@
 
 namespace vinerow::test {
 
-/// What linear theory says of a filter without a map, of one axis: no figure of it comes from the
-/// filter under test but its settings. The gain follows from the noise that the filter is told,
-/// whatever it meets: P+ = (I - K H) P. The true covariance S runs beside it with that gain and the
-/// true noise, S+ = (I - K H) S (I - K H)' + K R_true K' (Gelb, Applied Optimal Estimation, 1974,
-/// chapter 7).
+/// Linear theory of a filter without a map, for one axis. It takes only the settings of the filter
+/// under test. The gain follows from the noise in these settings, whatever the true noise is:
+/// P+ = (I - K H) P. The true covariance S is propagated with that gain and the true noise:
+/// S+ = (I - K H) S (I - K H)' + K R_true K' (Gelb, Applied Optimal Estimation, 1974, chapter 7).
 class LinearTheory {
  public:
   struct Share {
@@ -71,7 +70,7 @@ class LinearTheory {
   double nees_std() const { return std::sqrt(2.0) * nees_std_; }
 
  private:
-  /// @param stride  samples of the standard deviations are so many ticks apart
+  /// @param stride  ticks between two samples of the standard deviations
   void add_up(std::size_t stride) {
     constexpr std::size_t kFirst = 300;  // 3 s are left out
     const std::size_t n = met_.size();

@@ -266,7 +266,7 @@ TEST(OdometryKalman, SettlesAtTheRiccatiGain) {
 }
 
 TEST(OdometryKalman, LearnsTheScaleAndItsErrorIsWhatItSays) {
-  // Wheels tell 3 % too little. Over many runs the error of position and scale, divided by the
+  // Wheels measure 3 % too little. Over many runs the error of position and scale, divided by the
   // stated sigma, has about unit variance (200 runs: standard error 10 %).
   double position_chi2 = 0.0, scale_chi2 = 0.0;
   constexpr int kRuns = 200;

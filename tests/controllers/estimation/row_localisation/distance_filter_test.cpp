@@ -177,7 +177,7 @@ TEST(DistanceFilterLaw, RefusesContradictoryRangesAndRecovers) {
 }
 
 TEST(DistanceFilterLaw, FindsBackByFixesFromAWrongPlace) {
-  // Told to be 60 m off, outside the map: fixes are refused, until ten in a row say the same.
+  // The start is 60 m off, outside the map: fixes are refused until ten in a row agree.
   Flight flight;
   flight.law.start(flight.now(), flight.p_W() + Vector3d(60, 60, 0), 0.04 * Matrix3d::Identity());
   flight.fly(180);

@@ -1,5 +1,5 @@
-// Both estimators on a map of rows over a slope: what the ground between the rows tells of the
-// height.
+// Both estimators on a map of rows over a slope, with the ground between the rows as a height
+// reference.
 
 #include "controllers/estimation/row_localisation/ground_reference.h"
 

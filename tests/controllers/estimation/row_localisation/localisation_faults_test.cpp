@@ -1,5 +1,5 @@
 // Both estimators on a map of rows with data that are wrong, contradict each other or are missing:
-// what they count, and what they tell people.
+// their counters and their events.
 
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ struct AlleyRun {
               &map, {make_range_sensor("left", 0.5 * kPi), make_range_sensor("right", -0.5 * kPi)}),
         p_W(from_W) {}
 
-  /// @param v_mps  along the alley  @param left_m, right_m  what the sensors tell, every 50 ms
+  /// @param v_mps  along the alley  @param left_m, right_m  readings of the sensors, every 50 ms
   void tick(double v_mps, double left_m, double right_m) {
     p_W.x() += 0.01 * v_mps;
     Odometry at;
@@ -70,7 +70,7 @@ struct AlleyRun {
 
 class FaultsOf : public ::testing::TestWithParam<Text> {
  protected:
-  /// Numbers that are none are counted under one name or another.
+  /// Number of refused invalid data. The names of the counters depend on the estimator.
   double refused(const AlleyRun& run) const {
     if (GetParam() == "map_localisation") return run.bench.value("refused");
     return run.bench.value("bad_numbers") + run.bench.value("backwards");

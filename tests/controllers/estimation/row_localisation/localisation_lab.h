@@ -1,6 +1,6 @@
 #pragma once
-/// Flights along an alley of a made vineyard, on which any estimator's law can be tried: what its
-/// sensors would tell at 100 Hz, and how far off its estimate is. The reference study of paper C
+/// Flights along an alley of a synthetic vineyard, to test the law of any estimator: simulated
+/// sensor readings at 100 Hz, and the error of the estimate. The reference study of paper C
 /// (docs/papers/localisation.md).
 
 #include <Eigen/Geometry>
@@ -27,7 +27,7 @@ struct LabSetup {
   double gust_radps = 1.2, yaw_radps = 2.0, tilt_radps = 3.0;  ///< how fast they wander
   double start_std_m = 0.26;                                   ///< each axis
   double start_vertical_std_m = -1.0;                          ///< < 0: start_std_m
-  int start_alleys_off = 0;  ///< the start is told so many alleys to the left of the true one
+  int start_alleys_off = 0;  ///< error of the stated start, in alleys to the left of the true one
   // Range sensors: looking along these angles of B, in the plane of B.
   std::vector<double> sensor_angles_rad = {0.785398163, 2.356194490, -2.356194490, -0.785398163};
   double range_bound_m = 0.003;  ///< uniform error
@@ -47,7 +47,7 @@ struct LabSetup {
   int fix_age = 0;
   double outage_from_s = -1.0, outage_to_s = -1.0;
   double height_std_m = 0.03;  ///< of a height, with the echoes (paper C: the sensor that looks
-                               ///< down); 0: none is told
+                               ///< down); 0: no height
   // Inertial unit.
   double velocity_std_mps = 0.05, velocity_time_s = 5.0;
   double velocity_white_std_mps = 0.0;
@@ -107,7 +107,7 @@ struct LabScore {
   int lost = 0;  ///< not finite, or off by more than 1 m at the end; these count in all else too
 };
 
-/// Seeds 1..count; which samples count is told by `counts` (default: all from 3 s on).
+/// Seeds 1..count; `counts` selects the samples that count (default: all from 3 s on).
 LabScore study(const LabSetup& setup, int count, const LabFilterMaker& make,
                const std::function<bool(const LabSample&)>& counts = {});
 

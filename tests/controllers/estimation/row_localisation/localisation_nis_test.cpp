@@ -1,5 +1,5 @@
-// The normalised innovations squared that the estimators on a map of rows tell: of the last echo
-// and the last fix, so that their means over a run are chi-square means.
+// Normalised innovations squared of the estimators on a map of rows: those of the last echo and the
+// last fix, so that their means over a run are chi-square means.
 
 #include <gtest/gtest.h>
 

@@ -42,7 +42,7 @@ constexpr auto kR1 = controllers::InertialReading::kPositionFix;
 constexpr auto kR2 = controllers::InertialReading::kRandomWalk;
 constexpr auto kR3 = controllers::InertialReading::kVelocity;
 
-/// What the reference does not tell of its world, and how much hangs on it.
+/// Assumptions about the world that the reference does not state, and their effect.
 void assumptions() {
   const Params ekf = with(kR3, controllers::DistanceFusion::kRangeEkf);
   run("as it is", {}, ekf);

@@ -44,7 +44,7 @@ TEST(Localisation, RangeEkfIsAccurateAndConsistent) {
 
 TEST(Localisation, WithoutTheMapReadingR1GivesPaperCsTable3) {
   // Without a map the filter is linear: both the figures and those of paper C must agree with the
-  // covariance recursion, within four standard deviations that it tells of as many flights.
+  // covariance recursion, within four of its standard deviations for this number of flights.
   const double share = 4.0 / std::sqrt(static_cast<double>(kSeeds));
   const LinearTheory theory({}, kR1);
   const double margin_m2 = share * theory.mean_square_std_m2();

@@ -203,7 +203,7 @@ TEST(MapLocalisationLaw, RefusesAndCountsBadDataAndGoesOn) {
   law.correct_range(stationary.now, 0, 1.0, 0.05);
   EXPECT_EQ(law.counters().refused, 8);
   EXPECT_EQ(law.state().p_W(), before);
-  // Contradictory ranges: gated, until the bank begins anew; good ones bring it back.
+  // Contradictory ranges are gated until the filter bank restarts; good ones bring it back.
   for (int i = 0; i < 400; ++i) {
     stationary.tick();
     law.correct_range(stationary.now, i % 2, 0.1, 0.05);

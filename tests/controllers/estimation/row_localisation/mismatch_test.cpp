@@ -1,6 +1,6 @@
-// What becomes of the filters between rows when the noise is half or twice what they were told: the
-// table of docs/papers/localisation.md. A filter is told by its settings and by what receivers and
-// maps state of themselves; no vineyard keeps to that.
+// Filters between rows if the true noise is half or twice the stated noise: the table of
+// docs/papers/localisation.md. The stated noise comes from the filter's settings, from receivers
+// and from maps; no vineyard matches it exactly.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -66,7 +66,7 @@ const char* name_of(Noise noise) {
   return "?";
 }
 
-/// Of a world whose noise is `factor` times what the filter is told.
+/// Score in a world with `factor` times the noise stated to the filter.
 LabScore score_of(const LabFilterMaker& make, Noise noise, double factor, int seeds = kSeeds) {
   LabSetup setup;
   const auto is = [&](Noise one) { return noise == one || noise == Noise::kAll; };
@@ -152,7 +152,7 @@ TEST_P(Mismatch, HalfAndTwiceTheNoiseLeaveItInItsRow) {
             (square_m2 - nominal_m2) / (factor * factor - 1.0);
       }
       if (factor < 1.0) {
-        // Less noise than told never makes it worse than as told, and it is too careful.
+        // Less noise than stated never increases the errors; the filter is then too careful.
         EXPECT_LE(score.lateral_m, 1.05 * nominal.lateral_m);
         EXPECT_LE(score.longitudinal_m, 1.05 * nominal.longitudinal_m);
         EXPECT_LE(score.nees, 1.1 * nominal.nees);
@@ -161,7 +161,7 @@ TEST_P(Mismatch, HalfAndTwiceTheNoiseLeaveItInItsRow) {
         // A linear filter scales with its noise: twice the error, four times the NEES where all
         // noise is twice as large. A gate of 3.5 sigma then refuses 8 % of what is good. If every
         // reading counts alike, that costs 1 / sqrt(0.92): the bound across the rows. Along them
-        // only the walls' roughness tells the place, which is not linear in an error as long as its
+        // only the walls' roughness gives the place, which is not linear in an error as long as its
         // bumps, and a gate of 5 sigma for three coordinates refuses 10 % of the fixes. No theory
         // bounds that: 2.4 and 5.2 are just above the 2.34 and 4.7 that are reached.
         if (GetParam().has_map) {

@@ -258,7 +258,7 @@ TEST(EchoSlab, TheOtherSideOfTheWallMissesTheTruth) {
 }
 
 TEST(IntegritySet, GrowsByWhatItMayHaveMovedAndIsCutByEchoes) {
-  // A vehicle that moves by at most `growth` off its reckoned way each step stays inside.
+  // A vehicle that deviates from its predicted motion by at most `growth` each step stays inside.
   RandomStream random(8, "test", "set");
   controllers::IntegritySet set;
   EXPECT_FALSE(set.has_started());

@@ -361,7 +361,7 @@ TEST(RowMeshIndex, FourHectaresFitInFiftyMegabytes) {
   const double megabytes = 1e-6 * static_cast<double>(test::heap_bytes() - before);
   std::printf("160 rows x 100 m: %zu facets, %.1f MB\n", test::triangle_count(map), megabytes);
   EXPECT_LE(megabytes, 50.0);
-  // 36 bytes of corners a facet at least, so that the heap does tell of the index.
+  // The corners take at least 36 bytes for each facet: the heap's figure includes the index.
   EXPECT_GE(megabytes, 36e-6 * static_cast<double>(test::triangle_count(map)));
 }
 

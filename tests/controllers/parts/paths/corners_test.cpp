@@ -129,7 +129,7 @@ TEST(PathCorners, FindsJumpsOfDirectionAndNoArcs) {
   for (const Vec& p : {Vec(0, 0), Vec(5, 0), Vec(5, 0), Vec(5, 5), Vec(0, 5), Vec(10, 5)}) {
     PathPoint point;
     point.p_W << p, 0.0;
-    bent.points.push_back(point);  // yaw_rad is not told: the chords count
+    bent.points.push_back(point);  // yaw_rad is not set: the chords count
   }
   const std::vector<controllers::PathCorner> corners =
       controllers::find_corners(bent, controllers::kSharpCorner_rad);
@@ -191,7 +191,7 @@ TEST(PathWatch, TellsWhoGoesAwayAndWhoDoesNotGetOn) {
             "lost its path: it has driven 53 m without progress at (10.00, 1.00), 10.0 m along "
             "its path of 100.0 m");
 
-  // Who stands may stand for ever.
+  // A stationary vehicle is never lost.
   controllers::PathWatch stationary({5.0});
   const AllocationCounter allocations;
   for (int i = 0; i < 100000; ++i) stationary.update(at(10.0, 1.0, 10.0, 0.0));

@@ -192,7 +192,7 @@ class SparseForm:
                 self.h.append(value)
 
     def feasible(self) -> bool | None:
-        """None: too close to tell. The largest slack t of all limits together, |t| <= 1, by a linear programme."""
+        """None: too close to decide. The largest slack t of all limits together, |t| <= 1, by a linear programme."""
         if len(self.h) == 0:
             return True
         size = len(self.f)

@@ -193,7 +193,8 @@ TEST(LinearMpc, SoftLimitTradesViolationForInput) {
 }
 
 TEST(LinearMpc, RelativeLimitsMoveWithTheReference) {
-  // The state is held at zero by its cost, but must stay within 0.5 of a reference that has none.
+  // Only inputs have a cost, so the state would stay at zero. Its limits keep it within 0.5 of the
+  // reference.
   controllers::LinearMpcProblem problem = double_integrator(1.0, 3);
   problem.A = problem.B = problem.R = MatrixXd::Ones(1, 1);
   problem.Q = problem.P = MatrixXd::Zero(1, 1);

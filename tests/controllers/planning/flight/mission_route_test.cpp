@@ -347,7 +347,7 @@ TEST(MissionRoute, SurveysComeBackFromBothFormats) {
   }
 }
 
-/// What QGroundControl must be told so that it takes a plan for a multirotor.
+/// Fields that QGroundControl needs to treat a plan as that of a multirotor.
 TEST(MissionRoute, RotorcraftPlansAreOfAMultirotor) {
   controllers::SurveyRequest request;
   request.polygon_W = {{0, 0}, {60, 0}, {60, 40}, {0, 40}};

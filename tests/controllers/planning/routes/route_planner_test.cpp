@@ -22,7 +22,7 @@ using Vec = Eigen::Vector2d;
 
 constexpr double kRadius_m = 1.767;
 
-/// The shortest Dubins path whatever is in the way; keeps what it was asked.
+/// Returns the shortest Dubins path, regardless of obstacles; records its queries.
 class DubinsSearch final : public controllers::PoseSearch {
  public:
   struct Query {

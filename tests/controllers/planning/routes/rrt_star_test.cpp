@@ -137,7 +137,7 @@ TEST(RrtStar, ImprovesTurnsBetweenRowsThatEndAtASlant) {
             0.99 * run.report.numbers.at("first_turn_length_m"));
 }
 
-/// A headland without walls and with boxes in the way of every loop.
+/// A headland without walls, with boxes that block every loop.
 Bench make_cluttered() {
   Bench bench({.row_length_m = 8.0, .headland_m = 12.0, .side_m = 6.0, .has_walls = false});
   RandomStream random(9, "x", "y");

@@ -51,7 +51,7 @@ inline controllers::RrtQuartileParams make_params(double curvature_per_m = kFour
   return params;
 }
 
-/// Starts and ends exactly, hangs together, turns no tighter than allowed, touches nothing.
+/// Starts and ends exactly, is continuous, turns no tighter than allowed, touches nothing.
 inline void expect_drivable(const Site& site, const controllers::Pose2& from,
                             const controllers::Pose2& to,
                             const std::vector<controllers::PathSegment>& pieces,

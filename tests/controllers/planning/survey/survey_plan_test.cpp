@@ -18,8 +18,8 @@ controllers::GroundHeight flat() {
   return [](const Vector2d&) { return std::optional<double>(0.0); };
 }
 
-/// 30 m of relief over a parcel, as the paper tells of its terrain: a hillside with folds across
-/// the lanes, made up.
+/// 30 m of relief over a parcel, as in the paper's terrain: a synthetic hillside with folds across
+/// the lanes.
 double hills_m(const Vector2d& p) {
   return 0.045 * p.y() + 4.0 * std::sin(p.x() / 35.0 + p.y() / 150.0) +
          1.5 * std::sin(p.x() / 16.0);

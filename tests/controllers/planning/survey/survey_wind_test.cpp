@@ -97,7 +97,7 @@ TEST(SurveyInWind, LanesAreEnteredAsInStillAirWhereTheWindIsTold) {
     RecordProperty("to_" + std::to_string(static_cast<int>(to_deg)) + "_deg_m",
                    std::to_string(flight.worst_m()));
   }
-  // Not told of it, the planner has its turns carried past the next lane.
+  // If the plan ignores the wind, its turns drift past the next lane.
   EXPECT_GT(fly(plan_for({0, 0}), {0.0, -3.0}).worst_m(), still.worst_m() + 5.0);
 }
 

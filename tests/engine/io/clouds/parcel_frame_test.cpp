@@ -24,7 +24,7 @@ void PrintTo(const Parcel& parcel, std::ostream* out) {
 
 class ParcelFrameOf : public ::testing::TestWithParam<Parcel> {};
 
-/// Against the exact frame; what is told of a point must be below a tenth of a millimetre.
+/// Against the exact frame: the error of a point must be below a tenth of a millimetre.
 TEST_P(ParcelFrameOf, IsTheExactFrame) {
   const Parcel& parcel = GetParam();
   const CloudFrame exact(
@@ -53,14 +53,14 @@ TEST_P(ParcelFrameOf, IsTheExactFrame) {
 INSTANTIATE_TEST_SUITE_P(
     Systems, ParcelFrameOf,
     ::testing::Values(Parcel{"EPSG:25832", 44.99, 9.5, {540000, 4982000, 120}, 100, true},
-                    Parcel{"EPSG:25832", 44.99, 9.5, {540000, 4982000, 120}, 7500, true},
-                    Parcel{"EPSG:4326", 45.0, 9.5, {9.5, 45, 120}, 0.05, true},
-                    Parcel{"EPSG:2263", 40.75, -74.0, {984000, 212000, 100}, 5000, true},  // feet
-                    Parcel{"EPSG:27700", 53.3, -0.5, {500000, 380000, 20}, 500, true},
-                    Parcel{"EPSG:3003", 44.99, 9.5, {1540000, 4982000, 120}, 500, true},
-                    Parcel{"EPSG:3857", 45.0, 9.5, {1057500, 5621500, 100}, 500, true},
-                    // As large as a country: no polynomial of degree 3.
-                    Parcel{"EPSG:25832", 44.99, 9.5, {540000, 4982000, 120}, 200000, false}));
+                      Parcel{"EPSG:25832", 44.99, 9.5, {540000, 4982000, 120}, 7500, true},
+                      Parcel{"EPSG:4326", 45.0, 9.5, {9.5, 45, 120}, 0.05, true},
+                      Parcel{"EPSG:2263", 40.75, -74.0, {984000, 212000, 100}, 5000, true},  // feet
+                      Parcel{"EPSG:27700", 53.3, -0.5, {500000, 380000, 20}, 500, true},
+                      Parcel{"EPSG:3003", 44.99, 9.5, {1540000, 4982000, 120}, 500, true},
+                      Parcel{"EPSG:3857", 45.0, 9.5, {1057500, 5621500, 100}, 500, true},
+                      // As large as a country: no polynomial of degree 3.
+                      Parcel{"EPSG:25832", 44.99, 9.5, {540000, 4982000, 120}, 200000, false}));
 
 TEST(ParcelFrame, ComesFromTheSeriesOfTheProjection) {
   const GeoOrigin origin{rad_from_deg(45.0), rad_from_deg(9.5), 100.0};

@@ -37,7 +37,7 @@ class MeshFileTest : public ::testing::Test {
   std::filesystem::path folder_;
 };
 
-// A wedge of 1 x 2 x 3 in x, y, z: its extents tell the axes apart.
+// A wedge of 1 x 2 x 3 in x, y, z: its extents distinguish the axes.
 const char* const kWedgeObj =
     "o wedge\nv 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\n"
     "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";

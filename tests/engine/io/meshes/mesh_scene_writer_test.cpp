@@ -13,7 +13,7 @@
 namespace vinerow::io::mesh_scene_writer_test {
 namespace {
 
-/// A wedge of 1 x 2 x 3 m from `corner` on: its extents tell the axes apart.
+/// A wedge of 1 x 2 x 3 m from `corner` on: its extents distinguish the axes.
 TriangleMesh wedge(const Eigen::Vector3f& corner) {
   TriangleMesh mesh;
   for (const Eigen::Vector3f& v : {Eigen::Vector3f(0, 0, 0), Eigen::Vector3f(1, 0, 0),
@@ -100,7 +100,7 @@ TEST_F(MeshSceneWriterTest, OnePlyHoldsAllMeshes) {
 }
 
 TEST_F(MeshSceneWriterTest, ManyVerticesNeedLongerIndices) {
-  // 65,536 vertices: one more than 16 bits tell apart without the number that is reserved.
+  // 65,536 vertices: one more than 16 bits can index without the reserved number.
   TriangleMesh strip;
   for (int i = 0; i < 65'536; ++i) {
     strip.vertices.emplace_back(0.125f * static_cast<float>(i / 2), static_cast<float>(i % 2),

@@ -200,10 +200,10 @@ TEST_F(MapFolder, SchemasTakeWhatIsWrittenAndRefuseWhatIsBroken) {
     }
     write(folder_ / "schema.json", schema);
     write(folder_ / "cases.json", cases.dump());
-    const int status =
-        std::system(("python3 " VINEROW_SOURCE_DIR "/tests/engine/scenario/scenario_schema_check.py " +
-                     folder_.string())
-                        .c_str());
+    const int status = std::system(("python3 " VINEROW_SOURCE_DIR
+                                    "/tests/engine/scenario/scenario_schema_check.py " +
+                                    folder_.string())
+                                       .c_str());
     ASSERT_TRUE(WIFEXITED(status));
     if (WEXITSTATUS(status) == 77 || WEXITSTATUS(status) == 127) {
       GTEST_SKIP() << "python3-jsonschema is not installed";
@@ -367,7 +367,7 @@ TEST_F(MapFolder, RefusesBrokenMapJsonInASentence) {
             in + ": report.cloud.file is 5, must be a text");
   EXPECT_EQ(error_with([](auto& j) { j["terrain"]["cell_m"] = 0; }),
             in + ": terrain.cell_m is 0, must be > 0");
-  // What the schema cannot tell.
+  // Faults that the schema cannot detect.
   const std::string of = "map 'map'";
   EXPECT_EQ(error_with([](auto& j) {
               j["rows"][1]["line_m"] = {{1, 2, 3}};
@@ -428,8 +428,8 @@ TEST_F(MapFolder, RefusesToWriteWhatIsNotSound) {
   EXPECT_EQ(error_with([&](CloudMap& m) { m.map.terrain->heights_m[5] = NAN; }),
             "raster 'map/terrain.tif' cannot be written: the terrain has a height that is not "
             "finite");
-  const std::string error = test::config_error_of(
-      [&] { save_map(test::map_of_world("vineyard"), "/proc/none/map"); });
+  const std::string error =
+      test::config_error_of([&] { save_map(test::map_of_world("vineyard"), "/proc/none/map"); });
   EXPECT_TRUE(error.starts_with("folder '/proc/none/map' cannot be created for the map:")) << error;
 }
 

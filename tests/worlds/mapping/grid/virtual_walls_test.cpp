@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Walks along the ray in small steps and tells where inside and outside first change.
+/// Walks along the ray in small steps to the first change between inside and outside.
 std::optional<double> walked_hit_m(const Vector2d& from, const Vector2d& direction,
                                    const std::vector<Vector2d>& polygon, double step_m) {
   const auto inside = [&](double s_m) {

@@ -1,4 +1,4 @@
-/// What every registered job must keep, whoever wrote it.
+/// Requirements for every registered job, built in or from a plugin.
 
 #include <gtest/gtest.h>
 

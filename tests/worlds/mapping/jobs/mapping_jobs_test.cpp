@@ -1,4 +1,4 @@
-/// The jobs that make a cloud and a map: the same as the commands make, and what they tell of it.
+/// The jobs that make a cloud and a map: same products as the commands, and their reports.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -93,7 +93,7 @@ TEST(Georeference, ABlockIsKnownBetterThanItsPictures) {
     ground2 += std::pow(fit->error_m(centre - Vector3d(0, 0, 97)).y(), 2) / kBlocks;
   }
   const double mean_m = 0.02 / std::sqrt(60.0);
-  // Heights alone tell the tilt about x, with arms along y.
+  // Only heights determine the tilt about x, with arms along y.
   const double tilt_m = 97.0 * 0.02 / std::sqrt(arms2);
   EXPECT_NEAR(std::sqrt(shift2), mean_m, 0.15 * mean_m);
   EXPECT_NEAR(std::sqrt(ground2), std::hypot(mean_m, tilt_m), 0.15 * std::hypot(mean_m, tilt_m));
@@ -177,7 +177,7 @@ TEST(Georeference, DirectTakesWhatTheVehicleTold) {
   GeoreferenceRequest r = request(1);
   GeoreferenceOptions options;
   options.principal_distance_std = 0.0;
-  EXPECT_EQ(georeference(r, options)->error_m({5, 6, 7}), Vector3d(0, 0, 0));  // nobody told
+  EXPECT_EQ(georeference(r, options)->error_m({5, 6, 7}), Vector3d(0, 0, 0));  // no estimates
   for (const Vector3d& p : r.cameras_W) r.estimated_W.push_back(p + Vector3d(0.03, -0.01, 0.04));
   EXPECT_NEAR((georeference(r, options)->error_m({5, 6, 7}) - Vector3d(0.03, -0.01, 0.04)).norm(),
               0.0, 1e-9);

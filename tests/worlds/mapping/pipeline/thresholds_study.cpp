@@ -256,7 +256,7 @@ std::optional<Figures> map_figures(const Parcel& parcel, const MappingThresholds
     for (const RowComparison& row : comparison.rows) {
       direction_deg = std::max(direction_deg, std::abs(row.bearing_deg));
     }
-    // Rows that are none count against those found.
+    // Extra rows, which do not exist, count against those found.
     const auto found =
         static_cast<double>(comparison.found()) - static_cast<double>(comparison.extra_rows.size());
     return Figures{{found, 100.0 * comparison.worst_end_m(), 1000.0 * direction_deg,

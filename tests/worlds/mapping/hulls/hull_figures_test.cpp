@@ -100,5 +100,16 @@ TEST(HullFigures, ContainmentReachesTheToleranceAtFacesEndsAndCorners) {
   EXPECT_EQ(containment.count({{0.5f, 0.0f, 1.0f}, {1.5f, 0.0f, 1.0f}, {3.0f, 0.0f, 1.0f}}), 2);
 }
 
+TEST(HullFigures, ContainmentFollowsASectionThatWidens) {
+  HullChain chain = box(0.0, 1.0, 0.5, 2.0);
+  ASSERT_EQ(chain.sections(), 2);
+  for (int k = 0; k < chain.directions.count(); ++k) chain.section(1)[k] += 0.3;
+  // Half the width is 0.375 m after a quarter of the length.
+  const std::vector<HullChain> chains{chain};
+  const HullContainment containment(chains, 0.1);
+  EXPECT_TRUE(containment.contains({0.25, 0.44, 1.0}));
+  EXPECT_FALSE(containment.contains({0.25, 0.5, 1.0}));
+}
+
 }  // namespace
 }  // namespace vinerow::mapping::hull_figures_test

@@ -104,6 +104,19 @@ TEST(RowPoints, PointsAreInTheFrameOfTheirRow) {
   EXPECT_EQ(rows[1].row, 1);
 }
 
+TEST(RowPoints, BodyIsAsWideAsNineteenTwentiethsOfItsPoints) {
+  const auto class_beside = [](double share_wide) {
+    Wall wall(0.6, 2.0);
+    const auto wide = static_cast<int>(share_wide * static_cast<double>(wall.cloud.points.size()));
+    for (int k = 0; k < wide; ++k) wall.add(20.0 * (k + 0.5) / wide, k % 2 ? 0.9 : -0.9, 1.7);
+    const std::size_t beside = wall.add(5.0, 0.85, 0.8);  // below the body's cut
+    gather_row_canopies(wall.cloud, level_field(), wall.lines, {});
+    return wall.cloud.classes[beside];
+  };
+  EXPECT_EQ(class_beside(0.02), PointClass::kLowVegetation);
+  EXPECT_EQ(class_beside(0.2), PointClass::kCanopy);
+}
+
 TEST(RowPoints, EachLineHasItsOwnReach) {
   Wall wall(0.6, 2.0);
   const std::size_t beside = wall.add(5.0, 1.2, 1.5);

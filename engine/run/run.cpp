@@ -164,7 +164,9 @@ void step_to_end(Session& session, const RunOptions& options, Clock::time_point 
   while (!session.over()) {
     session.advance(session.now() + kSlice);
     if (options.interrupted && options.interrupted()) {
-      throw SimulationError("run", session.now(), "interrupted by the user");
+      const SimulationError error("run", session.now(), "interrupted by the user");
+      session.simulation().emit(Event::Level::kError, error.culprit(), error.what());
+      throw error;
     }
     const double wall_s = seconds_since(start);
     if (options.progress && (wall_s - stated_s > 0.2 || session.over())) {
@@ -315,11 +317,6 @@ void draw_pictures(const std::filesystem::path& log, const Registry& registry,
   }
 }
 
-std::string end_by(EndKind kind) {
-  return kind == EndKind::kCrashed ? "ended after a crash"
-                                   : fmt::format("ended: a vehicle {}", to_string(kind));
-}
-
 /// Steps to the end and judges. @param log  may be null
 void step_and_judge(Session& session, const RunOptions& options, LogObserver* log,
                     RunResult& result) {
@@ -328,25 +325,19 @@ void step_and_judge(Session& session, const RunOptions& options, LogObserver* lo
   const auto break_off = [&](const SimulationError& error) {
     result.status = RunStatus::kBrokenOff;
     result.error = error.what();
-    simulation.emit(Event::Level::kError, error.culprit(), error.what());
   };
   const Clock::time_point start = Clock::now();
   try {
-    simulation.emit(Event::Level::kInfo, "run", fmt::format("started '{}'", scenario.name));
     step_to_end(session, options, start);
-    simulation.emit(Event::Level::kInfo, "run",
-                    simulation.finished()           ? "mission finished"
-                    : !scenario.phases.empty()      ? "mission ended"
-                    : !simulation.crashes().empty() ? end_by(simulation.crashes().front().kind)
-                                                    : "duration is over");
-    if (log) log->on_instant(simulation.now());
   } catch (const SimulationError& error) {
     break_off(error);
   }
   try {
+    if (log && result.status != RunStatus::kBrokenOff) log->on_instant(simulation.now());
     if (log) log->finish();
   } catch (const SimulationError& error) {
     break_off(error);
+    simulation.emit(Event::Level::kError, error.culprit(), error.what());
   }
   result.wall_s = seconds_since(start);
   judge_run(scenario, session, result);

@@ -2,14 +2,30 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
 #include "engine/scenario/scenario_seed.h"
+#include "engine/sim/crash.h"
 #include "engine/sim/run_shelf.h"
 #include "engine/sim/simulation.h"
 #include "engine/sim/vehicle_runtime.h"
 
 namespace vinerow {
+namespace {
+
+/// Sentence on the end of a run.
+std::string end_text(const Simulation& simulation) {
+  if (simulation.finished()) return "mission finished";
+  if (!simulation.scenario().phases.empty()) return "mission ended";
+  if (simulation.crashes().empty()) return "duration is over";
+  const EndKind kind = simulation.crashes().front().kind;
+  return kind == EndKind::kCrashed ? "ended after a crash"
+                                   : fmt::format("ended: a vehicle {}", to_string(kind));
+}
+
+}  // namespace
 
 struct Session::Impl {
   class EventCollector final : public RunObserver {
@@ -17,20 +33,25 @@ struct Session::Impl {
     void on_event(Time now, const Event& event) override { events.push_back({now, event}); }
     std::vector<SessionEvent> events;
   };
-  /// A run and its observer.
+  /// A run, its observer, and what both need.
   struct Run {
-    Run(const scenario::Scenario& scenario, const Registry& registry, SimulationSetup setup)
-        : simulation(scenario, registry, std::move(setup)) {
+    Run(const scenario::Scenario& scenario, const Impl& owner, SimulationSetup setup)
+        : registry(owner.registry),
+          shelf(owner.shelf),
+          simulation(scenario, *registry, std::move(setup)) {
       simulation.add_observer(&events);
     }
+    std::shared_ptr<const Registry> registry;
+    std::shared_ptr<RunShelf> shelf;
     EventCollector events;
     Simulation simulation;
+    bool announced = false;  ///< the event of the start was reported
   };
 
   std::shared_ptr<const Registry> registry;
   SessionOptions options;
-  std::shared_ptr<RunShelf> shelf;  ///< outlives the run
-  std::unique_ptr<Run> run;
+  std::shared_ptr<RunShelf> shelf;
+  std::shared_ptr<Run> run;  ///< shared with run_memory()
   std::map<std::string, std::shared_ptr<SignalSlot>> slots;
   std::string broken;  ///< reason why the run broke off; empty if it did not
 
@@ -45,9 +66,25 @@ struct Session::Impl {
     setup.outside = options.outside;
     setup.shelf = &shelf->files();
     // The old run stays until the new one exists, so that an exception here changes nothing.
-    run = std::make_unique<Run>(scenario, *registry, std::move(setup));
+    run = std::make_shared<Run>(scenario, *this, std::move(setup));
     broken.clear();
     for (const auto& [name, slot] : slots) slot->signal = run->simulation.bus().find(name);
+  }
+
+  /// Steps and reports start, end and failure as events, which are part of the digest.
+  void advance(Time until) {
+    Simulation& simulation = run->simulation;
+    if (!std::exchange(run->announced, true)) {
+      simulation.emit(Event::Level::kInfo, "run",
+                      fmt::format("started '{}'", simulation.scenario().name));
+    }
+    try {
+      simulation.run_until(until);
+    } catch (const SimulationError& error) {
+      simulation.emit(Event::Level::kError, error.culprit(), error.what());
+      throw;
+    }
+    if (simulation.over()) simulation.emit(Event::Level::kInfo, "run", end_text(simulation));
   }
 
   const SignalBase& find(const std::string& name) const {
@@ -112,7 +149,7 @@ void Session::reset() {
 void Session::advance(Time until) {
   impl_->demand_going("advance");
   try {
-    impl_->run->simulation.run_until(until);
+    impl_->advance(until);
   } catch (const std::exception& error) {
     impl_->broken = error.what();
     throw;
@@ -207,6 +244,10 @@ std::string Session::digest() const {
 
 std::uint64_t Session::seed() const {
   return scenario().seed;
+}
+
+std::shared_ptr<const void> Session::run_memory() const {
+  return impl_->run;
 }
 
 const scenario::Scenario& Session::scenario() const {

@@ -200,6 +200,10 @@ class Session {
   std::string digest() const;
   std::uint64_t seed() const;
 
+  /// Keeps the memory of the present run's signals, also after reset() and beyond the session: for
+  /// views without a copy in other languages. The values then no longer change.
+  std::shared_ptr<const void> run_memory() const;
+
   /// Scenario of this run, with its resolved text; not valid after the next reset().
   const scenario::Scenario& scenario() const;
   /// The run itself (engine/sim/simulation.h, private), for observers inside the project; not valid

@@ -10,6 +10,7 @@
 
 #include "engine/api/messages/sensors.h"
 #include "engine/core/error.h"
+#include "engine/run/run.h"
 #include "engine/scenario/scenario_seed.h"
 #include "engine/sim/vehicle_runtime.h"
 #include "tests/scenarios/session_support.h"
@@ -18,9 +19,9 @@
 namespace vinerow::session_test {
 namespace {
 
-using ::testing::HasSubstr;
 using test::all_of;
 using test::scenario_file;
+using ::testing::HasSubstr;
 
 void run_to(Session& session, double end_s) {
   if (!session.over()) session.advance(Time{} + duration_from_s(end_s));
@@ -89,6 +90,39 @@ TEST(Session, SlicesChangeNothing) {
   EXPECT_EQ(all_of(sliced), all_of(whole));
 }
 
+TEST(Session, HasTheDigestAndTheEventsOfACommandsRun) {
+  Session session = open_session(scenario_file("orchard_rover"), {{"duration_s=2"}, {}});
+  while (!session.over()) session.advance_for(Duration{300'000'000});
+
+  Registry registry;
+  register_all(registry);
+  const run::RunResult result = run::run_scenario(session.scenario(), registry, {});
+  EXPECT_EQ(session.digest(), result.digest);
+
+  const std::vector<SessionEvent> events = session.take_events();
+  ASSERT_GE(events.size(), 2u);
+  EXPECT_EQ(events.front().event.text, "started 'orchard_rover'");
+  EXPECT_EQ(events.back().event.text, "duration is over");
+  EXPECT_EQ(events.back().time, session.now());
+}
+
+TEST(Session, SignalsOutliveResetWithTheMemoryOfTheirRun) {
+  std::shared_ptr<const void> memory;
+  const Odometry* truth = nullptr;
+  Odometry copy;
+  {
+    Session session = open_session_text(test::kFreeRover);
+    session.advance(Time{50'000'000});
+    memory = session.run_memory();
+    truth = &session.signal<Odometry>("rover/truth").value();
+    copy = *truth;
+    session.reset(2);
+    session.advance(Time{100'000'000});
+    EXPECT_NE(truth, &session.signal<Odometry>("rover/truth").value());
+  }
+  EXPECT_EQ(truth->X_WB.p, copy.X_WB.p);
+}
+
 TEST(Session, ManyOnThreadsOfTheirOwnDoNotDisturbEachOther) {
   constexpr int kThreads = 4;
   constexpr double kEnd_s = 1.5;
@@ -108,16 +142,16 @@ TEST(Session, ManyOnThreadsOfTheirOwnDoNotDisturbEachOther) {
   });
   for (int k = 2; k < kThreads; ++k) {
     threads.emplace_back([&seen, k] {
-      Session own = open_session(scenario_file("riseholme_rover"),
-                                 {{}, static_cast<std::uint64_t>(k + 1)});
+      Session own =
+          open_session(scenario_file("riseholme_rover"), {{}, static_cast<std::uint64_t>(k + 1)});
       run_to(own, kEnd_s);
       seen[k] = all_of(own);
     });
   }
   for (std::thread& thread : threads) thread.join();
   for (int k = 0; k < kThreads; ++k) {
-    Session alone = open_session(scenario_file("riseholme_rover"),
-                                 {{}, static_cast<std::uint64_t>(k + 1)});
+    Session alone =
+        open_session(scenario_file("riseholme_rover"), {{}, static_cast<std::uint64_t>(k + 1)});
     run_to(alone, kEnd_s);
     EXPECT_EQ(seen[k], all_of(alone)) << "thread " << k;
   }

@@ -10,12 +10,24 @@
 #include "engine/sim/abi_difference.h"
 
 namespace vinerow {
+namespace {
+
+// A plug-in must call the simulator's elementary functions (engine/elementary). The command loads
+// them before the C library; an interpreter that imports the simulator does not, so the plug-in's
+// own libraries, among them the simulator, come first. The sanitizers refuse this.
+#ifdef __SANITIZE_ADDRESS__
+constexpr int kOwnLibrariesFirst = 0;
+#else
+constexpr int kOwnLibrariesFirst = RTLD_DEEPBIND;
+#endif
+
+}  // namespace
 
 void load_plugin(const std::filesystem::path& file, Registry& registry) {
   if (!std::filesystem::exists(file)) {
     throw ConfigError(fmt::format("plug-in '{}' does not exist", file.string()));
   }
-  void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | kOwnLibrariesFirst);
   if (!library)
     throw ConfigError(fmt::format("plug-in '{}' cannot be loaded: {}", file.string(), dlerror()));
 

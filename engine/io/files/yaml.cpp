@@ -10,6 +10,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
+#include "engine/io/files/placed_error.h"
 
 namespace vinerow::io {
 
@@ -169,7 +170,17 @@ void fail_at(const SourceMark& mark, const std::string& sentence) {
       one_line += c;
     }
   }
-  throw ConfigError(one_line);
+  throw PlacedError(mark, leading_key(sentence), one_line);
+}
+
+std::string leading_key(const std::string& sentence) {
+  const std::size_t end = sentence.find_first_not_of(
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_.[]");
+  if (end == 0 || end == std::string::npos) return "";
+  const std::string_view rest = std::string_view(sentence).substr(end);
+  const bool is_key =
+      rest.starts_with(" = ") || rest.starts_with(": ") || rest.starts_with(" must ");
+  return is_key ? sentence.substr(0, end) : "";
 }
 
 std::string shown(const YamlNode& node) {

@@ -1,0 +1,180 @@
+#include "python/core/log.h"
+
+#include <fmt/format.h>
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <cstring>
+
+#include "engine/api/messages.h"
+#include "engine/core/error.h"
+#include "engine/core/suggest.h"
+#include "engine/record/log_reader.h"
+#include "python/core/fields_to_python.h"
+
+namespace vinerow::python {
+namespace py = pybind11;
+namespace {
+
+/// Collects one field of many messages.
+class Column {
+ public:
+  explicit Column(const FieldView& view) : first_(view), name_(view.info.name) {}
+  const std::string& name() const { return name_; }
+
+  /// Single numbers, vectors, quaternions and poses are kept as bytes, other values as objects.
+  void add(const FieldView& view) {
+    if (!is_plain()) {
+      const py::gil_scoped_acquire acquire;
+      objects_.append(to_python(view, py::none(), Memory::kCopy));
+      return;
+    }
+    const auto* bytes = static_cast<const std::byte*>(view.data);
+    if (first_.kind == FieldKind::kPose) {
+      const auto& pose = view.value<Pose>();
+      append(pose.p.data(), 3 * sizeof(double));
+      append(pose.q.coeffs().data(), 4 * sizeof(double));
+    } else {
+      append(bytes, view.stride);
+    }
+    ++count_;
+  }
+
+  py::object array() const {
+    if (!is_plain()) return objects_;
+    switch (first_.kind) {
+      case FieldKind::kVector3:
+        return doubles(0, 3, 3);
+      case FieldKind::kQuaternion:
+        return doubles(0, 4, 4);
+      case FieldKind::kPose:
+        return make_pose(doubles(0, 3, 7), doubles(3, 4, 7));
+      default:
+        return py::array(number_dtype(first_.kind), {count_}, bytes_.data());
+    }
+  }
+
+ private:
+  bool is_plain() const {
+    return first_.shape == FieldShape::kSingle && first_.names.empty() &&
+           first_.kind != FieldKind::kText && first_.kind != FieldKind::kRecord;
+  }
+  void append(const void* data, std::size_t size) {
+    const std::size_t at = bytes_.size();
+    bytes_.resize(at + size);
+    std::memcpy(bytes_.data() + at, data, size);
+  }
+  /// A copy of some of the doubles of each message.
+  py::array doubles(std::size_t first, py::ssize_t used, std::size_t per_message) const {
+    const auto stride = static_cast<py::ssize_t>(per_message * sizeof(double));
+    return py::array(py::dtype::of<double>(), {count_, used}, {stride, py::ssize_t{sizeof(double)}},
+                     bytes_.data() + first * sizeof(double));
+  }
+
+  FieldView first_;
+  std::string name_;
+  std::vector<std::byte> bytes_;
+  py::ssize_t count_ = 0;
+  py::list objects_;
+};
+
+/// Adds the fields of one message after the other to their columns.
+class Columns final : public FieldVisitor {
+ public:
+  void field(const FieldView& view) override {
+    if (next_ == columns_.size()) columns_.emplace_back(view);
+    columns_[next_++].add(view);
+  }
+  void end_message() { next_ = 0; }
+  py::object message(const char* type, const std::vector<double>& stamps_s) const {
+    py::object message = py::module_::import("vinerow.messages").attr("Message")(type);
+    message["stamp_s"] = py::array(static_cast<py::ssize_t>(stamps_s.size()), stamps_s.data());
+    for (const Column& column : columns_) message[py::str(column.name())] = column.array();
+    return message;
+  }
+
+ private:
+  std::vector<Column> columns_;
+  std::size_t next_ = 0;
+};
+
+template <class T>
+py::object read_topic(const record::LogReader& log, const std::string& topic) {
+  Columns columns;
+  std::vector<double> stamps_s;
+  log.read<T>(topic, [&](Time stamp, const T& message) {
+    stamps_s.push_back(stamp.s());
+    visit_fields(message, columns);
+    columns.end_message();
+  });
+  return columns.message(T::kType, stamps_s);
+}
+
+const record::ChannelInfo& channel(const record::LogReader& log, const std::string& name) {
+  std::vector<std::string> known;
+  for (const record::ChannelInfo& info : log.info().channels) {
+    const auto signal = info.metadata.find("signal");
+    if (info.metadata.count("exact_of")) continue;
+    if (info.topic == name || (signal != info.metadata.end() && signal->second == name))
+      return info;
+    known.push_back(signal == info.metadata.end() ? info.topic : signal->second);
+  }
+  throw py::key_error(fmt::format("the log has no topic '{}'{} (known: {})", name,
+                                  did_you_mean(name, known), join(known)));
+}
+
+py::object read_any(const record::LogReader& log, const std::string& name) {
+  const record::ChannelInfo& info = channel(log, name);
+  const auto type = info.metadata.find("vinerow_type");
+  py::object message;
+  if (type != info.metadata.end()) {
+    for_each_message_type([&]<class T>(T*) {
+      if (type->second == T::kType) message = read_topic<T>(log, info.topic);
+    });
+  }
+  if (!message) {
+    throw ConfigError(fmt::format(
+        "topic '{}' has messages of {}, which are not vinerow's: read them with the package mcap",
+        info.topic, info.schema));
+  }
+  return message;
+}
+
+py::dict topics(const record::LogReader& log) {
+  py::dict dict;
+  for (const record::ChannelInfo& info : log.info().channels) {
+    if (info.metadata.count("exact_of")) continue;
+    const auto signal = info.metadata.find("signal");
+    const auto type = info.metadata.find("vinerow_type");
+    dict[py::str(signal == info.metadata.end() ? info.topic : signal->second)] =
+        py::make_tuple(type == info.metadata.end() ? info.schema : type->second, info.messages);
+  }
+  return dict;
+}
+
+}  // namespace
+
+void bind_log(py::module_& module) {
+  py::class_<record::LogReader>(module, "Log", R"(A log of a run, by topic.
+
+log["rover/truth"] reads all messages of a signal: a Message with `stamp_s` (n,) and one column per field.)")
+      .def(py::init<const std::filesystem::path&>(), py::arg("file"))
+      .def("__getitem__", &read_any, py::arg("topic"))
+      .def("__contains__", [](const record::LogReader& log,
+                              const std::string& name) { return topics(log).contains(name); })
+      .def("topics", &topics, "{name: (type, number of messages)}")
+      .def_property_readonly(
+          "complete", [](const record::LogReader& log) { return log.info().complete; },
+          "False if the run was interrupted")
+      .def_property_readonly("warnings",
+                             [](const record::LogReader& log) { return log.info().warnings; })
+      .def_property_readonly("metadata",
+                             [](const record::LogReader& log) { return log.info().metadata; })
+      .def_property_readonly("first_s",
+                             [](const record::LogReader& log) { return log.info().first.s(); })
+      .def_property_readonly("last_s",
+                             [](const record::LogReader& log) { return log.info().last.s(); });
+}
+
+}  // namespace vinerow::python

@@ -1,0 +1,54 @@
+/// The extension module vinerow._core. python/vinerow/__init__.py has the public names.
+
+#include <pybind11/pybind11.h>
+
+#include "engine/core/error.h"
+#include "engine/io/files/placed_error.h"
+#include "python/core/log.h"
+#include "python/core/session.h"
+#include "python/core/usage_error.h"
+#include "vinerow/version.h"
+
+namespace py = pybind11;
+
+namespace vinerow::python {
+namespace {
+
+/// Raises an exception of vinerow.errors.
+template <class... Arguments>
+void raise(const char* type, Arguments&&... arguments) {
+  const py::object exception_type = py::module_::import("vinerow.errors").attr(type);
+  const py::object exception = exception_type(std::forward<Arguments>(arguments)...);
+  PyErr_SetObject(exception_type.ptr(), exception.ptr());
+}
+
+template <class T>
+py::object or_none(const T& value, bool is_given) {
+  return is_given ? py::cast(value) : py::object(py::none());
+}
+
+void translate(std::exception_ptr pointer) {
+  try {
+    if (pointer) std::rethrow_exception(pointer);
+  } catch (const SimulationError& error) {
+    raise("SimulationError", error.what(), error.culprit(), error.time().s());
+  } catch (const io::PlacedError& error) {
+    const io::SourceMark& where = error.where();
+    raise("ConfigError", error.what(), or_none(where.file, !where.file.empty()),
+          or_none(where.line, where.line > 0), or_none(error.key(), !error.key().empty()));
+  } catch (const ConfigError& error) {
+    raise("ConfigError", error.what());
+  } catch (const UsageError& error) {
+    raise("UsageError", error.what());
+  }
+}
+
+}  // namespace
+}  // namespace vinerow::python
+
+PYBIND11_MODULE(_core, module) {
+  module.doc() = "C++ part of vinerow.";
+  py::register_exception_translator(&vinerow::python::translate);
+  vinerow::python::bind_session(module);
+  vinerow::python::bind_log(module);
+}

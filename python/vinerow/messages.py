@@ -1,0 +1,58 @@
+"""Values of signals."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy
+
+
+class Pose(NamedTuple):
+    """A pose, or a list of n poses.
+
+    position: (3,) or (n, 3), m
+    orientation: (4,) or (n, 4), unit quaternion x, y, z, w
+    """
+
+    position: numpy.ndarray
+    orientation: numpy.ndarray
+
+    @property
+    def yaw(self) -> Any:
+        """Heading of the x axis in the horizontal plane, rad."""
+        x, y, z, w = numpy.moveaxis(self.orientation, -1, 0)
+        return numpy.arctan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+
+
+class Event(NamedTuple):
+    """What a part reported. level: "INFO", "WARN" or "ERROR"."""
+
+    time_s: float
+    level: str
+    source: str
+    text: str
+
+
+class Crash(NamedTuple):
+    """A vehicle that crashed."""
+
+    vehicle: str
+    time_s: float
+    text: str
+
+
+class Message(dict):
+    """Fields of a message by name; `message.speed` is `message["speed"]`."""
+
+    def __init__(self, type: str):
+        super().__init__()
+        object.__setattr__(self, "type", type)
+
+    def __getattr__(self, field: str) -> Any:
+        try:
+            return self[field]
+        except KeyError:
+            raise AttributeError(f"{self.type} has no field '{field}'; it has {', '.join(self)}") from None
+
+    def __repr__(self) -> str:
+        return f"{self.type}({', '.join(f'{name}={value!r}' for name, value in self.items())})"

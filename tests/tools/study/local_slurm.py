@@ -118,10 +118,15 @@ class LocalSlurm:
         self.daemons[node].kill()
         self.daemons[node].wait()
         for process in self.processes(node):
-            os.kill(process, signal.SIGKILL)
+            with contextlib.suppress(ProcessLookupError):  # it may end by itself
+                os.kill(process, signal.SIGKILL)
 
     def words_of(self, process):
-        return pathlib.Path(f"/proc/{process}/cmdline").read_bytes().split(b"\0")
+        """Its command line; empty if it has ended."""
+        try:
+            return pathlib.Path(f"/proc/{process}/cmdline").read_bytes().split(b"\0")
+        except FileNotFoundError:
+            return []
 
     def processes(self, node):
         """All that the node's slurmd started."""

@@ -119,8 +119,8 @@ class SlurmStudy(study_case.StudyCase):
 
     def is_at_work(self, task):
         """Whether it has run one cell for two seconds: only that which never ends takes so long."""
-        workers = pathlib.Path(f"/proc/{task}/task/{task}/children").read_text().split()
         try:
+            workers = pathlib.Path(f"/proc/{task}/task/{task}/children").read_text().split()
             return any(int(pathlib.Path(f"/proc/{worker}/stat").read_text().split()[13]) > 2 * os.sysconf("SC_CLK_TCK") for worker in workers)
         except FileNotFoundError:
             return False

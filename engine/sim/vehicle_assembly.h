@@ -48,6 +48,9 @@ struct VehicleParts {
   VehicleParts() = default;
   VehicleParts(const VehicleParts&) = delete;
 
+  /// The vehicle's map. @param world  of the run
+  const RowMap& map(const WorldModel& world) const { return own_map ? *own_map : *world.rows; }
+
   std::shared_ptr<const RowMap> own_map;  ///< null: the world's rows
   std::optional<MapGround> map_ground;    ///< if that map has a terrain
   std::vector<std::unique_ptr<Sensor>> sensors;
@@ -95,7 +98,7 @@ class VehicleAssembly {
   ControllerContext controller_context(const std::string& part, double rate_Hz) const;
   EstimatorContext estimator_context(const std::string& part, double rate_Hz) const;
   PlannerContext planner_context() const;
-  const RowMap& map() const { return parts_.own_map ? *parts_.own_map : *run_.world.rows; }
+  const RowMap& map() const { return parts_.map(run_.world); }
   double control_rate_Hz() const;
   /// The part's own rate; without one the controller's. Hz
   double rate_of(const scenario::PartConfig& part) const;

@@ -117,10 +117,6 @@ void VehicleRuntime::end(bool done) {
   park();
 }
 
-const RowMap& VehicleRuntime::map() const {
-  return parts_->own_map ? *parts_->own_map : *run_.world.rows;
-}
-
 bool VehicleRuntime::finished() const {
   if (crash()) return false;
   if (!parts_->controller) return true;

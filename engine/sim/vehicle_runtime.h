@@ -58,7 +58,7 @@ class VehicleRuntime {
   const std::string& name() const { return config_.name; }
   const Vehicle& vehicle() const { return *vehicle_; }
   /// Its map; without one of its own, the true rows. Valid until the vehicle's next phase begins.
-  const RowMap& map() const;
+  const RowMap& map() const { return parts_->map(run_.world); }
   const Odometry& truth() const { return truth_; }
   /// Its controller has nothing left to do. Always true without a controller, never after a crash.
   bool finished() const;

@@ -1,7 +1,5 @@
 #include "python/core/fields_to_python.h"
 
-#include <cstring>
-
 namespace vinerow::python {
 namespace py = pybind11;
 

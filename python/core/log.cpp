@@ -26,17 +26,15 @@ class Column {
   /// Single numbers, vectors, quaternions and poses are kept as bytes, other values as objects.
   void add(const FieldView& view) {
     if (!is_plain()) {
-      const py::gil_scoped_acquire acquire;
       objects_.append(to_python(view, py::none(), Memory::kCopy));
       return;
     }
-    const auto* bytes = static_cast<const std::byte*>(view.data);
     if (first_.kind == FieldKind::kPose) {
       const auto& pose = view.value<Pose>();
       append(pose.p.data(), 3 * sizeof(double));
       append(pose.q.coeffs().data(), 4 * sizeof(double));
     } else {
-      append(bytes, view.stride);
+      append(view.data, view.stride);
     }
     ++count_;
   }
@@ -166,15 +164,19 @@ log["rover/truth"] reads all messages of a signal: a Message with `stamp_s` (n,)
       .def("topics", &topics, "{name: (type, number of messages)}")
       .def_property_readonly(
           "complete", [](const record::LogReader& log) { return log.info().complete; },
-          "False if the run was interrupted")
-      .def_property_readonly("warnings",
-                             [](const record::LogReader& log) { return log.info().warnings; })
-      .def_property_readonly("metadata",
-                             [](const record::LogReader& log) { return log.info().metadata; })
-      .def_property_readonly("first_s",
-                             [](const record::LogReader& log) { return log.info().first.s(); })
-      .def_property_readonly("last_s",
-                             [](const record::LogReader& log) { return log.info().last.s(); });
+          "False if the run was interrupted.")
+      .def_property_readonly(
+          "warnings", [](const record::LogReader& log) { return log.info().warnings; },
+          "Sentences about damaged parts of the file.")
+      .def_property_readonly(
+          "metadata", [](const record::LogReader& log) { return log.info().metadata; },
+          "{key: text} about the run: scenario, seed, version.")
+      .def_property_readonly(
+          "first_s", [](const record::LogReader& log) { return log.info().first.s(); },
+          "Simulated time of the first message.")
+      .def_property_readonly(
+          "last_s", [](const record::LogReader& log) { return log.info().last.s(); },
+          "Simulated time of the last message.");
 }
 
 }  // namespace vinerow::python

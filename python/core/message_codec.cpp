@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 #include <pybind11/numpy.h>
-#include <pybind11/stl.h>
 
-#include <limits>
+#include <algorithm>
+#include <array>
 #include <map>
+#include <vector>
 
 #include "engine/api/messages.h"
 #include "engine/core/error.h"

@@ -5,7 +5,9 @@
 #include "engine/core/error.h"
 #include "engine/io/files/placed_error.h"
 #include "python/core/log.h"
+#include "python/core/scenario.h"
 #include "python/core/session.h"
+#include "python/core/signal.h"
 #include "python/core/usage_error.h"
 #include "vinerow/version.h"
 
@@ -49,6 +51,9 @@ void translate(std::exception_ptr pointer) {
 PYBIND11_MODULE(_core, module) {
   module.doc() = "C++ part of vinerow.";
   py::register_exception_translator(&vinerow::python::translate);
+  module.attr("__version__") = VINEROW_VERSION_STRING;
+  vinerow::python::bind_scenario(module);
+  vinerow::python::bind_signal(module);
   vinerow::python::bind_session(module);
   vinerow::python::bind_log(module);
 }

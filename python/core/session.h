@@ -7,29 +7,21 @@
 #include <atomic>
 #include <memory>
 #include <optional>
-#include <string>
-#include <vector>
 
-#include "engine/scenario/scenario.h"
 #include "engine/sim/session.h"
+#include "python/core/scenario.h"
 
 namespace vinerow::python {
 
-/// A loaded scenario with the parts that it needs. Immutable.
-struct LoadedScenario {
-  scenario::Scenario scenario;
-  std::shared_ptr<const Registry> registry;
-};
-
-class PythonSession : public std::enable_shared_from_this<PythonSession> {
+class PythonSession {
  public:
-  PythonSession(std::shared_ptr<const LoadedScenario> loaded, SessionOptions options);
-  PythonSession(std::shared_ptr<const LoadedScenario> loaded, Session session);
+  explicit PythonSession(Session session) : session_(std::move(session)) {}
 
   /// The only access to the session: checks that it is open, belongs to this process, and is not in
   /// use by another thread. Releases the session in its destructor.
   class Use {
    public:
+    /// @throws UsageError
     explicit Use(PythonSession& owner);
     ~Use() { owner_.busy_.store(false, std::memory_order_release); }
     Use(const Use&) = delete;
@@ -41,19 +33,22 @@ class PythonSession : public std::enable_shared_from_this<PythonSession> {
     PythonSession& owner_;
   };
 
-  /// Steps without the interpreter's lock. Ctrl-C ends it between two instants.
+  /// Processes every instant up to and including `until`, without the interpreter's lock. Ctrl-C
+  /// ends it between two instants.
   void step(Time until);
+  /// Processes the instants of the next `duration`. @throws UsageError if it is shorter than a step
+  void step_for(Duration duration);
   void reset(std::optional<std::uint64_t> seed);
   std::shared_ptr<PythonSession> twin();
   void close();
   bool closed() const { return !session_; }
 
-  const LoadedScenario& loaded() const { return *loaded_; }
-  /// Number of resets so far: signals notice with it that their arrays belong to an earlier run.
+  /// Grows with each reset and with closing: signals notice with it that their run is over.
   std::uint64_t run_number() const { return run_number_; }
 
  private:
-  std::shared_ptr<const LoadedScenario> loaded_;
+  void step(Use& use, Time until);
+
   std::optional<Session> session_;
   std::atomic<bool> busy_ = false;
   std::uint64_t run_number_ = 0;

@@ -13,6 +13,7 @@ Guide: docs/guides/python.md.
 
 from __future__ import annotations
 
+import numbers
 import os
 import sys
 from typing import Any, Iterable, Mapping
@@ -26,14 +27,15 @@ try:
 finally:
     sys.setdlopenflags(_flags)
 
-from ._core import Log, Scenario, Session, Signal
+from ._core import Log, Scenario, Session, Signal, __version__
 from .errors import ConfigError, SimulationError, UsageError
-from .messages import Crash, Event, Message, Pose
+from .messages import Crash, Event, Message, Phase, Pose
 from .world import Actuator, Alley, Grid, Map, Row, RowMesh, SpawnPoint, Terrain, Vehicle, World
 
 __all__ = [
-    "Actuator", "Alley", "ConfigError", "Crash", "Event", "Grid", "Log", "Map", "Message", "Pose", "Row", "RowMesh", "Scenario",
-    "Session", "Signal", "SimulationError", "SpawnPoint", "Terrain", "UsageError", "Vehicle", "World", "load", "open", "read_log",
+    "Actuator", "Alley", "ConfigError", "Crash", "Event", "Grid", "Log", "Map", "Message", "Phase", "Pose", "Row", "RowMesh",
+    "Scenario", "Session", "Signal", "SimulationError", "SpawnPoint", "Terrain", "UsageError", "Vehicle", "World", "__version__", "load",
+    "open", "read_log",
 ]
 
 
@@ -50,6 +52,8 @@ def load(source: str | os.PathLike | Mapping[str, Any], overrides: Mapping[str, 
     Raises:
         ConfigError: with one sentence about the first mistake
     """
+    if seed is not None and not (isinstance(seed, numbers.Integral) and 0 <= seed < 2**64):
+        raise ConfigError(f"seed = {seed!r}, must be a whole number from 0 to {2**64 - 1}", key="seed")
     values, texts = dict(overrides or {}), list(sets)
     if isinstance(source, Mapping):
         return _core.load_text(_core.dict_to_yaml(dict(source)), os.fspath(folder), values, texts, seed)

@@ -41,6 +41,17 @@ class Crash(NamedTuple):
     text: str
 
 
+class Phase(NamedTuple):
+    """State of a phase of a mission: "waiting", "running", "succeeded", "failed", "blocked"."""
+
+    name: str
+    state: str
+    begin_s: float | None
+    end_s: float | None
+    reason: str
+    numbers: dict[str, float]
+
+
 class Message(dict):
     """Fields of a message by name; `message.speed` is `message["speed"]`."""
 

@@ -16,7 +16,7 @@ import vinerow
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENARIO = ROOT / "assets" / "scenarios" / "riseholme_rover.yaml"
-VINEROW = sys.argv.pop(1)
+VINEROW = sys.argv[1]
 
 
 class Logs(unittest.TestCase):
@@ -86,4 +86,4 @@ class Logs(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    unittest.main(argv=sys.argv[:1])

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """vinerow.Session from Python: the same bits as the command, safe views, and one sentence for each mistake.
 
-    session_test.py VINEROW      (PYTHONPATH has the built package)
+    session_test.py VINEROW PLUGIN      (PYTHONPATH has the built package)
 """
 
 import gc
@@ -24,12 +24,22 @@ import vinerow
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENARIOS = ROOT / "assets" / "scenarios"
 FREE_ROVER = ROOT / "docs" / "examples" / "session" / "free_rover.yaml"
-VINEROW = sys.argv.pop(1)
+VINEROW, SINE_CONTROLLER = sys.argv[1:]
 WHEELS = [f"wheel_{corner}_speed_radps" for corner in ("fl", "fr", "rl", "rr")]
 
 
 def free_rover(**options) -> vinerow.Session:
     return vinerow.open(FREE_ROVER, take_over=["rover/actuators"], **options)
+
+
+def run_of_the_command(scenario: pathlib.Path, changes: dict) -> dict:
+    """summary.json of `vinerow run`."""
+    with tempfile.TemporaryDirectory() as folder:
+        sets = [word for key, value in changes.items() for word in ("--set", f"{key}={value}")]
+        done = subprocess.run([VINEROW, "run", scenario, "--quiet", "--no-pictures", "--no-report", "--out", folder, *sets],
+                              capture_output=True, text=True)
+        assert done.returncode in (0, 1), done.stderr
+        return json.loads((pathlib.Path(folder) / "summary.json").read_text())
 
 
 def drive(session: vinerow.Session, speed_radps: float) -> None:
@@ -39,11 +49,7 @@ def drive(session: vinerow.Session, speed_radps: float) -> None:
 class Bits(unittest.TestCase):
     def test_the_digest_is_that_of_the_command(self):
         changes = {"duration_s": 3, "criteria": []}
-        with tempfile.TemporaryDirectory() as folder:
-            sets = [word for key, value in changes.items() for word in ("--set", f"{key}={value}")]
-            subprocess.run([VINEROW, "run", SCENARIOS / "orchard_rover.yaml", "--quiet", "--no-pictures", "--no-report",
-                            "--out", folder, *sets], check=True, capture_output=True)
-            summary = json.loads((pathlib.Path(folder) / "summary.json").read_text())
+        summary = run_of_the_command(SCENARIOS / "orchard_rover.yaml", changes)
         with vinerow.open(SCENARIOS / "orchard_rover.yaml", changes) as session:
             session.step(1e6)
             self.assertEqual(session.digest, summary["digest"])
@@ -51,6 +57,16 @@ class Bits(unittest.TestCase):
             metrics = {vehicle: {name: None if math.isnan(value) else value for name, value in values.items()}
                        for vehicle, values in session.metrics().items()}
             self.assertEqual(metrics, summary["metrics"])
+
+    def test_a_plugin_computes_what_it_computes_for_the_command(self):
+        # The interpreter has loaded the C library's sin before the plug-in is loaded.
+        changes = {"plugins": f"[{SINE_CONTROLLER}]", "rover.controller": "{type: sine}", "duration_s": "3"}
+        summary = run_of_the_command(FREE_ROVER, changes)
+        sets = [f"{key}={value}" for key, value in changes.items()]
+        with vinerow.open(FREE_ROVER, sets=sets) as session:
+            session.step(3.0)
+            self.assertGreater(session.metrics()["rover"]["distance_m"], 0.5)
+            self.assertEqual(session.digest, summary["digest"])
 
     def test_division_into_calls_and_threads_change_no_bit(self):
         def run(step_s: float) -> str:
@@ -111,6 +127,61 @@ class Values(unittest.TestCase):
             self.assertEqual(truth.fields["linear_velocity"][:2], ("vector", "m/s"))
             self.assertAlmostEqual(truth.stamp_s, 3.0)
 
+    def test_the_pose_has_the_direction_of_the_row(self):
+        with free_rover() as session:
+            session.step(0.0)
+            line = session.world().alleys[0].line
+            east, north, _ = line[-1] - line[0]
+            pose = session.signal("rover/truth")["pose"]
+            self.assertAlmostEqual(float(pose.yaw), math.atan2(north, east), delta=0.02)
+            x, y, z, w = pose.orientation  # a turn about the vertical, nearly: w is the last
+            self.assertAlmostEqual(2.0 * math.atan2(z, w), math.atan2(north, east), delta=0.02)
+
+    def test_a_plan_is_a_dict_of_fields(self):
+        points = [{"position": (float(x), 0.5, 0.0), "yaw": 0.1, "kind": "TURN", "alley": 2} for x in range(3)]
+        scenario = vinerow.load(FREE_ROVER, {"rover.controller": {"type": "pure_pursuit"}})
+        with vinerow.open(scenario, take_over=["rover/plan"]) as session:
+            session.command("rover/plan", {"points": points, "length": 2.0})
+            session.step(0.0)
+            plan = session.signal("rover/plan").value
+            numpy.testing.assert_array_equal(plan.points.position, [point["position"] for point in points])
+            self.assertEqual(plan.points.kind, ["TURN"] * 3)
+            self.assertEqual(list(plan.points.alley), [2] * 3)
+            self.assertEqual(list(plan.points.speed), [0.0] * 3)  # absent: its default
+            self.assertEqual(session.signal("rover/plan").writer, "outside")
+
+            def refusal(change):
+                return Mistakes.refused(self, vinerow.ConfigError, "rover/plan", session.command, "rover/plan",
+                                        {"points": [points[0], {**points[1], **change}]})
+            self.assertEqual(str(refusal({"position": (1.0, 2.0)})), "rover/plan.points[1].position must have 3 numbers, not 2")
+            self.assertIn("did you mean 'TURN'", str(refusal({"kind": "TURNS"})))
+            self.assertIn("has no field 'yw'; did you mean 'yaw'", str(refusal({"yw": 0.0})))
+            self.assertIn(".alley must be an int, not float", str(refusal({"alley": 0.5})))
+
+    def test_events_crashes_and_phases(self):
+        with vinerow.open(SCENARIOS / "cooperative_small.yaml", {"duration_s": 10}) as session:
+            self.assertEqual(session.phases()[0].state, "waiting")
+            session.step(9.5)
+            survey = session.phases()[0]
+            self.assertEqual((survey.name, survey.state, survey.begin_s, survey.end_s), ("survey", "running", 9.0, None))
+            events = session.take_events()
+            self.assertEqual((events[0].time_s, events[0].level, events[0].text), (0.0, "INFO", "started 'cooperative_small'"))
+            self.assertIn(vinerow.Event(9.0, "INFO", "survey", "phase 'survey' begins"),
+                          [event._replace(source="survey") for event in events])
+            self.assertEqual(session.take_events(), [])
+            self.assertEqual(session.crashes(), [])
+
+    def test_a_run_that_breaks_off(self):
+        # Driven off the terrain's edge.
+        with free_rover(sets=["duration_s=30", "rover.spawn={alley: 0, offset_m: 9}"]) as session:
+            drive(session, -9.0)
+            error = Mistakes.refused(self, vinerow.SimulationError, "rover", session.step, 30.0)
+            self.assertIn("rover", error.part)
+            self.assertAlmostEqual(error.time_s, session.now_s, delta=0.01)
+            self.assertEqual(session.take_events()[-1].level, "ERROR")
+            session.reset()
+            session.step(0.1)
+
     def test_views_are_read_only_and_share_memory(self):
         with free_rover() as session:
             session.step(0.1)
@@ -155,6 +226,9 @@ class Mistakes(unittest.TestCase):
             self.assertEqual((error.file, error.line), (str(file), line))
             self.assertEqual(error.key, "vehicles.rover.spawn.alley")
         self.refused(vinerow.ConfigError, "must be None, bool", vinerow.load, FREE_ROVER, {"duration_s": object()})
+        for seed in (-1, 1.5, "one"):
+            self.refused(vinerow.ConfigError, f"seed = {seed!r}, must be a whole number", vinerow.load, FREE_ROVER, seed=seed)
+        self.assertEqual(vinerow.load(FREE_ROVER, seed=numpy.int64(3)).seed, 3)
         loop = []
         loop.append(loop)
         self.refused(vinerow.ConfigError, "nested", vinerow.load, FREE_ROVER, {"duration_s": loop})
@@ -240,4 +314,4 @@ class Mistakes(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    unittest.main(argv=sys.argv[:1])

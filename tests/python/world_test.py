@@ -14,7 +14,6 @@ import vinerow
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENARIOS = ROOT / "assets" / "scenarios"
-sys.argv.pop(1)
 
 
 class World(unittest.TestCase):
@@ -67,4 +66,4 @@ class World(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    unittest.main(argv=sys.argv[:1])

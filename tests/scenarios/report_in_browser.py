@@ -150,8 +150,8 @@ def event_faults(run: pathlib.Path, document: str) -> list[str]:
     table.feed(document)
     events = [json.loads(line) for line in (run / "events.jsonl").read_text(encoding="utf-8").splitlines()]
     faults = [] if events else ["the run has no events, so they cannot be looked for"]
-    faults += [f"the page does not tell the event '{e['text']}'" for e in events if e["text"] not in table.text]
-    return faults + [f"the page does not tell that {e['source']} spoke" for e in events if e["source"] not in table.text]
+    faults += [f"the page does not show the event '{e['text']}'" for e in events if e["text"] not in table.text]
+    return faults + [f"the page does not show {e['source']} as the source of an event" for e in events if e["source"] not in table.text]
 
 
 def main() -> int:

@@ -16,7 +16,7 @@ set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O1 -g1")
 
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  # Sloppiness: what ccache must be told before it caches a source that uses a precompiled header. Paths are kept relative
+  # Sloppiness: what ccache requires before it caches a source that uses a precompiled header. Paths are kept relative
   # to the source tree, so that one clone finds what another one has compiled.
   # CCACHE_EXTRAFILES: ccache compares preprocessed text, and so takes two precompiled headers for one when only a comment
   # differs. GCC compares the files themselves, finds a header that it has not read, and reads it twice. So the headers that

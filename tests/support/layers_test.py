@@ -22,7 +22,7 @@ MAPPING = "worlds/mapping"
 MODEL, READING, ROWS = f"{MAPPING}/model", f"{MAPPING}/reading", f"{MAPPING}/rows"
 HULLS, GRID, FOLDER, PIPELINE = f"{MAPPING}/hulls", f"{MAPPING}/grid", f"{MAPPING}/folder", f"{MAPPING}/pipeline"
 
-# What the rooms may include. The entry of the longest path that holds a file counts; a folder in a list stands for all below it.
+# What the rooms may include. The entry of the longest path that holds a file counts; a folder in a list includes all folders below it.
 # The rooms of a folder without an entry of their own may include each other only where that folder's list says so.
 ALLOWED = {
     CORE: [],
@@ -76,7 +76,7 @@ ALLOWED = {
     SURVEY: BASE + [PATHS, GEO, "engine/io/missions"],  # parcels and missions of ground stations
     ROUTES: BASE + [PATHS, SEARCH, "engine/io/missions"],
     "controllers/planning/flight": BASE + [PATHS, SEARCH, ROUTES, SURVEY],
-    # Tools: rooms may know whatever lies below them, in this order.
+    # Tools: each may include those below it, in this order.
     "tools": ["engine", "vehicles", "worlds", "controllers", "tools", "vinerow"],
     "tools/parts": ["engine", "vehicles", "worlds", "controllers"],
     "tools/terminal": BASE,

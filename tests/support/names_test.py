@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A name stands for one thing.
+"""A name has one meaning.
 
 - Sources of a folder are compiled together, so a name in an anonymous namespace of one must not stand in another's. Most such
   pairs do not compile; two functions of one name and other arguments do, and may then be called for each other.
@@ -65,7 +65,7 @@ def main():
     for (folder, name), files in sorted(private.items()):
         if len(files) > 1:
             faults += 1
-            print(f"{folder}: '{name}' stands in {', '.join(sorted(files))}: give it one home or two names")
+            print(f"{folder}: '{name}' is defined in {', '.join(sorted(files))}: define it once, or give it two names")
     for (scope, name), files in sorted(public.items()):
         if len(files) > 1:
             faults += 1

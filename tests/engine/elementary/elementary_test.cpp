@@ -82,7 +82,7 @@ double error_ulp(double found, long double right) {
 }
 
 TEST(Elementary, IsRightToAboutAUnitInTheLastPlace) {
-  if (LDBL_MANT_DIG < 64) GTEST_SKIP() << "long double is no longer than double here: no judge";
+  if (LDBL_MANT_DIG < 64) GTEST_SKIP() << "long double has the precision of double here: no reference";
   RandomStream random(1, "judge", "arguments");
   for (const Case& c : kCases) {
     double worst_ulp = 0.0;

@@ -77,7 +77,7 @@ def faults_of(told: dict, width: int) -> list[str]:
     if sum(command is not None for command in told["commands"]) < 12:
         faults.append("few plots have cells")
     if "cell" not in told["about"]:
-        faults.append(f"the panel tells of the cell: '{told['about']}'")
+        faults.append(f"the panel shows the cell: '{told['about']}'")
     if not told["closed"]:
         faults.append("Escape leaves the panel open")
     if not told["focused"] or told["entered"][1] != f"vinerow study cell study.yaml {told['entered'][0]}":

@@ -356,7 +356,7 @@ TEST(RowMeshIndex, FourHectaresFitInFiftyMegabytes) {
   const RowMap map = make_row_mesh_map(block, RandomStream(14, "", "block"));
   EXPECT_GT(test::triangle_count(map), 160u * 50u * 16u);
   const std::size_t before = test::heap_bytes();
-  if (before == 0) GTEST_SKIP() << "the sanitizer's heap does not tell what it holds";
+  if (before == 0) GTEST_SKIP() << "the sanitizer's heap does not report its size";
   const controllers::RowMeshIndex index(map);
   const double megabytes = 1e-6 * static_cast<double>(test::heap_bytes() - before);
   std::printf("160 rows x 100 m: %zu facets, %.1f MB\n", test::triangle_count(map), megabytes);

@@ -84,5 +84,65 @@ TEST(SectionDirections, AllStretchesCount) {
   EXPECT_NEAR(excess_of(directions, turned, 2.0 * r * r), 0.0, 1e-6);
 }
 
+/// The greedy choice by whole areas, instead of the triangle over each side: removes, one after the
+/// other, the direction without which the polygon around the points is the smallest.
+std::vector<double> chosen_by_area(const std::vector<Eigen::Vector2d>& points, int count) {
+  std::vector<double> angles, h;
+  for (int k = 0; k < 32; ++k) angles.push_back(2.0 * kPi * k / 32.0 - kPi);
+  for (const double angle : angles) {
+    double most = -1e9;
+    for (const Eigen::Vector2d& p : points) {
+      most = std::max(most, std::cos(angle) * p.x() + std::sin(angle) * p.y());
+    }
+    h.push_back(most);
+  }
+  while (static_cast<int>(angles.size()) > count) {
+    double min_m2 = 1e9;
+    std::size_t out = 0;
+    const std::size_t n = angles.size();
+    for (std::size_t k = 0; k < n; ++k) {
+      // Sides that meet at a sharp angle are excluded, as in the code.
+      const double turn = angles[(k + 1) % n] - angles[(k + n - 1) % n];
+      if (turn + (turn < 0.0 ? 2.0 * kPi : 0.0) > 0.9 * kPi) continue;
+      std::vector<double> fewer = angles, supports = h;
+      fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(k));
+      supports.erase(supports.begin() + static_cast<std::ptrdiff_t>(k));
+      const double area_m2 = HullDirections(fewer).area_m2(supports.data());
+      if (area_m2 < min_m2) {
+        min_m2 = area_m2;
+        out = k;
+      }
+    }
+    angles.erase(angles.begin() + static_cast<std::ptrdiff_t>(out));
+    h.erase(h.begin() + static_cast<std::ptrdiff_t>(out));
+  }
+  return angles;
+}
+
+TEST(SectionDirections, AreThoseOfTheSmallestAreas) {
+  // An egg without symmetry, in fewer than 100 points: none is left out as a stray.
+  std::vector<Eigen::Vector2d> points;
+  RowStretch stretch;
+  stretch.to_m = 1.0;
+  stretch.first.push_back(0);
+  for (int k = 0; k < 96; ++k) {
+    const double angle = 2.0 * kPi * k / 96.0;
+    const double r = 0.5 + 0.06 * std::cos(angle) + 0.03 * std::sin(2.0 * angle + 0.3);
+    const Eigen::Vector3f p(0.5f, static_cast<float>(r * std::cos(angle)),
+                            static_cast<float>(1.2 + 0.7 * r * std::sin(angle)));
+    stretch.points.push_back(p);
+    points.emplace_back(p.y(), p.z());
+  }
+  stretch.first.push_back(stretch.points.size());
+  for (const int count : {20, 12, 8, 6}) {
+    const HullDirections directions = choose_directions({stretch}, count);
+    ASSERT_EQ(directions.count(), count);
+    const std::vector<double> wanted = chosen_by_area(points, count);
+    for (int k = 0; k < count; ++k) {
+      EXPECT_NEAR(directions.angle_rad(k), wanted[static_cast<std::size_t>(k)], 1e-9) << count;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vinerow::mapping::section_directions_test

@@ -35,7 +35,9 @@ struct SpawnConfig {
   std::optional<int>
       alley;  ///< start on this alley's centre line, `offset_m` before its first point
   double offset_m = 0.0;
-  bool reverse = false;  ///< start at the alley's last point, driving towards the first
+  bool reverse = false;    ///< start at the alley's last point, driving towards the first
+  double lateral_m = 0.0;  ///< from that start to the left, as seen along the alley
+  double turn_rad = 0.0;   ///< from the alley's direction to the left
   io::SourceMark where;
 };
 

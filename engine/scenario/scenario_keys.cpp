@@ -258,7 +258,11 @@ const ParameterTable<SpawnConfig>& alley_spawn_table() {
           .required()
           .number("offset_m", "m", &P::offset_m, between(-1e6, 1e6),
                   "distance before the alley's first point")
-          .boolean("reverse", &P::reverse, "start at the last point, driving to the first");
+          .boolean("reverse", &P::reverse, "start at the last point, driving to the first")
+          .number("lateral_m", "m", &P::lateral_m, between(-100.0, 100.0),
+                  "offset to the left of the centre line, as the vehicle heads")
+          .degrees("turn_deg", &P::turn_rad, between(-360.0, 360.0),
+                   "heading relative to the centre line, positive to the left");
   return table;
 }
 

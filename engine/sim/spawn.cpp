@@ -43,7 +43,9 @@ Heading find_on_alley(const scenario::SpawnConfig& spawn, const WorldModel& worl
   if (spawn.reverse) std::reverse(line.begin(), line.end());
   const Eigen::Vector2d first = line[0].head<2>();
   const Eigen::Vector2d along = (line[1].head<2>() - first).normalized();
-  return {first - spawn.offset_m * along, std::atan2(along.y(), along.x())};
+  const Eigen::Vector2d left(-along.y(), along.x());
+  return {first - spawn.offset_m * along + spawn.lateral_m * left,
+          std::atan2(along.y(), along.x()) + spawn.turn_rad};
 }
 
 Heading find_point(const scenario::SpawnConfig& spawn, const WorldModel& world,

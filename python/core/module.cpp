@@ -4,6 +4,7 @@
 
 #include "engine/core/error.h"
 #include "engine/io/files/placed_error.h"
+#include "python/core/gym.h"
 #include "python/core/log.h"
 #include "python/core/scenario.h"
 #include "python/core/session.h"
@@ -56,4 +57,5 @@ PYBIND11_MODULE(_core, module) {
   vinerow::python::bind_signal(module);
   vinerow::python::bind_session(module);
   vinerow::python::bind_log(module);
+  vinerow::python::bind_gym(module);
 }

@@ -13,20 +13,6 @@ namespace vinerow::python {
 namespace py = pybind11;
 namespace {
 
-scenario::Overrides overrides_from(const py::dict& values, const std::vector<std::string>& sets,
-                                   std::optional<std::uint64_t> seed) {
-  scenario::Overrides overrides{sets, seed};
-  for (const auto& [key, value] : values) {
-    if (!py::isinstance<py::str>(key)) {
-      throw ConfigError(
-          fmt::format("overrides has a key {}, must be a str", std::string(py::repr(key))));
-    }
-    const auto path = key.cast<std::string>();
-    overrides.values.push_back({path, yaml_from_python(value, path)});
-  }
-  return overrides;
-}
-
 std::shared_ptr<Registry> built_in_parts() {
   auto registry = std::make_shared<Registry>();
   register_all(*registry);
@@ -36,11 +22,8 @@ std::shared_ptr<Registry> built_in_parts() {
 std::shared_ptr<LoadedScenario> load_file(const std::filesystem::path& file, const py::dict& values,
                                           const std::vector<std::string>& sets,
                                           std::optional<std::uint64_t> seed) {
-  const scenario::Overrides overrides = overrides_from(values, sets, seed);
-  auto registry = built_in_parts();
-  for (const auto& plugin : scenario::load_plugin_list(file, overrides)) {
-    load_plugin(plugin, *registry);
-  }
+  const scenario::Overrides overrides = overrides_from_python(values, sets, seed);
+  auto registry = registry_of_file(file, overrides);
   scenario::Scenario scenario = scenario::load_scenario(file, *registry, overrides);
   return std::make_shared<LoadedScenario>(LoadedScenario{std::move(scenario), std::move(registry)});
 }
@@ -52,7 +35,7 @@ std::shared_ptr<LoadedScenario> load_text(const std::string& yaml,
                                           std::optional<std::uint64_t> seed) {
   auto registry = built_in_parts();
   scenario::Scenario scenario =
-      scenario::parse_scenario(yaml, folder, *registry, overrides_from(values, sets, seed));
+      scenario::parse_scenario(yaml, folder, *registry, overrides_from_python(values, sets, seed));
   return std::make_shared<LoadedScenario>(LoadedScenario{std::move(scenario), std::move(registry)});
 }
 
@@ -69,6 +52,30 @@ auto field(T scenario::Scenario::*member) {
 }
 
 }  // namespace
+
+scenario::Overrides overrides_from_python(const py::dict& values,
+                                          const std::vector<std::string>& sets,
+                                          std::optional<std::uint64_t> seed) {
+  scenario::Overrides overrides{sets, seed};
+  for (const auto& [key, value] : values) {
+    if (!py::isinstance<py::str>(key)) {
+      throw ConfigError(
+          fmt::format("overrides has a key {}, must be a str", std::string(py::repr(key))));
+    }
+    const auto path = key.cast<std::string>();
+    overrides.values.push_back({path, yaml_from_python(value, path)});
+  }
+  return overrides;
+}
+
+std::shared_ptr<const Registry> registry_of_file(const std::filesystem::path& file,
+                                                 const scenario::Overrides& overrides) {
+  auto registry = built_in_parts();
+  for (const auto& plugin : scenario::load_plugin_list(file, overrides)) {
+    load_plugin(plugin, *registry);
+  }
+  return registry;
+}
 
 void bind_scenario(py::module_& module) {
   using scenario::Scenario;

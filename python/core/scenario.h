@@ -3,7 +3,11 @@
 
 #include <pybind11/pybind11.h>
 
+#include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "engine/api/registry.h"
 #include "engine/scenario/scenario.h"
@@ -15,6 +19,15 @@ struct LoadedScenario {
   scenario::Scenario scenario;
   std::shared_ptr<const Registry> registry;
 };
+
+/// Overrides of a dict of key paths, of texts and of a seed. @throws ConfigError
+scenario::Overrides overrides_from_python(const pybind11::dict& values,
+                                          const std::vector<std::string>& sets,
+                                          std::optional<std::uint64_t> seed);
+
+/// The built-in parts, and those of the file's plug-ins. @throws ConfigError
+std::shared_ptr<const Registry> registry_of_file(const std::filesystem::path& file,
+                                                 const scenario::Overrides& overrides);
 
 void bind_scenario(pybind11::module_& module);
 

@@ -87,7 +87,8 @@ ALLOWED = {
     "tools/report": ["engine", MODEL, "tools/parts", "tools/export", "tools/pictures", "tools/replay"],
     "tools/study/plots": [CORE, MATH, "tools/export", "tools/pictures", "tools/report"],
     "tools/study": ["engine", "tools/parts", "tools/report", "tools/study/plots"],
-    "python": ["engine", "tools/parts", "vinerow"],
+    "python": ["engine", "tools/parts", "python/tasks", "vinerow"],
+    "python/tasks": ["engine"],
     "tests": ["engine", "vehicles", "worlds", "controllers", "tools", "tests", "vinerow"],
 }
 
@@ -111,6 +112,7 @@ NAMESPACE = {
     "tools": "vinerow::tools",
     "tools/study": "vinerow::study",
     "python": "vinerow::python",
+    "python/tasks": "vinerow::tasks",
 }
 
 # An outside library is included in one folder only: pattern of the header -> folders.

@@ -169,10 +169,9 @@ TEST(ScenarioFault, MissingRequiredKeysAreNamed) {
   EXPECT_EQ(
       fault_of(with_line(7, "")),
       "scenario:5: vehicles.rover.wheel_radius_m must be given: a number in m, > 0 (unloaded)");
-  EXPECT_EQ(
-      fault_of(with_line(8, "")),
-      "scenario:5: vehicles.rover.spawn must be given, one of {alley, offset_m, reverse}, {x_m, "
-      "y_m, yaw_deg} or {point}");
+  EXPECT_EQ(fault_of(with_line(8, "")),
+            "scenario:5: vehicles.rover.spawn must be given, one of {alley, offset_m, reverse, "
+            "lateral_m, turn_deg}, {x_m, y_m, yaw_deg} or {point}");
   EXPECT_EQ(
       fault_of(with_line(3, "world: {type: flat, posts: [{height_m: 1}]}")),
       "scenario:3: world.posts[0].x_m must be given: a number in m, >= -1000 and <= 1000 (east)");
@@ -185,11 +184,10 @@ TEST(ScenarioFault, MissingRequiredKeysAreNamed) {
 TEST(ScenarioFault, SpawnHasExactlyOneForm) {
   EXPECT_EQ(fault_of(with_line(8, "    spawn: {alley: 0, x_m: 1, y_m: 2}")),
             "scenario:8: vehicles.rover.spawn gives alley and x_m at once, must be one of {alley, "
-            "offset_m, reverse}, {x_m, y_m, yaw_deg} or {point}");
-  EXPECT_EQ(
-      fault_of(with_line(8, "    spawn: {}")),
-      "scenario:8: vehicles.rover.spawn is empty, must be one of {alley, offset_m, reverse}, {x_m, "
-      "y_m, yaw_deg} or {point}");
+            "offset_m, reverse, lateral_m, turn_deg}, {x_m, y_m, yaw_deg} or {point}");
+  EXPECT_EQ(fault_of(with_line(8, "    spawn: {}")),
+            "scenario:8: vehicles.rover.spawn is empty, must be one of {alley, offset_m, reverse, "
+            "lateral_m, turn_deg}, {x_m, y_m, yaw_deg} or {point}");
   EXPECT_EQ(
       fault_of(with_line(8, "    spawn: {x_m: 1}")),
       "scenario:8: vehicles.rover.spawn.y_m must be given: a number in m, >= -10000000 and <= "

@@ -52,7 +52,7 @@ TEST(ResolvedScenario, WritesDefaultsSourcesAndAbsolutePaths) {
                 "    tags: []\n"
                 "    braked: false\n"
                 "    wheels: 6\n"
-                "    spawn: {alley: 2, offset_m: 0, reverse: false}\n"
+                "    spawn: {alley: 2, offset_m: 0, reverse: false, lateral_m: 0, turn_deg: 0}\n"
                 "    on_crash: end\n"
                 "metrics:\n"
                 "  deviation:\n"

@@ -99,6 +99,26 @@ TEST(Spawn, StandsOnMeshesBelowZero) {
   }
 }
 
+TEST(Spawn, InAnAlleyIsMovedAndTurnedToTheLeftAsItHeads) {
+  Start start;
+  start.spawn.p_W.reset();
+  start.spawn.alley = 0;
+  start.world.meshes.push_back(instance_of("ground", sheet(0.0f, 0.0f), SurfaceClass::kTerrain));
+  RowMap rows;
+  rows.alleys.push_back({.id = 0, .line_W = {{1.0, 2.0, 0.0}, {1.0, 8.0, 0.0}}});  // northwards
+  start.world.rows = std::move(rows);
+  start.spawn.offset_m = -1.0;
+  start.spawn.lateral_m = 0.25;
+  start.spawn.turn_rad = 0.1;
+  const Pose into = start.pose();
+  EXPECT_LT((into.p.head<2>() - Eigen::Vector2d(0.75, 3.0)).norm(), 1e-12);
+  EXPECT_NEAR(yaw_from_quaternion(into.q), 0.5 * kPi + 0.1, 1e-12);
+  start.spawn.reverse = true;
+  const Pose back = start.pose();
+  EXPECT_LT((back.p.head<2>() - Eigen::Vector2d(1.25, 7.0)).norm(), 1e-12);
+  EXPECT_NEAR(yaw_from_quaternion(back.q), -0.5 * kPi + 0.1, 1e-12);
+}
+
 TEST(Spawn, IsTiltedByTheGroundAndNotByWhatStandsOnIt) {
   const auto tilt_next_to = [](const MeshInstance& thing) {
     Start start;

@@ -1,0 +1,201 @@
+"""Env and VectorEnv on the environments in C++."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Iterable, Mapping, Sequence
+
+import gymnasium
+import numpy
+from gymnasium import spaces
+from gymnasium.vector.utils import batch_space
+
+from .. import _core
+from ..errors import ConfigError
+from .tasks import TASKS
+
+try:
+    from gymnasium.vector import AutoresetMode
+    _AUTORESET = {"next_step": AutoresetMode.NEXT_STEP, "same_step": AutoresetMode.SAME_STEP, "disabled": AutoresetMode.DISABLED}
+except ImportError:  # before gymnasium 1.1
+    AutoresetMode = None
+    _AUTORESET = {name: name for name in ("next_step", "same_step", "disabled")}
+
+
+def box(elements: Iterable[tuple[str, float, float]]) -> spaces.Box:
+    """Space of an observation or action."""
+    _, low, high = zip(*elements)
+    return spaces.Box(numpy.array(low, numpy.float32), numpy.array(high, numpy.float32), dtype=numpy.float32)
+
+
+def _seed(value: Any) -> int | None:
+    if value is None:
+        return None
+    if isinstance(value, (bool, numpy.bool_)) or not isinstance(value, (int, numpy.integer)) or not 0 <= value < 2**64:
+        raise ConfigError(f"seed = {value!r}, must be a whole number from 0 to {2**64 - 1}", key="seed")
+    return int(value)
+
+
+def _open(task: str, count: int, threads: int, autoreset: str, *, scenario: str | os.PathLike | None, vehicle: str | None,
+          overrides: Mapping[str, Any] | None, sets: Iterable[str], factors: Mapping[str, Any] | None,
+          options: Mapping[str, Any] | None, control_rate_Hz: float) -> _core.gym.Environments:
+    if task not in TASKS:
+        _core.gym.check_task(task)  # raises
+    definition = TASKS[task]
+    if factors is None:
+        factors = definition.factors if scenario is None else {}
+    if not control_rate_Hz > 0.0:
+        raise ConfigError(f"control_rate_Hz = {control_rate_Hz!r}, must be > 0 Hz")
+    return _core.gym.Environments(
+        os.fspath(scenario if scenario is not None else definition.scenario), dict(overrides or {}), list(sets), dict(factors),
+        vehicle or definition.vehicle, task, dict(options or {}), 1.0 / control_rate_Hz, count, threads, autoreset)
+
+
+class Env(gymnasium.Env):
+    """One vehicle with one task.
+
+    Args:
+        task: "row_following", "headland_turn", "row_flight" or "spraying"
+        scenario: a scenario file instead of the task's own; without `factors`, nothing but the seed then varies
+        vehicle: the agent's vehicle in that scenario
+        overrides, sets: as for vinerow.load()
+        factors: what varies between episodes, as in a study; {} for nothing but the seed; default: the task's
+        options: prices, limits and speeds of the task (vinerow.gym.describe())
+        control_rate_Hz: actions per second
+
+    Observations and actions are float32 arrays; actions outside -1 to 1 are clipped. The info of a step has the task's numbers; that of
+    reset() also the levels of the factors. reset() without a seed begins the next episode of the last seed (0 at first).
+    """
+
+    metadata: dict[str, Any] = {"render_modes": []}
+
+    def __init__(self, task: str = "row_following", *, scenario: str | os.PathLike | None = None, vehicle: str | None = None,
+                 overrides: Mapping[str, Any] | None = None, sets: Iterable[str] = (), factors: Mapping[str, Any] | None = None,
+                 options: Mapping[str, Any] | None = None, control_rate_Hz: float = 50.0, render_mode: None = None):
+        if render_mode is not None:
+            raise ConfigError(f"render_mode = {render_mode!r}, must be None: pictures are drawn from the log of a run")
+        self.render_mode = None
+        self._environments = _open(task, 1, 1, "disabled", scenario=scenario, vehicle=vehicle, overrides=overrides, sets=sets,
+                                   factors=factors, options=options, control_rate_Hz=control_rate_Hz)
+        self.observation_space = box(self._environments.observation)
+        self.action_space = box(self._environments.action)
+
+    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[numpy.ndarray, dict[str, Any]]:
+        seed = _seed(seed)
+        super().reset(seed=seed)
+        self._environments.reset([seed], [])
+        observations, _, _, _ = self._environments.results()
+        return observations[0], {**self._environments.numbers_of(0), "levels": self._environments.levels(0)}
+
+    def step(self, action: numpy.ndarray) -> tuple[numpy.ndarray, float, bool, bool, dict[str, Any]]:
+        return self._environments.step_single(action)
+
+    @property
+    def digest(self) -> str:
+        """Digest of the present episode: that of any other run with these actions."""
+        return self._environments.digest(0)
+
+    @property
+    def run_seed(self) -> int:
+        """Seed of the present episode's run."""
+        return self._environments.run_seed(0)
+
+    @property
+    def now_s(self) -> float:
+        """Simulated time of the next action, from the start of the run."""
+        return self._environments.now_s(0)
+
+    def close(self) -> None:
+        self._environments.close()
+
+
+class VectorEnv(gymnasium.vector.VectorEnv):
+    """Many environments of one task, stepped on several threads.
+
+    Args:
+        task, scenario, vehicle, overrides, sets, factors, options, control_rate_Hz: as for Env
+        num_envs: number of environments; environment i has the bits of an Env with seed + i
+        threads: that step them; default: one for each processor
+        autoreset_mode: "next_step" (default), "same_step" or "disabled", as in Gymnasium; with "disabled", reset() with
+            options={"reset_mask": mask} begins new episodes
+
+    Infos have the task's numbers as arrays. With "same_step", `final_obs` and `final_info` are those before the reset.
+    """
+
+    _environments: _core.gym.Environments | None = None  # until it is made, for close()
+
+    def __init__(self, num_envs: int = 1, task: str = "row_following", *, threads: int | None = None,
+                 autoreset_mode: Any = "next_step", scenario: str | os.PathLike | None = None, vehicle: str | None = None,
+                 overrides: Mapping[str, Any] | None = None, sets: Iterable[str] = (), factors: Mapping[str, Any] | None = None,
+                 options: Mapping[str, Any] | None = None, control_rate_Hz: float = 50.0, render_mode: None = None):
+        if render_mode is not None:
+            raise ConfigError(f"render_mode = {render_mode!r}, must be None: pictures are drawn from the log of a run")
+        mode = getattr(autoreset_mode, "name", str(autoreset_mode)).lower()
+        if threads is None:
+            threads = len(os.sched_getaffinity(0))
+        self._environments = _open(task, num_envs, threads, mode, scenario=scenario, vehicle=vehicle, overrides=overrides, sets=sets,
+                                   factors=factors, options=options, control_rate_Hz=control_rate_Hz)
+        self._mode = mode
+        self._names = self._environments.number_names
+        self.num_envs = num_envs
+        self.render_mode = None
+        self.metadata = {"render_modes": [], "autoreset_mode": _AUTORESET[mode]}
+        self.single_observation_space = box(self._environments.observation)
+        self.single_action_space = box(self._environments.action)
+        self.observation_space = batch_space(self.single_observation_space, num_envs)
+        self.action_space = batch_space(self.single_action_space, num_envs)
+
+    def reset(self, *, seed: int | Sequence[int | None] | None = None,
+              options: dict[str, Any] | None = None) -> tuple[numpy.ndarray, dict[str, Any]]:
+        if seed is None or isinstance(seed, (int, numpy.integer)):
+            first = _seed(seed)
+            seeds = [None if first is None else _seed(first + i) for i in range(self.num_envs)]
+        else:
+            seeds = [_seed(one) for one in seed]
+            if len(seeds) != self.num_envs:
+                raise ConfigError(f"seed has {len(seeds)} entries, must have {self.num_envs}, one for each environment")
+        self._environments.reset(seeds, self._chosen(options))
+        observations, _, _, _ = self._environments.results()
+        return observations, self._infos()
+
+    def _chosen(self, options: dict[str, Any] | None) -> list[bool]:
+        mask = (options or {}).get("reset_mask")
+        if mask is None:
+            return []
+        mask = numpy.asarray(mask)
+        if mask.dtype != bool or mask.shape != (self.num_envs,):
+            raise ConfigError(f"reset_mask must be {self.num_envs} bools, not {mask.dtype} of shape {mask.shape}")
+        return mask.tolist()
+
+    def step(self, actions: numpy.ndarray) -> tuple[numpy.ndarray, numpy.ndarray, numpy.ndarray, numpy.ndarray, dict[str, Any]]:
+        self._environments.step(actions)
+        return (*self._environments.results(), self._infos())
+
+    def _infos(self) -> dict[str, Any]:
+        values = self._environments.numbers()
+        everywhere = numpy.ones(self.num_envs, bool)
+        infos: dict[str, Any] = {}
+        for column, name in enumerate(self._names):
+            infos[name], infos["_" + name] = values["numbers"][:, column], everywhere
+        infos["succeeded"], infos["_succeeded"] = values["succeeded"], everywhere
+        ended = values["ended"]
+        if self._mode == "same_step" and ended.any():
+            infos["final_obs"], infos["_final_obs"] = values["final_observations"], ended
+            final: dict[str, Any] = {}
+            for column, name in enumerate(self._names):
+                final[name], final["_" + name] = values["final_numbers"][:, column], ended
+            final["succeeded"], final["_succeeded"] = values["succeeded"], ended
+            infos["final_info"], infos["_final_info"] = final, ended
+        return infos
+
+    def digest(self, index: int) -> str:
+        """Digest of an environment's present episode."""
+        return self._environments.digest(index)
+
+    def levels(self, index: int) -> dict[str, str]:
+        """Levels of the factors in an environment's present episode."""
+        return self._environments.levels(index)
+
+    def close_extras(self, **options: Any) -> None:
+        if self._environments is not None:
+            self._environments.close()

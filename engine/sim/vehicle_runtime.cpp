@@ -209,9 +209,15 @@ void VehicleRuntime::check_command(const SignalBase& value) const {
     throw ConfigError(fmt::format("a command for '{}' has {} values for {} names", value.name(),
                                   wanted.values.size(), wanted.names.size()));
   }
+  const VehicleDescription& description = vehicle_->description();
   for (const std::string& name : wanted.names) {
-    static_cast<void>(vehicle_->description().actuator_index(
-        name, fmt::format("a command for '{}'", value.name())));
+    const bool exists =
+        std::any_of(description.actuators.begin(), description.actuators.end(),
+                    [&](const ActuatorSpec& actuator) { return actuator.name == name; });
+    if (exists) continue;
+    // For its sentence, which is not formatted at every command.
+    static_cast<void>(
+        description.actuator_index(name, fmt::format("a command for '{}'", value.name())));
   }
 }
 

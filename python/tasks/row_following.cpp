@@ -24,7 +24,8 @@ struct RowParams {
   double speed_mps = 1.5;
   double yaw_rate_radps = 0.6;
   double range_m = 3.0;
-  double smoothing_s = 1.0;
+  double smoothing_s = 0.5;
+  double gap_m = 1.2;
   double deviation_price_per_m = 5.0;
   double steering_price = 0.05;
   double contact_price = 20.0;
@@ -38,6 +39,8 @@ ParameterTable<RowParams> row_table() {
       .number("range_m", "m", &P::range_m, kPositive, "largest observed range; no echo: this one")
       .number("smoothing_s", "s", &P::smoothing_s, kPositive,
               "time constant of the smoothed ranges")
+      .number("gap_m", "m", &P::gap_m, kPositive,
+              "a longer range is a gap in the row, which the smoothed range ignores")
       .number("steering_price", "", &P::steering_price, kNotNegative,
               "price of a change of the steering action by 1, squared, in a step")
       .number("contact_price", "", &P::contact_price, kNotNegative,
@@ -97,7 +100,9 @@ class RowTask : public Task {
     steering_change_ = 0.0F;
     deviation_sum_m_ = 0.0;
     steps_ = 0;
-    for (std::size_t i = 0; i < kRangers.size(); ++i) smooth_m_[i] = range_m(i);
+    for (std::size_t i = 0; i < kRangers.size(); ++i) {
+      smooth_m_[i] = std::min<double>(range_m(i), params_.gap_m);
+    }
   }
 
   void act(Session& session, std::span<const float> action) final {
@@ -110,7 +115,9 @@ class RowTask : public Task {
   void observe(std::span<float> observation) final {
     for (std::size_t i = 0; i < kRangers.size(); ++i) {
       observation[i] = range_m(i);
-      smooth_m_[i] += share_ * (observation[i] - smooth_m_[i]);
+      if (observation[i] <= params_.gap_m) {
+        smooth_m_[i] += share_ * (observation[i] - smooth_m_[i]);
+      }
       observation[kRangers.size() + i] = static_cast<float>(smooth_m_[i]);
     }
     std::size_t next = 2 * kRangers.size();

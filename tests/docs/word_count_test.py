@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Have the pages written by hand at most 40,000 words of prose?
+"""Have the pages written by hand at most 42,000 words of prose?
 
     word_count_test.py [--list]
 
@@ -13,9 +13,9 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-LIMIT = 40_000
+LIMIT = 42_000
 # Written by `vinerow docs` and tools/results, or a list that only grows.
-NOT_COUNTED = {f"docs/reference/{name}.md" for name in ("parts", "metrics", "signals", "messages", "cli")} | {"docs/papers/results.md",
+NOT_COUNTED = {f"docs/reference/{name}.md" for name in ("parts", "metrics", "signals", "messages", "cli", "gym")} | {"docs/papers/results.md",
                                                                                                              "CHANGELOG.md"}
 WORD = re.compile(r"[A-Za-z][A-Za-z'-]*")
 ITEM = re.compile(r"\s*(?:[-*]|\d+\.) +")

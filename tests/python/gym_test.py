@@ -5,9 +5,12 @@ and threads, rewards computed here from the truth, and misuse.
     gym_test.py
 """
 
+import contextlib
+import io
 import math
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import threading
@@ -450,6 +453,24 @@ class StableBaselines(unittest.TestCase):
         self.assertTrue(any((a != b).any() for a, b in zip(before, model.policy.parameters())))
         # Episodes of 3 s have 150 steps; the adapter reports them.
         self.assertEqual({entry["l"] for entry in model.ep_info_buffer} - {149, 150}, set())
+
+
+class Documents(unittest.TestCase):
+    ROOT = pathlib.Path(__file__).resolve().parents[2] / "docs"
+
+    def test_reference_is_up_to_date(self):
+        from vinerow.gym.__main__ import page
+        self.assertEqual((self.ROOT / "reference" / "gym.md").read_text(), page(), "write it again: python3 -m vinerow.gym")
+
+    def test_examples_of_the_guide(self):
+        examples = re.findall(r"```python\n(.*?)```", (self.ROOT / "guides" / "gym.md").read_text(), re.DOTALL)
+        self.assertEqual(len(examples), 3)
+        printed, names = io.StringIO(), {}
+        with contextlib.redirect_stdout(printed):
+            for example in examples:
+                exec(compile(example, "docs/guides/gym.md", "exec"), names)
+        self.assertRegex(printed.getvalue(), r"^\{'alley': '[012]', 'noise': '0\.\d+', 'vines': '[123]'\}$")
+        self.assertEqual(names["model"].num_timesteps, 2048)
 
 
 class Memory(unittest.TestCase):

@@ -14,6 +14,7 @@
 #include "engine/scenario/scenario_override.h"
 #include "engine/scenario/scenario_part.h"
 #include "engine/scenario/scenario_phases.h"
+#include "engine/scenario/shipped_file.h"
 #include "engine/scenario/yaml_include.h"
 
 namespace vinerow::scenario {
@@ -282,14 +283,15 @@ fs::path folder_of(const fs::path& file) {
 
 }  // namespace
 
-std::vector<fs::path> load_plugin_list(const fs::path& file, const Overrides& overrides) {
+std::vector<fs::path> load_plugin_list(const fs::path& named, const Overrides& overrides) {
+  const fs::path file = find_shipped(named);
   io::YamlNode root = load_yaml_with_includes(file);
   apply_overrides(root, of_plugins(overrides), folder_of(file));
   return read_plugin_list(root);
 }
 
 ScenarioSource::ScenarioSource(const fs::path& file)
-    : file_(file), tree_(load_yaml_with_includes(file)) {}
+    : file_(find_shipped(file)), tree_(load_yaml_with_includes(file_)) {}
 
 Scenario ScenarioSource::load(const Registry& registry, const Overrides& overrides) const {
   io::YamlNode root = tree_;

@@ -10,6 +10,7 @@
 #include "engine/core/error.h"
 #include "engine/scenario/scenario_keys.h"
 #include "engine/scenario/scenario_reader.h"
+#include "engine/scenario/shipped_file.h"
 #include "engine/scenario/study_factor.h"
 #include "engine/scenario/study_keys.h"
 #include "engine/scenario/yaml_include.h"
@@ -141,7 +142,8 @@ void check_cell_count(const Study& study, const io::SourceMark& mark) {
 
 }  // namespace
 
-Study load_study(const std::filesystem::path& file) {
+Study load_study(const std::filesystem::path& named) {
+  const std::filesystem::path file = find_shipped(named);
   const io::YamlNode root = load_yaml_with_includes(file);
   const io::SourceMark whole{file.string(), 0};
   const std::vector<ParameterSpec> specs = study_table().specs();

@@ -172,14 +172,55 @@ def vinerow_any(*arguments, **environment) -> str:
     return run.stdout
 
 
+class Manual(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+        vinerow("docs", "--man", "--out", cls.folder.name)
+        cls.pages = {page.stem: page for page in pathlib.Path(cls.folder.name).glob("*.1")}
+
+    def text(self, page: str) -> str:
+        """As man shows it, in one line."""
+        shown = subprocess.run(["groff", "-man", "-Tascii", "-ww", "-P-cbou", "-rLL=200n", str(self.pages[page])], capture_output=True, text=True)
+        self.assertEqual((shown.returncode, shown.stderr), (0, ""), page)
+        return " ".join(shown.stdout.split())
+
+    def test_every_command_has_a_page(self):
+        self.assertEqual(set(self.pages), {"vinerow"} | {f"vinerow-{command}" for command in commands()})
+
+    @unittest.skipUnless(shutil.which("groff"), "groff is absent")
+    def test_pages_have_the_options_examples_and_exit_statuses_of_the_help(self):
+        for command in commands():
+            text, shown = self.text(f"vinerow-{command}"), vinerow(command, "--help")
+            self.assertIn(f"NAME vinerow-{command} - ", text)
+            for option in options_of(command) - {"--help"}:
+                self.assertRegex(text, rf"[ ,]{option}[ ,{{]", command)
+            for line in re.search(r"Examples:\n((?:  .*\n)+)", shown).group(1).splitlines():
+                self.assertIn(" ".join(line.split()), text, command)
+            self.assertIn(f"EXIT STATUS {re.search('Exit status: (.*)', shown).group(1)}", text)
+        whole = self.text("vinerow")
+        for command in commands():
+            self.assertIn(f"vinerow-{command}(1)", whole)
+
+    @unittest.skipUnless(shutil.which("groff"), "groff is absent")
+    def test_actions_of_a_command_are_on_its_page(self):
+        text = self.text("vinerow-study")
+        for action in ["run", "resume", "table"]:
+            self.assertIn(f"vinerow study {action} [options] study", text)
+            for option in options_of("study", action) - {"--help"}:
+                self.assertIn(f" {option} ", text)
+
+
 class Completion(unittest.TestCase):
-    def bash(self, *words: str) -> list[str]:
+    def bash(self, *words: str, cwd=ROOT, **environment: str) -> list[str]:
         """What bash offers for the last word; the shell sources what the command prints."""
         script = (
             'source <("$0" completion bash); shift 0; COMP_WORDS=("$@"); COMP_CWORD=$((${#COMP_WORDS[@]} - 1));'
             ' _vinerow; printf "%s\\n" "${COMPREPLY[@]}"'
         )
-        run = subprocess.run(["bash", "-c", script, VINEROW, "vinerow", *words], capture_output=True, text=True, cwd=ROOT)
+        run = subprocess.run(["bash", "-c", script, str(pathlib.Path(VINEROW).resolve()), "vinerow", *words], capture_output=True, text=True, cwd=cwd,
+                             env={**os.environ, **environment})
         self.assertEqual((run.returncode, run.stderr), (0, ""))
         return run.stdout.split()
 
@@ -200,6 +241,28 @@ class Completion(unittest.TestCase):
         self.assertEqual(sorted(self.bash("compare", "--fail-on", "")), ["difference", "none", "regression"])
         self.assertEqual(self.bash("run", "CHANGE"), ["CHANGELOG.md"])
         self.assertEqual(self.bash("run", "--out", "READ"), ["README.md"])
+
+    def test_bash_offers_kinds_and_names_of_parts(self):
+        parts = {part["name"] for part in json.loads(vinerow("list", "--json"))}
+        kinds = {part["kind"] for part in json.loads(vinerow("list", "--json"))}
+        self.assertEqual(set(self.bash("list", "")), parts | kinds)
+
+    def test_bash_offers_installed_scenarios_where_there_are_no_others(self):
+        with tempfile.TemporaryDirectory() as folder:
+            prefix, here = pathlib.Path(folder, "prefix"), pathlib.Path(folder, "here")
+            (prefix / "bin").mkdir(parents=True)
+            (prefix / "bin/vinerow").symlink_to(pathlib.Path(VINEROW).resolve())
+            for name in ["scenarios/one.yaml", "scenarios/two.yaml", "studies/three.yaml"]:
+                (prefix / "share/vinerow/assets" / name).parent.mkdir(parents=True, exist_ok=True)
+                (prefix / "share/vinerow/assets" / name).touch()
+            here.mkdir()
+            path = {"PATH": f"{prefix}/bin:{os.environ['PATH']}"}
+            self.assertEqual(sorted(self.bash("run", "", cwd=here, **path)), ["assets/scenarios/one.yaml", "assets/scenarios/two.yaml"])
+            self.assertEqual(self.bash("run", "assets/scenarios/t", cwd=here, **path), ["assets/scenarios/two.yaml"])
+            self.assertEqual(self.bash("study", "run", "", cwd=here, **path), ["assets/studies/three.yaml"])
+            self.assertEqual(self.bash("run", "--out", "a", cwd=here, **path), [])
+            (here / "assets").mkdir()
+            self.assertEqual(self.bash("run", "", cwd=here, **path), ["assets"])
 
     def test_zsh_and_fish_take_their_scripts(self):
         for shell in ["zsh", "fish"]:

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <vector>
 
 #include "engine/core/suggest.h"
@@ -22,6 +23,7 @@ struct CompletedCommand {
   std::string name, words;  ///< name of an action: "study run"
   std::vector<CompletedOption> options;
   std::vector<std::string> choices;  ///< allowed values of its arguments
+  std::string shipped;               ///< folder of installed files for its argument: "scenarios"
   std::vector<std::string> actions;  ///< "run", "resume" of "study": its first argument
 };
 
@@ -58,16 +60,22 @@ std::vector<CompletedOption> options_of(const CLI::App& app) {
 
 CompletedCommand command_of(const CLI::App& command, const std::string& name,
                             const std::vector<CompletedOption>& common) {
-  CompletedCommand one{name, command.get_description(), options_of(command), {}, {}};
+  static const std::map<std::string, std::string> kShipped = {
+      {"scenario", "scenarios"}, {"study", "studies"}, {"vehicle", "vehicles"}};
+  CompletedCommand one{name, command.get_description(), options_of(command), {}, {}, {}};
   one.options.insert(one.options.end(), common.begin(), common.end());
   for (const CLI::Option* option : command.get_options()) {
-    if (option->get_positional()) one.choices = choices_of(*option);
+    if (!option->get_positional()) continue;
+    one.choices = choices_of(*option);
+    const auto shipped = kShipped.find(option->get_name(true));
+    if (shipped != kShipped.end()) one.shipped = shipped->second;
   }
   return one;
 }
 
 /// All commands, each followed by its actions.
-std::vector<CompletedCommand> commands_of(const CLI::App& app) {
+std::vector<CompletedCommand> commands_of(const CLI::App& app,
+                                          const std::vector<std::string>& parts) {
   std::vector<CompletedCommand> commands;
   // Options of the program itself may also follow a command.
   std::vector<CompletedOption> common;
@@ -77,6 +85,7 @@ std::vector<CompletedCommand> commands_of(const CLI::App& app) {
   for (const CLI::App* command : app.get_subcommands(nullptr)) {
     const std::string name = command->get_name();
     CompletedCommand one = command_of(*command, name, common);
+    if (name == "list") one.choices = parts;
     std::vector<CompletedCommand> actions;
     for (const CLI::App* action : command->get_subcommands(nullptr)) {
       one.actions.push_back(action->get_name());
@@ -119,15 +128,15 @@ std::string zsh_words(const std::string& text) {
 
 }  // namespace
 
-std::string bash_completion(const CLI::App& app) {
+std::string bash_completion(const CLI::App& app, const std::vector<std::string>& parts) {
   std::string commands, with_actions, options_by_command, values;
-  for (const CompletedCommand& command : commands_of(app)) {
+  for (const CompletedCommand& command : commands_of(app, parts)) {
     if (!is_action(command)) commands += command.name + " ";
     if (!command.actions.empty()) with_actions += command.name + " ";
     const auto& words = command.actions.empty() ? command.choices : command.actions;
-    options_by_command += fmt::format("    '{}') options={} words={} ;;\n", command.name,
-                                      study::shell_quoted(names_of(command.options)),
-                                      study::shell_quoted(join(words, " ")));
+    options_by_command += fmt::format("    '{}') options={} words={} shipped='{}' ;;\n",
+                                      command.name, study::shell_quoted(names_of(command.options)),
+                                      study::shell_quoted(join(words, " ")), command.shipped);
     for (const CompletedOption& option : command.options) {
       if (!option.takes_value) continue;
       for (const std::string& name : option.names) {
@@ -139,7 +148,7 @@ std::string bash_completion(const CLI::App& app) {
   return fmt::format(R"script(# Completion of vinerow for bash, made by 'vinerow completion bash'.
 _vinerow() {{
   local current="${{COMP_WORDS[COMP_CWORD]}}" before="${{COMP_WORDS[COMP_CWORD-1]}}"
-  local command='' options='' words='' valued='' i
+  local command='' options='' words='' shipped='' valued='' i
   for ((i = 1; i < COMP_CWORD; i++)); do
     if [[ "${{COMP_WORDS[i]}}" != -* ]]; then command="${{COMP_WORDS[i]}}"; break; fi
   done
@@ -163,8 +172,14 @@ _vinerow() {{
     COMPREPLY=($(compgen -W "$words" -- "$current"))
   else
     compopt -o filenames 2>/dev/null
-    local IFS=$'\n'
+    local IFS=$'\n' folder
     COMPREPLY=($(compgen -f -- "$current"))
+    if [[ -n "$shipped" && -z "$valued" && ! -e assets ]]; then
+      folder="$(type -P vinerow)"
+      folder="${{folder%/bin/*}}/share/vinerow"
+      COMPREPLY+=($(cd "$folder" 2>/dev/null && compgen -G "assets/$shipped/*.yaml" \
+        | while read -r i; do [[ "$i" == "$current"* ]] && printf '%s\n' "$i"; done))
+    fi
   fi
 }}
 complete -F _vinerow vinerow
@@ -173,9 +188,9 @@ complete -F _vinerow vinerow
                      study::shell_quoted(" " + with_actions), options_by_command, values);
 }
 
-std::string zsh_completion(const CLI::App& app) {
+std::string zsh_completion(const CLI::App& app, const std::vector<std::string>& parts) {
   std::string commands, with_actions, cases;
-  for (const CompletedCommand& command : commands_of(app)) {
+  for (const CompletedCommand& command : commands_of(app, parts)) {
     if (!command.actions.empty()) with_actions += command.name + " ";
     if (!is_action(command)) {
       commands += fmt::format(
@@ -219,16 +234,20 @@ _vinerow() {{
   case "$command" in
 {}  esac
 }}
-compdef _vinerow vinerow
+if [[ "$funcstack[1]" == _vinerow ]]; then
+  _vinerow "$@"  # loaded by the completion of the first word
+else
+  compdef _vinerow vinerow
+fi
 )script",
                      commands, study::shell_quoted(" " + with_actions), cases);
 }
 
-std::string fish_completion(const CLI::App& app) {
+std::string fish_completion(const CLI::App& app, const std::vector<std::string>& parts) {
   std::string script =
       "# Completion of vinerow for fish, made by 'vinerow completion fish'.\n"
       "complete -c vinerow -n __fish_use_subcommand -f\n";
-  for (const CompletedCommand& command : commands_of(app)) {
+  for (const CompletedCommand& command : commands_of(app, parts)) {
     std::string here = "__fish_seen_subcommand_from " + command.name;
     const std::size_t space = command.name.find(' ');
     if (!is_action(command)) {

@@ -99,17 +99,11 @@ std::string type_text() {
 
 void add_options(const CLI::App& command, std::string& page) {
   std::string rows;
-  for (const CLI::Option* option : command.get_options()) {
-    // Hidden options have no group; the help option of the program stands for that of each command.
-    const bool is_repeated = option == command.get_help_ptr() && command.get_parent();
-    if (option->get_group().empty() || is_repeated) continue;
-    const std::string name =
-        option->get_positional() ? option->get_name(true) : option->get_name(false, true);
-    const std::string value = option->get_items_expected_max() > 0 ? option->get_type_name() : "";
-    rows +=
-        fmt::format("| {} | {} | {} | {} |\n", markdown_code(name), markdown_code(value),
-                    option->get_required() ? "required" : markdown_code(option->get_default_str()),
-                    markdown_text(option->get_description()));
+  for (const ShownOption& option : shown_options(command)) {
+    rows += fmt::format("| {} | {} | {} | {} |\n", markdown_code(option.name),
+                        markdown_code(option.value),
+                        option.is_required ? "required" : markdown_code(option.default_value),
+                        markdown_text(option.description));
   }
   if (!rows.empty()) {
     page += "\n| argument or option | value | default | meaning |\n|---|---|---|---|\n" + rows;
@@ -129,6 +123,21 @@ void add_command(const CLI::App& command, const std::string& name, std::string& 
 }
 
 }  // namespace
+
+std::vector<ShownOption> shown_options(const CLI::App& command) {
+  std::vector<ShownOption> shown;
+  for (const CLI::Option* option : command.get_options()) {
+    // Hidden options have no group.
+    const bool is_repeated = option == command.get_help_ptr() && command.get_parent();
+    if (option->get_group().empty() || is_repeated) continue;
+    shown.push_back(
+        {option->get_positional() ? option->get_name(true) : option->get_name(false, true),
+         option->get_items_expected_max() > 0 ? option->get_type_name() : "",
+         option->get_default_str(), option->get_description(), option->get_positional(),
+         option->get_required()});
+  }
+  return shown;
+}
 
 std::string metrics_page(const Registry& registry) {
   std::string page = opening(

@@ -3,10 +3,25 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 #include "engine/api/registry.h"
 
 namespace vinerow::tools {
+
+/// Option or argument of a command as its help shows it.
+struct ShownOption {
+  std::string name;           ///< "-o,--out", or the name of an argument
+  std::string value;          ///< "TEXT"; empty if it takes none
+  std::string default_value;  ///< empty if there is none
+  std::string description;
+  bool is_argument = false;
+  bool is_required = false;
+};
+
+/// Options and arguments without hidden ones. The help option of the program stands for that of
+/// each command.
+std::vector<ShownOption> shown_options(const CLI::App& command);
 
 /// Each returns a whole page as Markdown.
 

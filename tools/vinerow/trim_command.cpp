@@ -5,6 +5,7 @@
 
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
+#include "engine/scenario/shipped_file.h"
 #include "tools/pictures/trim_report.h"
 #include "tools/vinerow/subcommands.h"
 
@@ -115,7 +116,10 @@ void add_trim_command(CLI::App& app, int& exit_status) {
                       "several times)");
   command->add_option("--plugin", arguments->plugins, "load a plug-in")->allow_extra_args(false);
   command->add_flag("--json", arguments->as_json, "print JSON, in SI units and rad");
-  command->callback([arguments, &exit_status] { exit_status = trim(*arguments); });
+  command->callback([arguments, &exit_status] {
+    arguments->file = scenario::find_shipped(arguments->file);
+    exit_status = trim(*arguments);
+  });
 }
 
 }  // namespace vinerow::tools

@@ -3,12 +3,9 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "engine/core/error.h"
-#include "engine/core/whole_file.h"
 #include "engine/run/run.h"
 #include "engine/sim/judge.h"
-#include "tools/pictures/map_picture_files.h"
-#include "tools/report/report.h"
+#include "tools/report/run_files.h"
 #include "tools/terminal/colour.h"
 #include "tools/terminal/interrupt.h"
 #include "tools/terminal/progress_line.h"
@@ -83,35 +80,6 @@ void print_pictures(const run::RunResult& result, const std::filesystem::path& o
   }
 }
 
-/// Reports output that could not be written. The run's verdict stays; the exit status becomes 3.
-class Unwritten {
- public:
-  bool any() const { return any_; }
-  void report(const std::string& sentence) {
-    if (sentence.empty()) return;
-    any_ = true;
-    fmt::print(stderr, "vinerow: {}\n", sentence);
-  }
-  /// Writes further output of a finished run. @param what  for messages: "report"
-  template <class F>
-  void try_to_write(const char* what, F&& write) {
-    try {
-      write();
-    } catch (const WriteError& error) {
-      report(fmt::format("no {}: {}", what, error.what()));
-    } catch (const ConfigError& error) {
-      fmt::print(stderr, "vinerow: no {}: {}\n", what, error.what());
-    }
-  }
-
- private:
-  bool any_ = false;
-};
-
-void print_files(const char* what, const std::vector<std::filesystem::path>& files) {
-  for (const std::filesystem::path& file : files) fmt::print("{:8} {}\n", what, file.string());
-}
-
 }  // namespace
 
 run::RunStatus run_and_report(const scenario::Scenario& scenario, const Registry& registry,
@@ -135,33 +103,31 @@ run::RunStatus run_and_report(const scenario::Scenario& scenario, const Registry
   const run::RunResult result = run::run_scenario(scenario, registry, options);
   line.end();
   print_pictures(result, options.out);
-  Unwritten unwritten;
-  unwritten.report(result.write_failure);
+  // Output that could not be written makes the exit status 3; the run's verdict stays.
+  bool unwritten = !result.write_failure.empty();
+  if (unwritten) fmt::print(stderr, "vinerow: {}\n", result.write_failure);
   const bool broke_off = result.status == run::RunStatus::kBrokenOff;
   const bool drawing_interrupted = is_interrupted() && !broke_off;
   try {
     if (drawing_interrupted) throw Interrupted();
-    if (with_log && options.pictures) {
-      // Ground covered by the vehicles' pictures, and maps made by jobs.
-      unwritten.try_to_write("coverage", [&] {
-        print_files("coverage", write_coverage(options.out / "log.mcap", registry, {},
-                                               options.out / "coverage.png"));
-      });
-      unwritten.try_to_write("pictures of maps",
-                             [&] { print_files("map", write_job_pictures(scenario, result)); });
-    }
-    if (!choice.no_report) {
-      unwritten.try_to_write("report", [&] {
-        const std::filesystem::path report = options.out / "report.html";
-        write_report(options.out, registry, report, [&](int done, int total) {
-          // Ctrl-C during the simulation still writes the report.
-          if (is_interrupted() && !broke_off) throw Interrupted();
-          line.count("writing the report", done, total);
-        });
-        line.end();
-        print_files("report", {report});
-      });
-    }
+    FurtherFiles further;
+    further.out = options.out;
+    further.coverage_and_maps = with_log && options.pictures;
+    further.report = !choice.no_report;
+    further.written = [&line](const char* kind, const std::vector<std::filesystem::path>& files) {
+      line.end();
+      for (const std::filesystem::path& file : files) fmt::print("{:8} {}\n", kind, file.string());
+    };
+    further.missing = [&](const std::string& sentence, bool not_stored) {
+      unwritten |= not_stored;
+      fmt::print(stderr, "vinerow: {}\n", sentence);
+    };
+    further.report_progress = [&](int done, int total) {
+      // Ctrl-C during the simulation still writes the report.
+      if (is_interrupted() && !broke_off) throw Interrupted();
+      line.count("writing the report", done, total);
+    };
+    write_further_files(scenario, registry, result, further);
   } catch (const Interrupted&) {
     line.end();
     const std::string out = options.out.string();
@@ -170,7 +136,7 @@ run::RunStatus run_and_report(const scenario::Scenario& scenario, const Registry
                "render {}/log.mcap' draws the pictures, 'vinerow report {}' writes the report\n",
                out, out);
   }
-  return unwritten.any() ? run::RunStatus::kBrokenOff : result.status;
+  return unwritten ? run::RunStatus::kBrokenOff : result.status;
 }
 
 void add_run_command(CLI::App& app, int& exit_status) {

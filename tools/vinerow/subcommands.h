@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "engine/api/registry.h"
-#include "engine/playback/coverage_log.h"
 #include "engine/run/run.h"
 #include "engine/scenario/scenario.h"
 
@@ -58,14 +57,6 @@ run::RunStatus run_and_report(const scenario::Scenario& scenario, const Registry
 
 /// RUN/log.mcap for a folder, otherwise the file itself.
 std::filesystem::path log_of(const std::filesystem::path& run_or_log);
-
-/// Draws the coverage of every camera that took pictures in a run, and writes its numbers as .json.
-/// @param out  the picture; with several cameras the camera's name is added
-/// @returns the pictures; empty if the log has no shots
-std::vector<std::filesystem::path> write_coverage(const std::filesystem::path& log,
-                                                  const Registry& registry,
-                                                  const playback::CoverageChoice& choice,
-                                                  const std::filesystem::path& out);
 
 /// Registry with the built-in parts and the parts of the plug-ins.
 Registry make_registry(const std::vector<std::filesystem::path>& plugins);

@@ -306,20 +306,47 @@ Scenario load_scenario(const fs::path& file, const Registry& registry, const Ove
   return ScenarioSource(file).load(registry, overrides);
 }
 
+namespace {
+
+/// @param mark  of the whole text, for errors
+Scenario scenario_of_tree(io::YamlNode root, const io::SourceMark& mark, const fs::path& folder,
+                          const Registry& registry, const Overrides& overrides) {
+  resolve_includes(root, "");
+  apply_overrides(root, overrides, folder);
+  return ScenarioReader(root, mark, registry).read("scenario");
+}
+
+/// A file name without folder has an empty parent path: then this is the current folder.
+fs::path absolute_folder(const fs::path& folder) {
+  return fs::absolute(fs::path(".") / folder).lexically_normal();
+}
+
+void set_folder(io::YamlNode& node, const fs::path& folder) {
+  node.folder = folder;
+  for (io::YamlNode& item : node.items) set_folder(item, folder);
+  for (io::YamlEntry& entry : node.entries) set_folder(entry.value, folder);
+}
+
+}  // namespace
+
 Scenario parse_scenario(const std::string& yaml, const fs::path& folder, const Registry& registry,
                         const Overrides& overrides) {
-  // A file name without folder has an empty parent path: use the current folder.
-  const fs::path absolute_folder = fs::absolute(fs::path(".") / folder).lexically_normal();
-  io::YamlNode root = io::parse_yaml(yaml, "scenario", absolute_folder);
+  const fs::path base = absolute_folder(folder);
+  io::YamlNode root = io::parse_yaml(yaml, "scenario", base);
   const io::SourceMark whole{"scenario", 0};
   if (root.is_null()) io::fail_at(whole, "the file is empty; a scenario starts with 'vinerow: 1'");
   if (!root.is_mapping()) {
     io::fail_at(root.mark, fmt::format("the file holds {}, must be a mapping ('key: value' lines)",
                                        io::shown(root)));
   }
-  resolve_includes(root, "");
-  apply_overrides(root, overrides, absolute_folder);
-  return ScenarioReader(root, whole, registry).read("scenario");
+  return scenario_of_tree(std::move(root), whole, base, registry, overrides);
+}
+
+Scenario parse_scenario(io::YamlNode tree, const fs::path& folder, const Registry& registry,
+                        const Overrides& overrides) {
+  const fs::path base = absolute_folder(folder);
+  set_folder(tree, base);
+  return scenario_of_tree(std::move(tree), {}, base, registry, overrides);
 }
 
 }  // namespace vinerow::scenario

@@ -247,6 +247,9 @@ Scenario load_scenario(const std::filesystem::path& file, const Registry& regist
 /// The same from text; relative paths start at `folder`, or at the current folder if it is empty.
 Scenario parse_scenario(const std::string& yaml, const std::filesystem::path& folder,
                         const Registry& registry, const Overrides& overrides = {});
+/// The same from a mapping without marks, made by a program; errors then name the key alone.
+Scenario parse_scenario(io::YamlNode tree, const std::filesystem::path& folder,
+                        const Registry& registry, const Overrides& overrides = {});
 
 /// JSON Schema (draft 2020-12) of scenario files for exactly the parts in the registry.
 std::string scenario_json_schema(const Registry& registry);

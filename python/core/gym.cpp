@@ -42,7 +42,7 @@ std::shared_ptr<EnvironmentSetup> make_setup(const std::filesystem::path& file,
                                              const py::dict& factors, double period_s) {
   auto setup = std::make_shared<EnvironmentSetup>();
   setup->overrides = overrides_from_python(values, sets, std::nullopt);
-  setup->registry = registry_of_file(file, setup->overrides);
+  setup->registry = registry_with(scenario::load_plugin_list(file, setup->overrides));
   setup->source = std::make_shared<scenario::ScenarioSource>(file);
   setup->factors = scenario::read_factors(yaml_from_python(factors, "factors"));
   if (!(period_s > 0.0) || !(period_s <= 10.0)) {

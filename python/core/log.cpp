@@ -11,11 +11,19 @@
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
 #include "engine/record/log_reader.h"
+#include "python/core/arguments.h"
 #include "python/core/fields_to_python.h"
+#include "python/core/run.h"
 
 namespace vinerow::python {
 namespace py = pybind11;
 namespace {
+
+struct PythonLog {
+  explicit PythonLog(const std::filesystem::path& path) : file(path), reader(path) {}
+  std::filesystem::path file;
+  record::LogReader reader;
+};
 
 /// Collects one field of many messages.
 class Column {
@@ -122,13 +130,13 @@ const record::ChannelInfo& channel(const record::LogReader& log, const std::stri
                                   did_you_mean(name, known), join(known)));
 }
 
-py::object read_any(const record::LogReader& log, const std::string& name) {
-  const record::ChannelInfo& info = channel(log, name);
+Typed<"vinerow.messages.Message"> read_any(const PythonLog& log, const TextArgument& topic) {
+  const record::ChannelInfo& info = channel(log.reader, topic.value("topic"));
   const auto type = info.metadata.find("vinerow_type");
   py::object message;
   if (type != info.metadata.end()) {
     for_each_message_type([&]<class T>(T*) {
-      if (type->second == T::kType) message = read_topic<T>(log, info.topic);
+      if (type->second == T::kType) message = read_topic<T>(log.reader, info.topic);
     });
   }
   if (!message) {
@@ -139,9 +147,9 @@ py::object read_any(const record::LogReader& log, const std::string& name) {
   return message;
 }
 
-py::dict topics(const record::LogReader& log) {
+Typed<"dict[str, tuple[str, int]]"> topics(const PythonLog& log) {
   py::dict dict;
-  for (const record::ChannelInfo& info : log.info().channels) {
+  for (const record::ChannelInfo& info : log.reader.info().channels) {
     if (info.metadata.count("exact_of")) continue;
     const auto signal = info.metadata.find("signal");
     const auto type = info.metadata.find("vinerow_type");
@@ -151,32 +159,45 @@ py::dict topics(const record::LogReader& log) {
   return dict;
 }
 
+/// A property that is a part of the log's information.
+template <class F>
+auto info_of(F read) {
+  return [read](const PythonLog& log) { return read(log.reader.info()); };
+}
+
 }  // namespace
 
 void bind_log(py::module_& module) {
-  py::class_<record::LogReader>(module, "Log", R"(A log of a run, by topic.
+  using record::LogInfo;
+  py::class_<PythonLog>(module, "Log", R"(A log of a run, by topic.
 
 log["rover/truth"] reads all messages of a signal: a Message with `stamp_s` (n,) and one column per field.)")
       .def(py::init<const std::filesystem::path&>(), py::arg("file"))
       .def("__getitem__", &read_any, py::arg("topic"))
-      .def("__contains__", [](const record::LogReader& log,
-                              const std::string& name) { return topics(log).contains(name); })
+      .def(
+          "__contains__",
+          [](const PythonLog& log, const py::object& name) { return topics(log).contains(name); },
+          py::arg("topic"))
       .def("topics", &topics, "{name: (type, number of messages)}")
-      .def_property_readonly(
-          "complete", [](const record::LogReader& log) { return log.info().complete; },
-          "False if the run was interrupted.")
-      .def_property_readonly(
-          "warnings", [](const record::LogReader& log) { return log.info().warnings; },
-          "Sentences about damaged parts of the file.")
-      .def_property_readonly(
-          "metadata", [](const record::LogReader& log) { return log.info().metadata; },
-          "{key: text} about the run: scenario, seed, version.")
-      .def_property_readonly(
-          "first_s", [](const record::LogReader& log) { return log.info().first.s(); },
-          "Simulated time of the first message.")
-      .def_property_readonly(
-          "last_s", [](const record::LogReader& log) { return log.info().last.s(); },
-          "Simulated time of the last message.");
+      .def(
+          "render_at",
+          [](const PythonLog& log, const std::vector<double>& times_s, const py::object& camera,
+             std::optional<int> width, std::optional<int> height) {
+            return render(log.file, times_s, camera, width, height);
+          },
+          py::arg("times_s"), py::arg("camera"), py::arg("width"), py::arg("height"),
+          "Pictures (h, w, 3) at increasing times.")
+      .def_property_readonly("file", [](const PythonLog& log) { return log.file.string(); })
+      .def_property_readonly("complete", info_of([](const LogInfo& info) { return info.complete; }),
+                             "False if the run was interrupted.")
+      .def_property_readonly("warnings", info_of([](const LogInfo& info) { return info.warnings; }),
+                             "Sentences about damaged parts of the file.")
+      .def_property_readonly("metadata", info_of([](const LogInfo& info) { return info.metadata; }),
+                             "{key: text} about the run: scenario, seed, version.")
+      .def_property_readonly("first_s", info_of([](const LogInfo& info) { return info.first.s(); }),
+                             "Simulated time of the first message.")
+      .def_property_readonly("last_s", info_of([](const LogInfo& info) { return info.last.s(); }),
+                             "Simulated time of the last message.");
 }
 
 }  // namespace vinerow::python

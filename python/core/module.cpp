@@ -6,6 +6,7 @@
 #include "engine/io/files/placed_error.h"
 #include "python/core/gym.h"
 #include "python/core/log.h"
+#include "python/core/run.h"
 #include "python/core/scenario.h"
 #include "python/core/session.h"
 #include "python/core/signal.h"
@@ -58,4 +59,5 @@ PYBIND11_MODULE(_core, module) {
   vinerow::python::bind_session(module);
   vinerow::python::bind_log(module);
   vinerow::python::bind_gym(module);
+  vinerow::python::bind_run(module);
 }

@@ -13,29 +13,22 @@ namespace vinerow::python {
 namespace py = pybind11;
 namespace {
 
-std::shared_ptr<Registry> built_in_parts() {
-  auto registry = std::make_shared<Registry>();
-  register_all(*registry);
-  return registry;
-}
-
 std::shared_ptr<LoadedScenario> load_file(const std::filesystem::path& file, const py::dict& values,
                                           const std::vector<std::string>& sets,
                                           std::optional<std::uint64_t> seed) {
   const scenario::Overrides overrides = overrides_from_python(values, sets, seed);
-  auto registry = registry_of_file(file, overrides);
+  auto registry = registry_with(scenario::load_plugin_list(file, overrides));
   scenario::Scenario scenario = scenario::load_scenario(file, *registry, overrides);
   return std::make_shared<LoadedScenario>(LoadedScenario{std::move(scenario), std::move(registry)});
 }
 
-std::shared_ptr<LoadedScenario> load_text(const std::string& yaml,
-                                          const std::filesystem::path& folder,
+std::shared_ptr<LoadedScenario> load_tree(const py::dict& tree, const std::filesystem::path& folder,
                                           const py::dict& values,
                                           const std::vector<std::string>& sets,
                                           std::optional<std::uint64_t> seed) {
-  auto registry = built_in_parts();
-  scenario::Scenario scenario =
-      scenario::parse_scenario(yaml, folder, *registry, overrides_from_python(values, sets, seed));
+  auto registry = registry_with({});
+  scenario::Scenario scenario = scenario::parse_scenario(
+      yaml_from_python(tree, ""), folder, *registry, overrides_from_python(values, sets, seed));
   return std::make_shared<LoadedScenario>(LoadedScenario{std::move(scenario), std::move(registry)});
 }
 
@@ -68,12 +61,10 @@ scenario::Overrides overrides_from_python(const py::dict& values,
   return overrides;
 }
 
-std::shared_ptr<const Registry> registry_of_file(const std::filesystem::path& file,
-                                                 const scenario::Overrides& overrides) {
-  auto registry = built_in_parts();
-  for (const auto& plugin : scenario::load_plugin_list(file, overrides)) {
-    load_plugin(plugin, *registry);
-  }
+std::shared_ptr<Registry> registry_with(const std::vector<std::filesystem::path>& plugins) {
+  auto registry = std::make_shared<Registry>();
+  register_all(*registry);
+  for (const auto& plugin : plugins) load_plugin(plugin, *registry);
   return registry;
 }
 
@@ -97,10 +88,8 @@ void bind_scenario(py::module_& module) {
       .def_property_readonly("vehicles", &vehicle_names, "Names, in the scenario's order.");
   module.def("load_file", &load_file, py::arg("file"), py::arg("overrides"), py::arg("sets"),
              py::arg("seed"));
-  module.def("load_text", &load_text, py::arg("yaml"), py::arg("folder"), py::arg("overrides"),
+  module.def("load_tree", &load_tree, py::arg("tree"), py::arg("folder"), py::arg("overrides"),
              py::arg("sets"), py::arg("seed"));
-  module.def("dict_to_yaml",
-             [](const py::dict& tree) { return io::to_yaml(yaml_from_python(tree, "")); });
 }
 
 }  // namespace vinerow::python

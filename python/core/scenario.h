@@ -25,9 +25,8 @@ scenario::Overrides overrides_from_python(const pybind11::dict& values,
                                           const std::vector<std::string>& sets,
                                           std::optional<std::uint64_t> seed);
 
-/// The built-in parts, and those of the file's plug-ins. @throws ConfigError
-std::shared_ptr<const Registry> registry_of_file(const std::filesystem::path& file,
-                                                 const scenario::Overrides& overrides);
+/// The built-in parts and those of plug-ins. @throws ConfigError
+std::shared_ptr<Registry> registry_with(const std::vector<std::filesystem::path>& plugins);
 
 void bind_scenario(pybind11::module_& module);
 

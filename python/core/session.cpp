@@ -12,6 +12,7 @@
 #include "engine/core/suggest.h"
 #include "engine/sim/simulation.h"
 #include "engine/sim/vehicle_runtime.h"
+#include "python/core/arguments.h"
 #include "python/core/message_codec.h"
 #include "python/core/signal.h"
 #include "python/core/usage_error.h"
@@ -24,7 +25,8 @@ namespace {
 /// Simulated time between two checks for Ctrl-C. Chosen: a fraction of a second of computation.
 constexpr Duration kInterruptPeriod{100'000'000};
 
-Duration duration_of(double seconds, const char* what) {
+Duration duration_of(const NumberArgument& argument, const char* what) {
+  const double seconds = argument.value(what);
   // The limit of duration_from_s().
   if (!std::isfinite(seconds) || std::abs(seconds) > 9e9) {
     throw UsageError(fmt::format("{} = {}, must be a finite time in s", what, seconds));
@@ -32,8 +34,8 @@ Duration duration_of(double seconds, const char* what) {
   return duration_from_s(seconds);
 }
 
-Time time_of(double seconds, const char* what) {
-  return Time{} + duration_of(seconds, what);
+Time time_of(const NumberArgument& argument, const char* what) {
+  return Time{} + duration_of(argument, what);
 }
 
 /// @param entry  name of a signal, or a pair of name and message type
@@ -69,8 +71,9 @@ std::shared_ptr<PythonSession> open(const std::shared_ptr<LoadedScenario>& loade
       Session(loaded->scenario, loaded->registry, std::move(options)));
 }
 
-void command(PythonSession& session, const std::string& signal, const py::object& value,
-             std::optional<double> at_s) {
+void command(PythonSession& session, const TextArgument& name, const py::object& value,
+             const std::optional<NumberArgument>& at_s) {
+  const std::string signal = name.value("signal");
   PythonSession::Use use(session);
   const MessageCodec* codec = find_codec(use->any_signal(signal).type());
   if (!codec) {
@@ -89,17 +92,18 @@ const VehicleRuntime& find_vehicle(const Session& session, const std::string& na
       fmt::format("no vehicle '{}'{} (known: {})", name, did_you_mean(name, known), join(known)));
 }
 
-py::object map_of(PythonSession& session, const std::string& vehicle) {
+Typed<"vinerow.world.Map"> map_of(PythonSession& session, const TextArgument& vehicle) {
   PythonSession::Use use(session);
-  return map_to_python(find_vehicle(*use, vehicle).map());
+  return map_to_python(find_vehicle(*use, vehicle.value("vehicle")).map());
 }
 
-py::object vehicle_of(PythonSession& session, const std::string& vehicle) {
+Typed<"vinerow.world.Vehicle"> vehicle_of(PythonSession& session, const TextArgument& vehicle) {
   PythonSession::Use use(session);
-  return vehicle_to_python(vehicle, find_vehicle(*use, vehicle).vehicle().description());
+  const std::string name = vehicle.value("vehicle");
+  return vehicle_to_python(name, find_vehicle(*use, name).vehicle().description());
 }
 
-py::dict signals(PythonSession& session) {
+Typed<"dict[str, tuple[str, str]]"> signals(PythonSession& session) {
   py::dict all;
   for (const SignalInfo& info : PythonSession::Use(session)->signals()) {
     all[py::str(info.name)] = py::make_tuple(info.type, info.writer);
@@ -118,7 +122,7 @@ std::string_view level_name(Event::Level level) {
   return "";
 }
 
-py::list take_events(PythonSession& session) {
+Typed<"list[vinerow.messages.Event]"> take_events(PythonSession& session) {
   const py::object type = messages("Event");
   py::list events;
   for (const auto& [time, event] : PythonSession::Use(session)->take_events()) {
@@ -127,7 +131,7 @@ py::list take_events(PythonSession& session) {
   return events;
 }
 
-py::list crashes(PythonSession& session) {
+Typed<"list[vinerow.messages.Crash]"> crashes(PythonSession& session) {
   const py::object type = messages("Crash");
   py::list list;
   for (const SessionCrash& crash : PythonSession::Use(session)->crashes()) {
@@ -140,7 +144,7 @@ std::optional<double> seconds(const std::optional<Time>& time) {
   return time ? std::optional(time->s()) : std::nullopt;
 }
 
-py::list phases(PythonSession& session) {
+Typed<"list[vinerow.messages.Phase]"> phases(PythonSession& session) {
   const py::object type = messages("Phase");
   py::list list;
   for (const SessionPhase& phase : PythonSession::Use(session)->phases()) {
@@ -235,22 +239,29 @@ step, or in a forked child.)")
       .def(py::init(&open), py::arg("scenario"), py::arg("take_over"))
       .def(
           "step",
-          [](PythonSession& session, double until_s) { session.step(time_of(until_s, "until_s")); },
+          [](PythonSession& session, const NumberArgument& until_s) {
+            session.step(time_of(until_s, "until_s"));
+          },
           py::arg("until_s"),
           R"(Processes every instant up to and including until_s, or to the end of the run.
 
 Raises SimulationError if the run breaks off, ConfigError if it is over or a plan cannot be made.)")
       .def(
           "step_for",
-          [](PythonSession& session, double duration_s) {
+          [](PythonSession& session, const NumberArgument& duration_s) {
             session.step_for(duration_of(duration_s, "duration_s"));
           },
           py::arg("duration_s"),
           "Processes the instants of the next duration_s, at least one physics step. Raises what "
           "step() raises.")
-      .def("reset", &PythonSession::reset, py::arg("seed") = py::none(),
-           "Restarts at time 0, with the same seed if none is given. Signals remain valid; views "
-           "keep the old run's values.")
+      .def(
+          "reset",
+          [](PythonSession& session, const std::optional<SeedArgument>& seed) {
+            session.reset(seed ? std::optional(seed->value()) : std::nullopt);
+          },
+          py::arg("seed") = py::none(),
+          "Restarts at time 0, with the same seed if none is given. Signals remain valid; views "
+          "keep the old run's values.")
       .def("twin", &PythonSession::twin,
            "Another session of the same scenario, at time 0, for another thread; shares the world.")
       .def("close", &PythonSession::close, "Frees the run, except for memory that views refer to.")
@@ -275,8 +286,8 @@ Raises SimulationError if the run breaks off, ConfigError if it is over or a pla
       .def("signals", &signals, "{name: (type, writer)} of all signals.")
       .def(
           "signal",
-          [](std::shared_ptr<PythonSession> session, std::string name) {
-            return PythonSignal(std::move(session), std::move(name));
+          [](std::shared_ptr<PythonSession> session, const TextArgument& name) {
+            return PythonSignal(std::move(session), name.value("name"));
           },
           py::arg("name"), "A signal by name, \"rover/truth\". Raises ConfigError without one.")
       .def(
@@ -286,8 +297,7 @@ Raises SimulationError if the run breaks off, ConfigError if it is over or a pla
 value: {name: number} for actuators, else {field: value}; fields that are absent keep their default.
 Raises ConfigError on an unknown signal, field or actuator, a wrong type or shape, NaN, or a time in the past.)")
       .def(
-          "world",
-          [](PythonSession& session) {
+          "world", [](PythonSession & session) -> Typed<"vinerow.world.World"> {
             return world_to_python(PythonSession::Use(session)->simulation().world());
           },
           "A vinerow.World: copies of terrain, rows and alleys.")

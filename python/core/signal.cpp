@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include "engine/core/suggest.h"
+#include "python/core/arguments.h"
 #include "python/core/fields_to_python.h"
 #include "python/core/usage_error.h"
 
@@ -98,11 +99,23 @@ reset() or close() they keep the last values of their run. Numbers, texts and li
       .def_property_readonly(
           "stamp_s", [](PythonSignal& signal) { return signal.stamp().s(); },
           "Time of the value, s; for a sensor with a delay, of the measurement.")
-      .def_property_readonly("fields", &PythonSignal::fields, "{name: (type, unit, description)}")
-      .def_property_readonly("value", &PythonSignal::value, "A vinerow.Message of copies.")
-      .def("__getitem__", &PythonSignal::field, py::arg("field"),
-           "One field of the last value.\n\nRaises KeyError without such a field, UsageError "
-           "without a value or session.");
+      .def_property_readonly(
+          "fields", [](PythonSignal & signal) -> Typed<"dict[str, tuple[str, str, str]]"> {
+            return signal.fields();
+          },
+          "{name: (type, unit, description)}")
+      .def_property_readonly(
+          "value",
+          [](PythonSignal & signal) -> Typed<"vinerow.messages.Message"> { return signal.value(); },
+          "A vinerow.Message of copies.")
+      .def(
+          "__getitem__",
+          [](PythonSignal & signal, const TextArgument& field) -> Typed<"typing.Any"> {
+            return signal.field(field.value("field"));
+          },
+          py::arg("field"),
+          "One field of the last value.\n\nRaises KeyError without such a field, UsageError "
+          "without a value or session.");
 }
 
 }  // namespace vinerow::python

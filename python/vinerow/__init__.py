@@ -27,15 +27,20 @@ try:
 finally:
     sys.setdlopenflags(_flags)
 
-from ._core import Log, Scenario, Session, Signal, __version__
+from ._core import Scenario, Session, Signal, __version__
 from .errors import ConfigError, SimulationError, UsageError
+from .logs import Log, read_log
 from .messages import Crash, Event, Message, Phase, Pose
+from .pictures import Picture
+from .runs import Criterion, Run, read_run, run_scenario
+from .studies import Study, read_study
+from .tables import Table
 from .world import Actuator, Alley, Grid, Map, Row, RowMesh, SpawnPoint, Terrain, Vehicle, World
 
 __all__ = [
-    "Actuator", "Alley", "ConfigError", "Crash", "Event", "Grid", "Log", "Map", "Message", "Phase", "Pose", "Row", "RowMesh",
-    "Scenario", "Session", "Signal", "SimulationError", "SpawnPoint", "Terrain", "UsageError", "Vehicle", "World", "__version__", "load",
-    "open", "read_log",
+    "Actuator", "Alley", "ConfigError", "Crash", "Criterion", "Event", "Grid", "Log", "Map", "Message", "Phase", "Picture", "Pose", "Row",
+    "RowMesh", "Run", "Scenario", "Session", "Signal", "SimulationError", "SpawnPoint", "Study", "Table", "Terrain", "UsageError",
+    "Vehicle", "World", "__version__", "load", "open", "read_log", "read_run", "read_study", "run",
 ]
 
 
@@ -56,8 +61,17 @@ def load(source: str | os.PathLike | Mapping[str, Any], overrides: Mapping[str, 
         raise ConfigError(f"seed = {seed!r}, must be a whole number from 0 to {2**64 - 1}", key="seed")
     values, texts = dict(overrides or {}), list(sets)
     if isinstance(source, Mapping):
-        return _core.load_text(_core.dict_to_yaml(dict(source)), os.fspath(folder), values, texts, seed)
+        return _core.load_tree(dict(source), os.fspath(folder), values, texts, seed)
     return _core.load_file(os.fspath(source), values, texts, seed)
+
+
+def _loaded(source: Scenario | str | os.PathLike[str] | Mapping[str, Any], overrides: Mapping[str, Any] | None,
+            options: Mapping[str, Any]) -> Scenario:
+    if not isinstance(source, Scenario):
+        return load(source, overrides, **options)
+    if overrides or options:
+        raise UsageError("a loaded Scenario takes no overrides; give them to load()")
+    return source
 
 
 def open(source: Scenario | str | os.PathLike | Mapping[str, Any], overrides: Mapping[str, Any] | None = None, *,
@@ -70,15 +84,23 @@ def open(source: Scenario | str | os.PathLike | Mapping[str, Any], overrides: Ma
         take_over: signals that command() writes in place of a part of the scenario: "rover/actuators", or
             ("drone/reference", "AirReference") if the name does not determine the type
     """
-    if isinstance(source, Scenario):
-        if overrides or options:
-            raise UsageError("a loaded Scenario takes no overrides; give them to load()")
-        scenario = source
-    else:
-        scenario = load(source, overrides, **options)
+    scenario = _loaded(source, overrides, options)
     return Session(scenario, [take_over] if isinstance(take_over, str) else take_over)
 
 
-def read_log(file: str | os.PathLike) -> Log:
-    """Opens a log of a run; `log["rover/truth"]` then reads all messages of a signal as arrays."""
-    return Log(os.fspath(file))
+def run(source: Scenario | str | os.PathLike[str] | Mapping[str, Any], overrides: Mapping[str, Any] | None = None, *,
+        out: str | os.PathLike[str] | None = None, log: bool = True, pictures: bool = True, report: bool = True,
+        **options: Any) -> Run:
+    """Runs a scenario and writes the same files as `vinerow run`, with the same bits.
+
+    A criterion that fails, a crash and a run that breaks off raise nothing: see `met`, `verdict` and `error` of the result.
+
+    Args:
+        source, overrides: as for open(), like further keyword arguments
+        out: folder of the files; default: runs/<name of the scenario>
+        log, pictures, report: whether to write these; pictures need the log
+    Raises:
+        ConfigError: on bad input, or if another run uses the folder
+        KeyboardInterrupt: on Ctrl-C; verdict, log and the pictures so far are kept
+    """
+    return run_scenario(_loaded(source, overrides, options), out, log, pictures, report)

@@ -6,6 +6,10 @@ from typing import Any, NamedTuple
 
 import numpy
 
+from . import display, optional
+from .errors import UsageError
+from .tables import flat_columns
+
 
 class Pose(NamedTuple):
     """A pose, or a list of n poses.
@@ -64,6 +68,16 @@ class Message(dict):
             return self[field]
         except KeyError:
             raise AttributeError(f"{self.type} has no field '{field}'; it has {', '.join(self)}") from None
+
+    def to_pandas(self) -> Any:
+        """Messages of a log as a pandas.DataFrame; see Log.frame()."""
+        pandas = optional.package("pandas", "to_pandas()")
+        if "stamp_s" not in self:
+            raise UsageError("only the messages of a log make a table; this is one value")
+        return pandas.DataFrame(dict(flat_columns(self, self.type))).set_index("stamp_s")
+
+    def _repr_html_(self) -> str:
+        return display.message_html(self)
 
     def __repr__(self) -> str:
         return f"{self.type}({', '.join(f'{name}={value!r}' for name, value in self.items())})"

@@ -87,7 +87,7 @@ ALLOWED = {
     "tools/report": ["engine", MODEL, "tools/parts", "tools/export", "tools/pictures", "tools/replay"],
     "tools/study/plots": [CORE, MATH, "tools/export", "tools/pictures", "tools/report"],
     "tools/study": ["engine", "tools/parts", "tools/report", "tools/study/plots"],
-    "python": ["engine", "tools/parts", "python/tasks", "vinerow"],
+    "python": ["engine", "tools/parts", "tools/report", "tools/replay", "python/tasks", "vinerow"],
     "python/tasks": ["engine"],
     "tests": ["engine", "vehicles", "worlds", "controllers", "tools", "tests", "vinerow"],
 }

@@ -6,6 +6,7 @@
 #include <pybind11/pybind11.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 
 #include "engine/core/error.h"
@@ -52,6 +53,24 @@ struct TextArgument {
   }
 };
 
+struct PathArgument {
+  pybind11::object given;
+  /// @throws ConfigError "file must be a path, not int"
+  std::filesystem::path value(const char* name) const {
+    const auto text = pybind11::reinterpret_steal<pybind11::object>(PyOS_FSPath(given.ptr()));
+    if (text && pybind11::isinstance<pybind11::str>(text)) return text.cast<std::string>();
+    PyErr_Clear();
+    throw ConfigError(fmt::format("{} must be a path, not {}", name, type_name_of(given)));
+  }
+};
+
+/// HTML of an object for notebooks, by a function of vinerow.display.
+inline auto html_by(const char* function) {
+  return [function](const pybind11::object& self) {
+    return pybind11::module_::import("vinerow.display").attr(function)(self).cast<std::string>();
+  };
+}
+
 /// A text as a template's argument.
 template <std::size_t kSize>
 struct TypeText {
@@ -61,13 +80,18 @@ struct TypeText {
   }
 };
 
-/// Result of a function: an object whose type is the text in signatures.
+/// Argument or result of a function: an object whose type is the text in signatures. Arguments are
+/// not checked.
 template <TypeText kType>
 class Typed : public pybind11::object {
  public:
   Typed() = default;
   Typed(pybind11::object value)  // NOLINT: implicit on purpose
       : pybind11::object(std::move(value)) {}
+  // What pybind11's casts use.
+  Typed(pybind11::handle value, borrowed_t) : pybind11::object(value, borrowed_t{}) {}
+  Typed(pybind11::handle value, stolen_t) : pybind11::object(value, stolen_t{}) {}
+  static bool check_(pybind11::handle value) { return value.ptr() != nullptr; }
 };
 
 template <class T>
@@ -105,6 +129,11 @@ template <>
 struct type_caster<vinerow::python::TextArgument>
     : vinerow::python::AnyArgumentCaster<vinerow::python::TextArgument> {
   static constexpr auto name = const_name("str");
+};
+template <>
+struct type_caster<vinerow::python::PathArgument>
+    : vinerow::python::AnyArgumentCaster<vinerow::python::PathArgument> {
+  static constexpr auto name = const_name("typing.Union[str, os.PathLike[str]]");
 };
 template <vinerow::python::TypeText kType>
 struct handle_type_name<vinerow::python::Typed<kType>> {

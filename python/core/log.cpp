@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
 
 #include <cstring>
 
@@ -172,7 +171,10 @@ void bind_log(py::module_& module) {
   py::class_<PythonLog>(module, "Log", R"(A log of a run, by topic.
 
 log["rover/truth"] reads all messages of a signal: a Message with `stamp_s` (n,) and one column per field.)")
-      .def(py::init<const std::filesystem::path&>(), py::arg("file"))
+      .def(py::init([](const PathArgument& file) {
+             return std::make_unique<PythonLog>(file.value("file"));
+           }),
+           py::arg("file"))
       .def("__getitem__", &read_any, py::arg("topic"))
       .def(
           "__contains__",

@@ -2,15 +2,14 @@
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
 
 #include "engine/core/error.h"
 #include "engine/core/whole_file.h"
-#include "engine/io/files/output_folder.h"
 #include "engine/playback/run_frames.h"
 #include "engine/render/png.h"
 #include "engine/render/scene.h"
 #include "engine/run/run.h"
+#include "python/core/arguments.h"
 #include "python/core/scenario.h"
 #include "python/core/usage_error.h"
 #include "python/core/yaml_from_python.h"
@@ -49,8 +48,9 @@ class Interrupt {
 /// Thrown to leave the writing of a report.
 struct Interrupted {};
 
-std::vector<std::string> run_files(const LoadedScenario& loaded, const std::filesystem::path& out,
+std::vector<std::string> run_files(const LoadedScenario& loaded, const PathArgument& folder,
                                    bool log, bool pictures, bool report) {
+  const std::filesystem::path out = folder.value("out");
   std::vector<std::string> missing;
   Interrupt interrupt;
   run::RunOptions options;
@@ -92,29 +92,23 @@ std::shared_ptr<const Registry> registry_of_run(const std::filesystem::path& fol
   return registry_with(scenario::load_plugin_list(scenario));
 }
 
-void write_report(const std::filesystem::path& folder) {
+void write_report(const PathArgument& path) {
+  const std::filesystem::path folder = path.value("folder");
   const py::gil_scoped_release release;
   tools::write_report(folder, *registry_of_run(folder), folder / "report.html");
 }
 
-py::bytes replay_page(const std::filesystem::path& folder) {
-  std::string page;
-  {
-    const py::gil_scoped_release release;
-    if (!tools::has_replay()) throw UsageError("no replay: " + tools::replay_absence());
-    const std::shared_ptr<const Registry> registry = registry_of_run(folder);
-    page = tools::replay_page(tools::read_replay_run(folder, *registry).input());
-  }
-  return page;
+void write_replay(const PathArgument& path) {
+  const std::filesystem::path folder = path.value("folder");
+  const py::gil_scoped_release release;
+  if (!tools::has_replay()) throw UsageError("no replay: " + tools::replay_absence());
+  const std::shared_ptr<const Registry> registry = registry_of_run(folder);
+  write_whole_file(folder / "replay.html",
+                   tools::replay_page(tools::read_replay_run(folder, *registry).input()));
 }
 
-void write_replay(const std::filesystem::path& folder) {
-  const py::bytes page = replay_page(folder);
-  write_whole_file(folder / "replay.html", std::string(page));
-}
-
-py::array_t<std::uint8_t> read_picture(const std::filesystem::path& file) {
-  const Result<render::Pixels> read = render::read_png(file.string());
+py::array_t<std::uint8_t> read_picture(const PathArgument& file) {
+  const Result<render::Pixels> read = render::read_png(file.value("file").string());
   if (!read) throw ConfigError(read.reason());
   const py::ssize_t height = read->height, width = read->width;
   py::array_t<std::uint8_t> picture({height, width, py::ssize_t{3}});
@@ -212,7 +206,6 @@ void bind_run(py::module_& module) {
              "Writes report.html into the folder of a run.");
   module.def("write_replay", &write_replay, py::arg("folder"),
              "Writes replay.html into the folder of a run.");
-  module.def("replay_page", &replay_page, py::arg("folder"), "Text of that page, UTF-8.");
   module.def("read_picture", &read_picture, py::arg("file"), "Pixels of a PNG, (h, w, 3).");
   module.def("encode_picture", &encode_picture, py::arg("picture"), "A PNG of (h, w, 3) pixels.");
 }

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
 
 #include "engine/core/error.h"
 #include "engine/sim/plugin_loader.h"
+#include "python/core/arguments.h"
 #include "python/core/yaml_from_python.h"
 #include "tools/parts/register_all.h"
 
@@ -13,22 +13,26 @@ namespace vinerow::python {
 namespace py = pybind11;
 namespace {
 
-std::shared_ptr<LoadedScenario> load_file(const std::filesystem::path& file, const py::dict& values,
+using Values = Typed<"dict[str, typing.Any]">;
+
+std::shared_ptr<LoadedScenario> load_file(const PathArgument& path, const Values& values,
                                           const std::vector<std::string>& sets,
                                           std::optional<std::uint64_t> seed) {
+  const std::filesystem::path file = path.value("source");
   const scenario::Overrides overrides = overrides_from_python(values, sets, seed);
   auto registry = registry_with(scenario::load_plugin_list(file, overrides));
   scenario::Scenario scenario = scenario::load_scenario(file, *registry, overrides);
   return std::make_shared<LoadedScenario>(LoadedScenario{std::move(scenario), std::move(registry)});
 }
 
-std::shared_ptr<LoadedScenario> load_tree(const py::dict& tree, const std::filesystem::path& folder,
-                                          const py::dict& values,
+std::shared_ptr<LoadedScenario> load_tree(const Values& tree, const PathArgument& folder,
+                                          const Values& values,
                                           const std::vector<std::string>& sets,
                                           std::optional<std::uint64_t> seed) {
   auto registry = registry_with({});
-  scenario::Scenario scenario = scenario::parse_scenario(
-      yaml_from_python(tree, ""), folder, *registry, overrides_from_python(values, sets, seed));
+  scenario::Scenario scenario =
+      scenario::parse_scenario(yaml_from_python(tree, ""), folder.value("folder"), *registry,
+                               overrides_from_python(values, sets, seed));
   return std::make_shared<LoadedScenario>(LoadedScenario{std::move(scenario), std::move(registry)});
 }
 
@@ -72,6 +76,7 @@ void bind_scenario(py::module_& module) {
   using scenario::Scenario;
   py::class_<LoadedScenario, std::shared_ptr<LoadedScenario>>(
       module, "Scenario", "A checked scenario. vinerow.load() makes it; it does not change.")
+      .def("_repr_html_", html_by("scenario_html"))
       .def_property_readonly("name", field(&Scenario::name))
       .def_property_readonly("description", field(&Scenario::description))
       .def_property_readonly("seed", field(&Scenario::seed))

@@ -63,7 +63,7 @@ OutsideSignal taken_over(const py::handle& entry) {
 }
 
 std::shared_ptr<PythonSession> open(const std::shared_ptr<LoadedScenario>& loaded,
-                                    const py::iterable& take_over) {
+                                    const Typed<"typing.Iterable[typing.Any]">& take_over) {
   SessionOptions options;
   for (const py::handle entry : take_over) options.outside.push_back(taken_over(entry));
   const py::gil_scoped_release release;
@@ -264,6 +264,7 @@ Raises SimulationError if the run breaks off, ConfigError if it is over or a pla
           "keep the old run's values.")
       .def("twin", &PythonSession::twin,
            "Another session of the same scenario, at time 0, for another thread; shares the world.")
+      .def("_repr_html_", html_by("session_html"))
       .def("close", &PythonSession::close, "Frees the run, except for memory that views refer to.")
       .def_property_readonly("closed", &PythonSession::closed)
       .def("__enter__", [](std::shared_ptr<PythonSession> session) { return session; })

@@ -44,8 +44,8 @@ __all__ = [
 ]
 
 
-def load(source: str | os.PathLike | Mapping[str, Any], overrides: Mapping[str, Any] | None = None, *,
-         sets: Iterable[str] = (), seed: int | None = None, folder: str | os.PathLike = ".") -> Scenario:
+def load(source: str | os.PathLike[str] | Mapping[str, Any], overrides: Mapping[str, Any] | None = None, *,
+         sets: Iterable[str] = (), seed: int | None = None, folder: str | os.PathLike[str] = ".") -> Scenario:
     """Loads and checks a scenario.
 
     Args:
@@ -74,7 +74,7 @@ def _loaded(source: Scenario | str | os.PathLike[str] | Mapping[str, Any], overr
     return source
 
 
-def open(source: Scenario | str | os.PathLike | Mapping[str, Any], overrides: Mapping[str, Any] | None = None, *,
+def open(source: Scenario | str | os.PathLike[str] | Mapping[str, Any], overrides: Mapping[str, Any] | None = None, *,
          take_over: Iterable[Any] = (), **options: Any) -> Session:
     """Opens a session of a scenario, at time 0.
 

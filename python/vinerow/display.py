@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Iterable, Sequence
 import numpy
 
 from . import _core
+from .arrays import Array
 
 if TYPE_CHECKING:
     from .logs import Log
@@ -96,7 +97,7 @@ def table_html(table: Table) -> str:
     return _table(list(table), rows, half if count > _SHOWN_ROWS else None) + note
 
 
-def _thumbnail(picture: numpy.ndarray) -> str:
+def _thumbnail(picture: Array) -> str:
     """An <img> of the picture, made smaller by the mean of square blocks of pixels."""
     block = max(1, -(-picture.shape[1] // _THUMBNAIL_PX))
     height, width = picture.shape[0] // block, picture.shape[1] // block
@@ -203,8 +204,3 @@ class Page:
         text = html.escape(self.file.read_text(encoding="utf-8"))
         return (f'<iframe sandbox="allow-scripts allow-popups" allowfullscreen style="width:100%;height:{int(self.height)}px;'
                 f'border:1px solid #8886" srcdoc="{text}"></iframe>')
-
-
-# These classes are in C++.
-for _type, _function in ((_core.Scenario, scenario_html), (_core.Session, session_html)):
-    setattr(_type, "_repr_html_", _function)

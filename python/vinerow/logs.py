@@ -8,6 +8,7 @@ from typing import Any, Mapping, Sequence, overload
 import numpy
 
 from . import _core, display
+from .arrays import Array
 from .errors import ConfigError
 from .pictures import Picture
 
@@ -30,8 +31,8 @@ class Log(_core.Log):
                height: int | None = None) -> Picture: ...
 
     @overload
-    def render(self, time_s: Sequence[float] | numpy.ndarray, camera: str | Mapping[str, Any] | None = None, *,
-               width: int | None = None, height: int | None = None) -> numpy.ndarray: ...
+    def render(self, time_s: Sequence[float] | Array, camera: str | Mapping[str, Any] | None = None, *,
+               width: int | None = None, height: int | None = None) -> Array: ...
 
     def render(self, time_s: Any, camera: str | Mapping[str, Any] | None = None, *, width: int | None = None,
                height: int | None = None) -> Any:

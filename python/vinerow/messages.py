@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 import numpy
 
 from . import display, optional
+from .arrays import Array
 from .errors import UsageError
 from .tables import flat_columns
 
@@ -18,8 +19,8 @@ class Pose(NamedTuple):
     orientation: (4,) or (n, 4), unit quaternion x, y, z, w
     """
 
-    position: numpy.ndarray
-    orientation: numpy.ndarray
+    position: Array
+    orientation: Array
 
     @property
     def yaw(self) -> Any:
@@ -56,7 +57,7 @@ class Phase(NamedTuple):
     numbers: dict[str, float]
 
 
-class Message(dict):
+class Message(dict[str, Any]):
     """Fields of a message by name; `message.speed` is `message["speed"]`."""
 
     def __init__(self, type: str):

@@ -8,9 +8,10 @@ from typing import Iterator, Mapping
 import numpy
 
 from . import _core, display
+from .arrays import Array
 
 
-class Picture(numpy.ndarray):
+class Picture(Array):
     """Pixels (h, w, 3), uint8, sRGB; a notebook shows them."""
 
     def _repr_png_(self) -> bytes | None:

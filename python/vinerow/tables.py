@@ -9,10 +9,11 @@ from typing import Any, Iterator
 import numpy
 
 from . import display, optional
+from .arrays import Array
 from .errors import ConfigError
 
 
-class Table(dict[str, numpy.ndarray]):
+class Table(dict[str, Array]):
     """Columns (n,) by name: int64 or float64 with NaN for missing values, and object for texts."""
 
     @property
@@ -34,7 +35,7 @@ class Table(dict[str, numpy.ndarray]):
 _TEXTS = {"state", "reason", "digest", "machine"}
 
 
-def _column(name: str, texts: list[str]) -> numpy.ndarray:
+def _column(name: str, texts: list[str]) -> Array:
     if name not in _TEXTS:
         for convert in (lambda: numpy.array([int(text) for text in texts], numpy.int64),
                         lambda: numpy.array([float(text) if text else numpy.nan for text in texts])):
@@ -77,9 +78,9 @@ def _components(name: str, value: Any) -> Iterator[tuple[str, Any]]:
         yield name, column
 
 
-def _named_values(names: list[list[str]], values: list[numpy.ndarray]) -> Iterator[tuple[str, numpy.ndarray]]:
+def _named_values(names: list[list[str]], values: list[Array]) -> Iterator[tuple[str, Array]]:
     """A column for each name of NamedValues; NaN where a message does not have it."""
-    columns: dict[str, numpy.ndarray] = {}
+    columns: dict[str, Array] = {}
     for row, (keys, numbers) in enumerate(zip(names, values)):
         for key, number in zip(keys, numbers):
             columns.setdefault(key, numpy.full(len(names), numpy.nan))[row] = number

@@ -6,6 +6,8 @@ from typing import NamedTuple
 
 import numpy
 
+from .arrays import Array
+
 
 class Terrain(NamedTuple):
     """Heights on a regular grid; between them two flat triangles per cell, split from (i, j) to (i+1, j+1).
@@ -15,11 +17,11 @@ class Terrain(NamedTuple):
     corner: (x, y) of heights[0, 0], m
     """
 
-    heights: numpy.ndarray
+    heights: Array
     cell_m: float
     corner: tuple[float, float]
 
-    def height_at(self, x: numpy.ndarray, y: numpy.ndarray) -> numpy.ndarray:
+    def height_at(self, x: Array, y: Array) -> Array:
         """Heights of the triangle surface; outside the grid the nearest edge continues."""
         rows, columns = self.heights.shape
         u = numpy.clip((numpy.asarray(x) - self.corner[0]) / self.cell_m, 0.0, columns - 1.0)
@@ -38,7 +40,7 @@ class Row(NamedTuple):
     """A row of plants: its centre line (n, 3) at the ground, and its canopy."""
 
     id: int
-    line: numpy.ndarray
+    line: Array
     canopy_width_m: float
     canopy_base_m: float
     canopy_top_m: float
@@ -48,7 +50,7 @@ class Alley(NamedTuple):
     """Free strip between two rows: its centre line (n, 3) and its width."""
 
     id: int
-    line: numpy.ndarray
+    line: Array
     width_m: float
 
 
@@ -56,14 +58,14 @@ class RowMesh(NamedTuple):
     """Hull of a row on a map: vertices (n, 3), triangles (m, 3) of indices."""
 
     row: int
-    vertices: numpy.ndarray
-    triangles: numpy.ndarray
+    vertices: Array
+    triangles: Array
 
 
 class Grid(NamedTuple):
     """Occupied cells (rows, columns); corner is that of cells[0, 0]."""
 
-    cells: numpy.ndarray
+    cells: Array
     cell_m: float
     corner: tuple[float, float]
 
@@ -83,7 +85,7 @@ class World(NamedTuple):
     terrain: Terrain | None
     rows: list[Row]
     alleys: list[Alley]
-    boundary: numpy.ndarray
+    boundary: Array
     spawn_points: list[SpawnPoint]
     notes: list[str]
 
@@ -93,7 +95,7 @@ class Map(NamedTuple):
 
     rows: list[Row]
     alleys: list[Alley]
-    boundary: numpy.ndarray
+    boundary: Array
     meshes: list[RowMesh]
     grid: Grid | None
     terrain: Terrain | None
@@ -117,4 +119,4 @@ class Vehicle(NamedTuple):
     mass_kg: float
     max_speed_mps: float | None
     min_turning_radius_m: float | None
-    footprint: numpy.ndarray
+    footprint: Array

@@ -22,7 +22,7 @@ class Guide(unittest.TestCase):
     def test_examples(self):
         text = (ROOT / "docs" / "guides" / "python.md").read_text()
         examples = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
-        self.assertEqual(len(examples), 3)
+        self.assertEqual(len(examples), 4)
         with tempfile.TemporaryDirectory() as folder:
             os.chdir(folder)
             os.symlink(ROOT / "assets", "assets")
@@ -38,6 +38,7 @@ class Guide(unittest.TestCase):
         lines = printed.getvalue().splitlines()
         self.assertRegex(lines[0], r"^\{.*'distance_m': .*\} [0-9a-f]{32}$")
         self.assertRegex(lines[1], r"^\((\d+),\) \(\1, 3\)$")
+        self.assertEqual(lines[2], "True all criteria met 5.0")
 
 
 if __name__ == "__main__":

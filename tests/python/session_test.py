@@ -229,6 +229,10 @@ class Mistakes(unittest.TestCase):
         for seed in (-1, 1.5, "one"):
             self.refused(vinerow.ConfigError, f"seed = {seed!r}, must be a whole number", vinerow.load, FREE_ROVER, seed=seed)
         self.assertEqual(vinerow.load(FREE_ROVER, seed=numpy.int64(3)).seed, 3)
+        # A dict has no lines: its errors name the key alone.
+        error = self.refused(vinerow.ConfigError, "", vinerow.load, {"vinerow": 1, "name": "x", "duration_s": "long"})
+        self.assertTrue(str(error).startswith("duration_s = 'long', must be"), error)
+        self.assertEqual((error.file, error.line, error.key), (None, None, "duration_s"))
         loop = []
         loop.append(loop)
         self.refused(vinerow.ConfigError, "nested", vinerow.load, FREE_ROVER, {"duration_s": loop})
@@ -247,6 +251,19 @@ class Mistakes(unittest.TestCase):
             self.refused(vinerow.UsageError, "shorter than the physics step of 0.001 s", session.step_for, 0.0001)
             self.refused(KeyError, "linear_velocity", session.signal("rover/truth").__getitem__, "linear_velocty")
         self.refused(vinerow.ConfigError, "AirReference", vinerow.open, FREE_ROVER, take_over=["rover/reference"])
+
+    def test_arguments_of_a_wrong_type(self):
+        with free_rover() as session:
+            for text, call, argument in (("until_s must be a number, not str", session.step, "soon"),
+                                         ("duration_s must be a number, not NoneType", session.step_for, None),
+                                         ("seed = -1, must be a whole number from 0 to 18446744073709551615", session.reset, -1),
+                                         ("seed = 1.5, must be a whole number from 0 to 18446744073709551615", session.reset, 1.5),
+                                         ("name must be a str, not int", session.signal, 1), ("vehicle must be a str, not int", session.map, 1),
+                                         ("field must be a str, not int", session.signal("rover/truth").__getitem__, 1),
+                                         ("source must be a path, not int", vinerow._core.load_file, 1)):
+                with self.assertRaises(vinerow.ConfigError) as caught:
+                    call(*((argument, {}, [], None) if call is vinerow._core.load_file else (argument,)))
+                self.assertEqual(str(caught.exception), text)
 
     def test_after_the_end(self):
         with free_rover(sets=["duration_s=0.2"]) as session:

@@ -4,3 +4,7 @@ set_target_properties(vinerow_command PROPERTIES INSTALL_RPATH "$ORIGIN/..")
 install(TARGETS vinerow vinerow_python LIBRARY DESTINATION vinerow COMPONENT wheel NAMELINK_SKIP)
 install(TARGETS vinerow_command RUNTIME DESTINATION vinerow/bin COMPONENT wheel)
 install(DIRECTORY assets DESTINATION vinerow/share/vinerow COMPONENT wheel)
+# Parts written in Python, for the command.
+if(TARGET vinerow_python_host)
+  install(TARGETS vinerow_python_host LIBRARY DESTINATION vinerow COMPONENT wheel OPTIONAL)
+endif()

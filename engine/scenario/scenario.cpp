@@ -281,6 +281,17 @@ fs::path folder_of(const fs::path& file) {
   return fs::absolute(file).lexically_normal().parent_path();
 }
 
+/// A file name without folder has an empty parent path: then this is the current folder.
+fs::path absolute_folder(const fs::path& folder) {
+  return fs::absolute(fs::path(".") / folder).lexically_normal();
+}
+
+void set_folder(io::YamlNode& node, const fs::path& folder) {
+  node.folder = folder;
+  for (io::YamlNode& item : node.items) set_folder(item, folder);
+  for (io::YamlEntry& entry : node.entries) set_folder(entry.value, folder);
+}
+
 }  // namespace
 
 std::vector<fs::path> load_plugin_list(const fs::path& named, const Overrides& overrides) {
@@ -288,6 +299,15 @@ std::vector<fs::path> load_plugin_list(const fs::path& named, const Overrides& o
   io::YamlNode root = load_yaml_with_includes(file);
   apply_overrides(root, of_plugins(overrides), folder_of(file));
   return read_plugin_list(root);
+}
+
+std::vector<fs::path> parse_plugin_list(io::YamlNode tree, const fs::path& folder,
+                                        const Overrides& overrides) {
+  const fs::path base = absolute_folder(folder);
+  set_folder(tree, base);
+  resolve_includes(tree, "");
+  apply_overrides(tree, of_plugins(overrides), base);
+  return read_plugin_list(tree);
 }
 
 ScenarioSource::ScenarioSource(const fs::path& file)
@@ -314,17 +334,6 @@ Scenario scenario_of_tree(io::YamlNode root, const io::SourceMark& mark, const f
   resolve_includes(root, "");
   apply_overrides(root, overrides, folder);
   return ScenarioReader(root, mark, registry).read("scenario");
-}
-
-/// A file name without folder has an empty parent path: then this is the current folder.
-fs::path absolute_folder(const fs::path& folder) {
-  return fs::absolute(fs::path(".") / folder).lexically_normal();
-}
-
-void set_folder(io::YamlNode& node, const fs::path& folder) {
-  node.folder = folder;
-  for (io::YamlNode& item : node.items) set_folder(item, folder);
-  for (io::YamlEntry& entry : node.entries) set_folder(entry.value, folder);
 }
 
 }  // namespace

@@ -225,6 +225,11 @@ struct Overrides {
 std::vector<std::filesystem::path> load_plugin_list(const std::filesystem::path& file,
                                                     const Overrides& overrides = {});
 
+/// The same of a scenario as a mapping without marks; relative paths start at `folder`.
+std::vector<std::filesystem::path> parse_plugin_list(io::YamlNode tree,
+                                                     const std::filesystem::path& folder,
+                                                     const Overrides& overrides = {});
+
 /// Scenario file that is read once and loaded with different overrides.
 class ScenarioSource {
  public:

@@ -8,6 +8,7 @@
 #include "engine/api/plugin.h"
 #include "engine/core/error.h"
 #include "engine/sim/abi_difference.h"
+#include "engine/sim/python_parts.h"
 
 namespace vinerow {
 namespace {
@@ -21,11 +22,27 @@ constexpr int kOwnLibrariesFirst = 0;
 constexpr int kOwnLibrariesFirst = RTLD_DEEPBIND;
 #endif
 
+/// Calls a function that registers parts of this origin.
+template <class Register>
+void register_from(const std::string& origin, Registry& registry, Register&& add_parts) {
+  registry.set_origin(origin);
+  try {
+    add_parts();
+  } catch (...) {
+    registry.set_origin("built-in");
+    throw;
+  }
+  registry.set_origin("built-in");
+}
+
 }  // namespace
 
 void load_plugin(const std::filesystem::path& file, Registry& registry) {
   if (!std::filesystem::exists(file)) {
     throw ConfigError(fmt::format("plug-in '{}' does not exist", file.string()));
+  }
+  if (file.extension() == ".py") {
+    return register_from(file.string(), registry, [&] { load_python_parts(file, registry); });
   }
   void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | kOwnLibrariesFirst);
   if (!library)
@@ -46,17 +63,16 @@ void load_plugin(const std::filesystem::path& file, Registry& registry) {
         fmt::format("plug-in '{}' {}; rebuild it with the headers and flags of this vinerow",
                     file.string(), difference));
   }
-  registry.set_origin(file.string());
-  try {
-    registration(&registry);
-  } catch (const ConfigError&) {
-    registry.set_origin("built-in");
-    throw;
-  } catch (const std::exception& error) {
-    throw ConfigError(
-        fmt::format("plug-in '{}' failed to register its parts: {}", file.string(), error.what()));
-  }
-  registry.set_origin("built-in");
+  register_from(file.string(), registry, [&] {
+    try {
+      registration(&registry);
+    } catch (const ConfigError&) {
+      throw;
+    } catch (const std::exception& error) {
+      throw ConfigError(fmt::format("plug-in '{}' failed to register its parts: {}", file.string(),
+                                    error.what()));
+    }
+  });
 }
 
 }  // namespace vinerow

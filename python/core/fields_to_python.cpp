@@ -49,9 +49,22 @@ class EachField final : public FieldVisitor {
 };
 
 template <class F>
-void for_each_field(const SignalBase& signal, F function) {
+void for_each_field(const Describe& describe, F function) {
   EachField<F> visitor(function);
-  signal.describe(visitor);
+  describe(visitor);
+}
+
+Describe fields_of(const SignalBase& signal) {
+  return [&signal](FieldVisitor& visitor) { signal.describe(visitor); };
+}
+
+py::object find_field(const Describe& describe, std::string_view name, const py::object& owner,
+                      Memory memory) {
+  py::object found;
+  for_each_field(describe, [&](const FieldView& view) {
+    if (!found && view.info.name == name) found = to_python(view, owner, memory);
+  });
+  return found;
 }
 
 template <class F>
@@ -234,36 +247,44 @@ py::object to_python(const FieldView& view, const py::object& owner, Memory memo
 
 py::object field_to_python(const SignalBase& signal, std::string_view name, const py::object& owner,
                            Memory memory) {
-  py::object found;
-  for_each_field(signal, [&](const FieldView& view) {
-    if (!found && view.info.name == name) found = to_python(view, owner, memory);
-  });
-  return found;
+  return find_field(fields_of(signal), name, owner, memory);
+}
+
+py::object field_to_python(const Describe& describe, std::string_view name) {
+  return find_field(describe, name, py::none(), Memory::kCopy);
+}
+
+std::vector<std::string> field_names(const Describe& describe) {
+  std::vector<std::string> names;
+  for_each_field(describe, [&](const FieldView& view) { names.emplace_back(view.info.name); });
+  return names;
 }
 
 std::vector<std::string> field_names(const SignalBase& signal) {
-  std::vector<std::string> names;
-  for_each_field(signal, [&](const FieldView& view) { names.emplace_back(view.info.name); });
-  return names;
+  return field_names(fields_of(signal));
 }
 
 py::dict field_infos(const SignalBase& signal) {
   py::dict infos;
-  for_each_field(signal, [&](const FieldView& view) {
+  for_each_field(fields_of(signal), [&](const FieldView& view) {
     infos[py::str(view.info.name.data(), view.info.name.size())] =
         py::make_tuple(type_name(view), std::string(view.info.unit), std::string(view.info.words));
   });
   return infos;
 }
 
-py::object message_to_python(const SignalBase& signal) {
-  py::object message = message_type()(signal.type());
+py::object message_to_python(const char* type, const Describe& describe) {
+  py::object message = message_type()(type);
   const py::object none = py::none();
-  for_each_field(signal, [&](const FieldView& view) {
+  for_each_field(describe, [&](const FieldView& view) {
     message[py::str(view.info.name.data(), view.info.name.size())] =
         to_python(view, none, Memory::kCopy);
   });
   return message;
+}
+
+py::object message_to_python(const SignalBase& signal) {
+  return message_to_python(signal.type(), fields_of(signal));
 }
 
 }  // namespace vinerow::python

@@ -4,6 +4,10 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <functional>
+#include <string>
+#include <vector>
+
 #include "engine/api/message.h"
 #include "engine/api/signal.h"
 
@@ -31,6 +35,13 @@ pybind11::object to_python(const FieldView& view, const pybind11::object& owner,
 /// The field of that name. @returns a null object if there is none
 pybind11::object field_to_python(const SignalBase& signal, std::string_view name,
                                  const pybind11::object& owner, Memory memory);
+
+/// Shows the fields of a message to a visitor, as SignalBase::describe does.
+using Describe = std::function<void(FieldVisitor& visitor)>;
+/// The same two of any message, with their own memory.
+pybind11::object field_to_python(const Describe& describe, std::string_view name);
+pybind11::object message_to_python(const char* type, const Describe& describe);
+std::vector<std::string> field_names(const Describe& describe);
 
 /// Names of the fields, in the order of the message.
 std::vector<std::string> field_names(const SignalBase& signal);

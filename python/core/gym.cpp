@@ -12,6 +12,7 @@
 #include "engine/scenario/scenario_reader.h"
 #include "engine/scenario/study_factor.h"
 #include "python/core/guard.h"
+#include "python/core/parts.h"
 #include "python/core/scenario.h"
 #include "python/core/yaml_from_python.h"
 #include "python/tasks/vector_environment.h"
@@ -183,8 +184,7 @@ void reset(Environments& self, const std::vector<std::optional<std::uint64_t>>& 
   const Guard::Use use(self.guard());
   VectorEnvironment& environments = self.get();
   const std::vector<std::uint8_t> flags(chosen.begin(), chosen.end());
-  const py::gil_scoped_release release;
-  environments.reset(seeds, flags);
+  without_lock([&] { environments.reset(seeds, flags); });
 }
 
 /// @throws UsageError before the first reset, or, without autoreset, if an episode is over
@@ -206,8 +206,7 @@ void step(Environments& self, const py::object& actions) {
   const ActionArray array =
       checked_actions(actions, {static_cast<std::size_t>(environments.size()), width}, "actions");
   require_episodes(environments);
-  const py::gil_scoped_release release;
-  environments.step({array.data(), static_cast<std::size_t>(array.size())});
+  without_lock([&] { environments.step({array.data(), static_cast<std::size_t>(array.size())}); });
 }
 
 /// (observations, rewards, terminated, truncated), copies
@@ -242,10 +241,7 @@ py::tuple step_single(Environments& self, const py::object& action) {
   const ActionArray array =
       checked_actions(action, {environments.task().action().size()}, "the action");
   require_episodes(environments);
-  {
-    const py::gil_scoped_release release;
-    environments.step({array.data(), static_cast<std::size_t>(array.size())});
-  }
+  without_lock([&] { environments.step({array.data(), static_cast<std::size_t>(array.size())}); });
   const Environment::Agent& agent = environments.environment(0).agents().front();
   return py::make_tuple(py::array_t<float>(static_cast<py::ssize_t>(agent.observation.size()),
                                            agent.observation.data()),
@@ -285,9 +281,10 @@ std::unique_ptr<Episodes> make_episodes(const std::filesystem::path& file, const
 
 void reset_episode(Episodes& self, std::optional<std::uint64_t> seed) {
   const Guard::Use use(self.guard());
-  const py::gil_scoped_release release;
-  if (seed) self.environment().seed(*seed);
-  self.environment().reset();
+  without_lock([&] {
+    if (seed) self.environment().seed(*seed);
+    self.environment().reset();
+  });
 }
 
 void step_episode(Episodes& self, const py::dict& actions) {
@@ -311,8 +308,7 @@ void step_episode(Episodes& self, const py::dict& actions) {
       agent.action[i] = std::clamp(value, -1.0F, 1.0F);
     }
   }
-  const py::gil_scoped_release release;
-  environment.step();
+  without_lock([&] { environment.step(); });
 }
 
 /// {agent: (observation, reward, terminated, truncated, numbers)}

@@ -185,12 +185,50 @@ void read_fields(NamedValues& message, const py::handle& value, const std::strin
 }
 
 template <class T>
+class ReaderOf final : public AnyReader {
+ public:
+  explicit ReaderOf(SignalReader<T> reader) : reader_(reader) {}
+  std::uint64_t count() const override { return reader_.sequence(); }
+  Time stamp() const override { return reader_.stamp(); }
+  void describe(FieldVisitor& visitor) const override { visit_fields(reader_.value(), visitor); }
+
+ private:
+  SignalReader<T> reader_;
+};
+
+template <class T>
+class WriterOf final : public AnyWriter {
+ public:
+  WriterOf(SignalWriter<T> writer, std::string name) : writer_(writer), name_(std::move(name)) {}
+  std::vector<std::string> write(Time stamp, const py::handle& value) override {
+    T message;
+    read_fields(message, value, name_);
+    if (has_nan_field(message)) throw ConfigError(name_ + " contains NaN");
+    writer_.write(stamp, message);
+    if constexpr (std::is_same_v<T, NamedValues>) return std::move(message.names);
+    return {};
+  }
+
+ private:
+  SignalWriter<T> writer_;
+  std::string name_;
+};
+
+template <class T>
 MessageCodec codec_of() {
   return {T::kType, [](std::string signal) { return outside_signal<T>(std::move(signal)); },
           [](const std::string& signal, Time stamp, const py::handle& value) {
             T message;
             read_fields(message, value, signal);
             return outside_command<T>(signal, stamp, message);
+          },
+          [](Ports& ports, const std::string& name, bool optional) {
+            auto reader = optional ? ports.read_optional<T>(name) : ports.read<T>(name);
+            return std::unique_ptr<AnyReader>(std::make_unique<ReaderOf<T>>(reader));
+          },
+          [](Ports& ports, const std::string& name) {
+            return std::unique_ptr<AnyWriter>(
+                std::make_unique<WriterOf<T>>(ports.write<T>(name), name));
           }};
 }
 
@@ -208,6 +246,18 @@ const std::map<std::string_view, MessageCodec>& codecs() {
 const MessageCodec* find_codec(std::string_view type) {
   const auto found = codecs().find(type);
   return found == codecs().end() ? nullptr : &found->second;
+}
+
+PlannedPath path_from_python(const py::handle& value, const std::string& place) {
+  PlannedPath path;
+  read_fields(path, value, place);
+  return path;
+}
+
+std::vector<std::string> message_types() {
+  std::vector<std::string> names;
+  for (const auto& [name, codec] : codecs()) names.emplace_back(name);
+  return names;
 }
 
 std::string_view outside_type(std::string_view signal) {

@@ -4,8 +4,10 @@
 
 #include "engine/core/error.h"
 #include "engine/io/files/placed_error.h"
+#include "python/core/elementary.h"
 #include "python/core/gym.h"
 #include "python/core/log.h"
+#include "python/core/parts.h"
 #include "python/core/run.h"
 #include "python/core/scenario.h"
 #include "python/core/session.h"
@@ -57,7 +59,9 @@ PYBIND11_MODULE(_core, module) {
   vinerow::python::bind_scenario(module);
   vinerow::python::bind_signal(module);
   vinerow::python::bind_session(module);
+  vinerow::python::bind_elementary(module);
   vinerow::python::bind_log(module);
   vinerow::python::bind_gym(module);
   vinerow::python::bind_run(module);
+  vinerow::python::bind_parts(module);
 }

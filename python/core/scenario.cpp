@@ -29,10 +29,11 @@ std::shared_ptr<LoadedScenario> load_tree(const Values& tree, const PathArgument
                                           const Values& values,
                                           const std::vector<std::string>& sets,
                                           std::optional<std::uint64_t> seed) {
-  auto registry = registry_with({});
-  scenario::Scenario scenario =
-      scenario::parse_scenario(yaml_from_python(tree, ""), folder.value("folder"), *registry,
-                               overrides_from_python(values, sets, seed));
+  const scenario::Overrides overrides = overrides_from_python(values, sets, seed);
+  const io::YamlNode root = yaml_from_python(tree, "");
+  const std::filesystem::path start = folder.value("folder");
+  auto registry = registry_with(scenario::parse_plugin_list(root, start, overrides));
+  scenario::Scenario scenario = scenario::parse_scenario(root, start, *registry, overrides);
   return std::make_shared<LoadedScenario>(LoadedScenario{std::move(scenario), std::move(registry)});
 }
 

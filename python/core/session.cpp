@@ -14,6 +14,7 @@
 #include "engine/sim/vehicle_runtime.h"
 #include "python/core/arguments.h"
 #include "python/core/message_codec.h"
+#include "python/core/parts.h"
 #include "python/core/signal.h"
 #include "python/core/usage_error.h"
 #include "python/core/world.h"
@@ -66,9 +67,10 @@ std::shared_ptr<PythonSession> open(const std::shared_ptr<LoadedScenario>& loade
                                     const Typed<"typing.Iterable[typing.Any]">& take_over) {
   SessionOptions options;
   for (const py::handle entry : take_over) options.outside.push_back(taken_over(entry));
-  const py::gil_scoped_release release;
-  return std::make_shared<PythonSession>(
-      Session(loaded->scenario, loaded->registry, std::move(options)));
+  return without_lock([&] {
+    return std::make_shared<PythonSession>(
+        Session(loaded->scenario, loaded->registry, std::move(options)));
+  });
 }
 
 void command(PythonSession& session, const TextArgument& name, const py::object& value,
@@ -194,10 +196,7 @@ void PythonSession::step_for(Duration duration) {
 
 void PythonSession::step(Use& use, Time until) {
   while (true) {
-    {
-      const py::gil_scoped_release release;
-      use->advance(std::min(until, use->now() + kInterruptPeriod));
-    }
+    without_lock([&] { use->advance(std::min(until, use->now() + kInterruptPeriod)); });
     if (use->now() > until || use->over()) return;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   }
@@ -205,17 +204,13 @@ void PythonSession::step(Use& use, Time until) {
 
 void PythonSession::reset(std::optional<std::uint64_t> seed) {
   Use use(*this);
-  {
-    const py::gil_scoped_release release;
-    use->reset(seed ? *seed : use->seed());
-  }
+  without_lock([&] { use->reset(seed ? *seed : use->seed()); });
   ++run_number_;
 }
 
 std::shared_ptr<PythonSession> PythonSession::twin() {
   Use use(*this);
-  const py::gil_scoped_release release;
-  return std::make_shared<PythonSession>(use->twin());
+  return without_lock([&] { return std::make_shared<PythonSession>(use->twin()); });
 }
 
 void PythonSession::close() {

@@ -93,9 +93,14 @@ py::object vehicle_to_python(const std::string& name, const VehicleDescription& 
     actuators.append(
         world_class("Actuator")(actuator.name, actuator.unit, actuator.min, actuator.max));
   }
+  py::object wheels = py::none();
+  if (const auto& wheeled = vehicle.wheeled) {
+    wheels = world_class("Wheels")(wheeled->track_m, wheeled->wheel_base_m, wheeled->wheel_radius_m,
+                                   wheeled->wheel_speed_limit_radps, wheeled->effective_track_m);
+  }
   return world_class("Vehicle")(name, vehicle.type, actuators, vehicle.mass_kg,
                                 vehicle.max_speed_mps, vehicle.min_turning_radius_m,
-                                rows_of(vehicle.footprint_B));
+                                rows_of(vehicle.footprint_B), wheels);
 }
 
 }  // namespace vinerow::python

@@ -110,8 +110,18 @@ class Actuator(NamedTuple):
     max: float
 
 
+class Wheels(NamedTuple):
+    """Wheels with commanded speeds; `effective_track_m` (skid steering) is 0 if unknown."""
+
+    track_m: float
+    wheel_base_m: float
+    wheel_radius_m: float
+    wheel_speed_limit_radps: float
+    effective_track_m: float
+
+
 class Vehicle(NamedTuple):
-    """A vehicle as controllers know it. `footprint` (n, 2) is its outline in its own frame."""
+    """A vehicle as controllers know it. `footprint` (n, 2) is its outline in its own frame; `wheels` is None without any."""
 
     name: str
     type: str
@@ -120,3 +130,4 @@ class Vehicle(NamedTuple):
     max_speed_mps: float | None
     min_turning_radius_m: float | None
     footprint: Array
+    wheels: Wheels | None

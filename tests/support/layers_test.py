@@ -79,7 +79,7 @@ ALLOWED = {
     # Tools: each may include those below it, in this order.
     "tools": ["engine", "vehicles", "worlds", "controllers", "tools", "vinerow"],
     "tools/parts": ["engine", "vehicles", "worlds", "controllers"],
-    "tools/terminal": BASE,
+    "tools/terminal": BASE + [SIM],
     "tools/export": BASE + [FILES, RECORD],
     "tools/compare": BASE + ["tools/terminal"],
     "tools/pictures": ["engine", "worlds", "controllers"],

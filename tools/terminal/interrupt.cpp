@@ -2,6 +2,8 @@
 
 #include <csignal>
 
+#include "engine/sim/python_parts.h"
+
 namespace vinerow::tools {
 namespace {
 
@@ -10,6 +12,7 @@ volatile std::sig_atomic_t interrupt_seen = 0;
 void note_interrupt(int) {
   interrupt_seen = 1;
   std::signal(SIGINT, SIG_DFL);
+  interrupt_python_part();
 }
 
 }  // namespace

@@ -8,13 +8,12 @@ namespace vinerow::python {
 namespace py = pybind11;
 
 void bind_elementary(py::module_& module) {
-  py::module_ functions = module.def_submodule("elementary");
   // Of libvinerow.so, which precedes the C library here.
 #define VINEROW_FUNCTION(name) \
-  functions.def(#name, py::vectorize([](double x) { return std::name(x); }), py::arg("x"))
-#define VINEROW_FUNCTION_OF_TWO(name, first, second)                                      \
-  functions.def(#name, py::vectorize([](double a, double b) { return std::name(a, b); }), \
-                py::arg(first), py::arg(second))
+  module.def(#name, py::vectorize([](double x) { return std::name(x); }), py::arg("x"))
+#define VINEROW_FUNCTION_OF_TWO(name, first, second)                                   \
+  module.def(#name, py::vectorize([](double a, double b) { return std::name(a, b); }), \
+             py::arg(first), py::arg(second))
   VINEROW_FUNCTION(sin);
   VINEROW_FUNCTION(cos);
   VINEROW_FUNCTION(tan);

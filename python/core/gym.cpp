@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
 
 #include <cmath>
 #include <utility>
@@ -11,6 +10,7 @@
 #include "engine/core/error.h"
 #include "engine/scenario/scenario_reader.h"
 #include "engine/scenario/study_factor.h"
+#include "python/core/arguments.h"
 #include "python/core/guard.h"
 #include "python/core/parts.h"
 #include "python/core/scenario.h"
@@ -26,10 +26,14 @@ using tasks::Environment;
 using tasks::EnvironmentSetup;
 using tasks::VectorEnvironment;
 
+using Values = Typed<"dict[str, typing.Any]">;
+using Texts = Typed<"dict[str, str]">;
+using Elements = Typed<"list[tuple[str, float, float]]">;
+using AgentState = Typed<"tuple[typing.Any, float, bool, bool, dict[str, typing.Any]]">;
+
 using ActionArray = py::array_t<float, py::array::c_style | py::array::forcecast>;
 
-AgentSetup agent_from(const std::string& vehicle, const std::string& task,
-                      const py::dict& options) {
+AgentSetup agent_from(const std::string& vehicle, const std::string& task, const Values& options) {
   const auto& specs = tasks::task_spec(task).parameters;
   const io::YamlNode node = yaml_from_python(options, "");
   const std::string owner = fmt::format("task '{}'", task);
@@ -37,10 +41,9 @@ AgentSetup agent_from(const std::string& vehicle, const std::string& task,
   return {vehicle, task, scenario::read_parameters(node, {}, "options", specs, owner).values};
 }
 
-std::shared_ptr<EnvironmentSetup> make_setup(const std::filesystem::path& file,
-                                             const py::dict& values,
+std::shared_ptr<EnvironmentSetup> make_setup(const std::string& file, const Values& values,
                                              const std::vector<std::string>& sets,
-                                             const py::dict& factors, double period_s) {
+                                             const Values& factors, double period_s) {
   auto setup = std::make_shared<EnvironmentSetup>();
   setup->overrides = overrides_from_python(values, sets, std::nullopt);
   setup->registry = registry_with(scenario::load_plugin_list(file, setup->overrides));
@@ -56,7 +59,7 @@ std::shared_ptr<EnvironmentSetup> make_setup(const std::filesystem::path& file,
   return setup;
 }
 
-py::list elements_to_python(const std::vector<tasks::Element>& elements) {
+Elements elements_to_python(const std::vector<tasks::Element>& elements) {
   py::list list;
   for (const auto& element : elements) {
     list.append(py::make_tuple(element.name, element.low, element.high));
@@ -103,13 +106,13 @@ ActionArray checked_actions(const py::object& given, const std::vector<std::size
   return ActionArray::ensure(array);
 }
 
-py::dict levels_to_python(const Environment& environment) {
+Texts levels_to_python(const Environment& environment) {
   py::dict levels;
   for (const auto& [name, text] : environment.levels()) levels[py::str(name)] = text;
   return levels;
 }
 
-py::dict numbers_to_python(const Environment::Agent& agent) {
+Values numbers_to_python(const Environment::Agent& agent) {
   py::dict numbers;
   const auto& names = agent.task->numbers();
   for (std::size_t i = 0; i < names.size(); ++i) numbers[py::str(names[i])] = agent.numbers[i];
@@ -160,11 +163,10 @@ tasks::Autoreset autoreset_of(const std::string& name) {
       fmt::format("autoreset = '{}', must be one of: next_step, same_step, disabled", name));
 }
 
-std::unique_ptr<Environments> make_environments(const std::filesystem::path& file,
-                                                const py::dict& values,
+std::unique_ptr<Environments> make_environments(const std::string& file, const Values& values,
                                                 const std::vector<std::string>& sets,
-                                                const py::dict& factors, const std::string& vehicle,
-                                                const std::string& task, const py::dict& options,
+                                                const Values& factors, const std::string& vehicle,
+                                                const std::string& task, const Values& options,
                                                 double period_s, int count, int threads,
                                                 const std::string& autoreset) {
   constexpr int kMaxCount = 100'000, kMaxThreads = 1024;
@@ -210,7 +212,7 @@ void step(Environments& self, const py::object& actions) {
 }
 
 /// (observations, rewards, terminated, truncated), copies
-py::tuple results(Environments& self) {
+Typed<"tuple[typing.Any, typing.Any, typing.Any, typing.Any]"> results(Environments& self) {
   const VectorEnvironment& environments = self.get();
   const VectorEnvironment::Arrays& arrays = environments.arrays();
   const auto rows = static_cast<std::size_t>(environments.size());
@@ -219,7 +221,7 @@ py::tuple results(Environments& self) {
       rows_of(arrays.rewards, rows, 0), flags_of(arrays.terminated), flags_of(arrays.truncated));
 }
 
-py::dict numbers(Environments& self) {
+Values numbers(Environments& self) {
   const VectorEnvironment& environments = self.get();
   const VectorEnvironment::Arrays& arrays = environments.arrays();
   const auto rows = static_cast<std::size_t>(environments.size());
@@ -235,7 +237,7 @@ py::dict numbers(Environments& self) {
 }
 
 /// One action of the only environment: (observation, reward, terminated, truncated, numbers).
-py::tuple step_single(Environments& self, const py::object& action) {
+AgentState step_single(Environments& self, const py::object& action) {
   const Guard::Use use(self.guard());
   VectorEnvironment& environments = self.get();
   const ActionArray array =
@@ -266,12 +268,12 @@ class Episodes {
   Environment environment_;
 };
 
-std::unique_ptr<Episodes> make_episodes(const std::filesystem::path& file, const py::dict& values,
-                                        const std::vector<std::string>& sets,
-                                        const py::dict& factors, const py::list& agents,
-                                        double period_s) {
+std::unique_ptr<Episodes> make_episodes(
+    const std::string& file, const Values& values, const std::vector<std::string>& sets,
+    const Values& factors, const Typed<"list[tuple[str, str, dict[str, typing.Any]]]">& agents,
+    double period_s) {
   auto setup = make_setup(file, values, sets, factors, period_s);
-  for (const py::handle agent : agents) {
+  for (const py::handle agent : py::list(agents)) {
     const auto [vehicle, task, options] =
         agent.cast<std::tuple<std::string, std::string, py::dict>>();
     setup->agents.push_back(agent_from(vehicle, task, options));
@@ -287,7 +289,8 @@ void reset_episode(Episodes& self, std::optional<std::uint64_t> seed) {
   });
 }
 
-void step_episode(Episodes& self, const py::dict& actions) {
+void step_episode(Episodes& self, const Values& given) {
+  const py::dict actions(given);
   const Guard::Use use(self.guard());
   Environment& environment = self.environment();
   static_cast<void>(session_of(environment));
@@ -312,7 +315,8 @@ void step_episode(Episodes& self, const py::dict& actions) {
 }
 
 /// {agent: (observation, reward, terminated, truncated, numbers)}
-py::dict agents_to_python(Episodes& self) {
+Typed<"dict[str, tuple[typing.Any, float, bool, bool, dict[str, typing.Any]]]"> agents_to_python(
+    Episodes& self) {
   py::dict all;
   for (const Environment::Agent& agent : self.environment().agents()) {
     all[py::str(agent.name)] =
@@ -324,7 +328,7 @@ py::dict agents_to_python(Episodes& self) {
   return all;
 }
 
-py::list specs_to_python() {
+Typed<"list[dict[str, typing.Any]]"> specs_to_python() {
   py::list list;
   for (const tasks::TaskSpec& spec : tasks::task_specs()) {
     py::list parameters;
@@ -349,8 +353,7 @@ py::list specs_to_python() {
 
 }  // namespace
 
-void bind_gym(py::module_& parent) {
-  py::module_ module = parent.def_submodule("gym", "C++ part of vinerow.gym.");
+void bind_gym(py::module_& module) {
   module.def("task_specs", &specs_to_python,
              "List of dicts: name, description, parameters, observation, action, numbers.");
   module.def(
@@ -391,16 +394,18 @@ void bind_gym(py::module_& parent) {
   py::class_<Episodes>(module, "Episodes", "One session with several agents.")
       .def(py::init(&make_episodes), py::arg("file"), py::arg("overrides"), py::arg("sets"),
            py::arg("factors"), py::arg("agents"), py::arg("period_s"))
-      .def("spaces",
-           [](Episodes& self) {
-             py::dict all;
-             for (const Environment::Agent& agent : self.environment().agents()) {
-               all[py::str(agent.name)] =
-                   py::make_tuple(elements_to_python(agent.task->observation()),
-                                  elements_to_python(agent.task->action()));
-             }
-             return all;
-           })
+      .def(
+          "spaces",
+          [](Episodes & self) -> Typed<"dict[str, tuple[list[tuple[str, float, float]], "
+                                       "list[tuple[str, float, float]]]]"> {
+            py::dict all;
+            for (const Environment::Agent& agent : self.environment().agents()) {
+              all[py::str(agent.name)] =
+                  py::make_tuple(elements_to_python(agent.task->observation()),
+                                 elements_to_python(agent.task->action()));
+            }
+            return all;
+          })
       .def("reset", &reset_episode, py::arg("seed"))
       .def("step", &step_episode, py::arg("actions"))
       .def("agents", &agents_to_python)

@@ -1,5 +1,5 @@
 #pragma once
-/// vinerow._core.gym: environments for learning. python/vinerow/gym has the public classes.
+/// Environments for learning. python/vinerow/gym has the public classes.
 
 #include <pybind11/pybind11.h>
 

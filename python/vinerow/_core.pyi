@@ -255,13 +255,154 @@ class Log:
         """
         Sentences about damaged parts of the file.
         """
+class Environments:
+    """
+    Environments with one agent each.
+    """
+    def __init__(self, file: str, overrides: dict[str, typing.Any], sets: list[str], factors: dict[str, typing.Any], vehicle: str, task: str, options: dict[str, typing.Any], period_s: float, count: int, threads: int, autoreset: str) -> None:
+        ...
+    def close(self) -> None:
+        ...
+    def digest(self, arg0: int) -> str:
+        ...
+    def levels(self, arg0: int) -> dict[str, str]:
+        ...
+    def now_s(self, arg0: int) -> float:
+        ...
+    def numbers(self) -> dict[str, typing.Any]:
+        ...
+    def numbers_of(self, arg0: int) -> dict[str, typing.Any]:
+        ...
+    def reset(self, seeds: list[int | None], chosen: list[bool]) -> None:
+        ...
+    def results(self) -> tuple[typing.Any, typing.Any, typing.Any, typing.Any]:
+        ...
+    def run_seed(self, arg0: int) -> int:
+        ...
+    def step(self, actions: typing.Any) -> None:
+        """
+        actions: (environments, elements), finite
+        """
+    def step_single(self, action: typing.Any) -> tuple[typing.Any, float, bool, bool, dict[str, typing.Any]]:
+        ...
+    @property
+    def action(self) -> list[tuple[str, float, float]]:
+        """
+        List of (name, low, high).
+        """
+    @property
+    def number_names(self) -> list[str]:
+        ...
+    @property
+    def observation(self) -> list[tuple[str, float, float]]:
+        """
+        List of (name, low, high).
+        """
+class Episodes:
+    """
+    One session with several agents.
+    """
+    def __init__(self, file: str, overrides: dict[str, typing.Any], sets: list[str], factors: dict[str, typing.Any], agents: list[tuple[str, str, dict[str, typing.Any]]], period_s: float) -> None:
+        ...
+    def agents(self) -> dict[str, tuple[typing.Any, float, bool, bool, dict[str, typing.Any]]]:
+        ...
+    def digest(self) -> str:
+        ...
+    def levels(self) -> dict[str, str]:
+        ...
+    def now_s(self) -> float:
+        ...
+    def reset(self, seed: int | None) -> None:
+        ...
+    def spaces(self) -> dict[str, tuple[list[tuple[str, float, float]], list[tuple[str, float, float]]]]:
+        ...
+    def step(self, actions: dict[str, typing.Any]) -> None:
+        ...
+class PartReader:
+    """
+    A signal as a part reads it; only in its step().
+    """
+    def __getitem__(self, field: str) -> typing.Any:
+        """
+        A copy of one field. Raises KeyError without such a field, UsageError without a value.
+        """
+    @property
+    def count(self) -> int:
+        """
+        Number of writes so far.
+        """
+    @property
+    def has_value(self) -> bool:
+        ...
+    @property
+    def stamp_s(self) -> float:
+        """
+        Time of the value, s.
+        """
+    @property
+    def value(self) -> typing.Any:
+        """
+        A vinerow.Message of copies.
+        """
+class PartWriter:
+    """
+    A signal as a part writes it; only in its step().
+    """
+    def write(self, value: typing.Any) -> None:
+        """
+        {name: number} for actuators, else {field: value}; fields that are absent keep their default. Raises ConfigError.
+        """
+class PartPorts:
+    """
+    Where a part connects its signals.
+    """
+    def read(self, name: str, type: str = '', optional: bool = False) -> PartReader:
+        ...
+    def write(self, name: str, type: str = '') -> PartWriter:
+        ...
+def acos(x: numpy.ndarray[typing.Any, numpy.dtype[numpy.float64]]) -> typing.Any:
+    ...
+def asin(x: numpy.ndarray[typing.Any, numpy.dtype[numpy.float64]]) -> typing.Any:
+    ...
+def atan(x: numpy.ndarray[typing.Any, numpy.dtype[numpy.float64]]) -> typing.Any:
+    ...
+def atan2(y: numpy.ndarray[typing.Any, numpy.dtype[numpy.float64]], x: numpy.ndarray[typing.Any, numpy.dtype[numpy.float64]]) -> typing.Any:
+    ...
+def cbrt(x: numpy.ndarray[typing.Any, numpy.dtype[numpy.float64]]) -> typing.Any:
+    ...
+def check_task(name: str) -> None:
+    """
+    Raises ConfigError on an unknown task.
+    """
+def cos(x: numpy.ndarray[typing.Any, numpy.dtype[numpy.float64]]) -> typing.Any:
+    ...
+def cosh(x: numpy.ndarray[typing.Any, numpy.dtype[numpy.float64]]) -> typing.Any:
+    ...
 def encode_picture(picture: numpy.ndarray[typing.Any, numpy.dtype[numpy.uint8]]) -> bytes:
     """
     A PNG of (h, w, 3) pixels.
     """
+def erf(x: numpy.ndarray[typing.Any, numpy.dtype[numpy.float64]]) -> typing.Any:
+    ...
+def exp(x: numpy.ndarray[typing.Any, numpy.dtype[numpy.float64]]) -> typing.Any:
+    ...
+def expm1(x: numpy.ndarray[typing.Any, numpy.dtype[numpy.float64]]) -> typing.Any:
+    ...
+def hypot(x: numpy.ndarray[typing.Any, numpy.dtype[numpy.float64]], y: numpy.ndarray[typing.Any, numpy.dtype[numpy.float64]]) -> typing.Any:
+    ...
 def load_file(file: str | os.PathLike[str], overrides: dict[str, typing.Any], sets: list[str], seed: int | None) -> Scenario:
     ...
 def load_tree(tree: dict[str, typing.Any], folder: str | os.PathLike[str], overrides: dict[str, typing.Any], sets: list[str], seed: int | None) -> Scenario:
+    ...
+def log(x: numpy.ndarray[typing.Any, numpy.dtype[numpy.float64]]) -> typing.Any:
+    ...
+def log10(x: numpy.ndarray[typing.Any, numpy.dtype[numpy.float64]]) -> typing.Any:
+    ...
+def log1p(x: numpy.ndarray[typing.Any, numpy.dtype[numpy.float64]]) -> typing.Any:
+    ...
+def log2(x: numpy.ndarray[typing.Any, numpy.dtype[numpy.float64]]) -> typing.Any:
+    ...
+def pow(x: numpy.ndarray[typing.Any, numpy.dtype[numpy.float64]], y: numpy.ndarray[typing.Any, numpy.dtype[numpy.float64]]) -> typing.Any:
     ...
 def read_picture(file: str | os.PathLike[str]) -> numpy.ndarray[typing.Any, numpy.dtype[numpy.uint8]]:
     """
@@ -272,6 +413,18 @@ def run_files(scenario: Scenario, out: str | os.PathLike[str], log: bool, pictur
     Runs a scenario and writes its files into a folder, as `vinerow run` does.
     
     Returns sentences about files that could not be made.
+    """
+def sin(x: numpy.ndarray[typing.Any, numpy.dtype[numpy.float64]]) -> typing.Any:
+    ...
+def sinh(x: numpy.ndarray[typing.Any, numpy.dtype[numpy.float64]]) -> typing.Any:
+    ...
+def tan(x: numpy.ndarray[typing.Any, numpy.dtype[numpy.float64]]) -> typing.Any:
+    ...
+def tanh(x: numpy.ndarray[typing.Any, numpy.dtype[numpy.float64]]) -> typing.Any:
+    ...
+def task_specs() -> list[dict[str, typing.Any]]:
+    """
+    List of dicts: name, description, parameters, observation, action, numbers.
     """
 def write_replay(folder: str | os.PathLike[str]) -> None:
     """

@@ -64,9 +64,9 @@ def describe(error: BaseException, file: str) -> tuple[str, int | None]:
     return (f"{kind}: {text}" if text else kind), line
 
 
-def make(cls: type, context: Any, values: dict[str, Any]) -> Any:
+def make(cls: type[Any], context: Any, values: dict[str, Any]) -> Any:
     """An object of the class with its context and parameters."""
-    part = cls.__new__(cls)
+    part: Any = object.__new__(cls)
     part.context = context
     for name, value in values.items():
         setattr(part, name, value)

@@ -147,7 +147,8 @@ class Context:
     sensors: list[Mounting]
 
     def __init__(self, read_map: Callable[[], Map], seeds: Callable[[str], list[int]], **values: Any):
-        self._read_map, self._seeds, self._map = read_map, seeds, None
+        self._read_map, self._seeds = read_map, seeds
+        self._map: Map | None = None
         self.__dict__.update(values)
 
     @property

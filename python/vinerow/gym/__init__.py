@@ -8,6 +8,8 @@ Guide: docs/guides/gym.md. Needs the package gymnasium; parallel_env() needs pet
 
 from __future__ import annotations
 
+from typing import Any
+
 try:
     import gymnasium as _gymnasium
 except ImportError as _missing:
@@ -24,7 +26,7 @@ for _task in TASKS.values():
                             kwargs={"task": _task.task})
 
 
-def parallel_env(**options):
+def parallel_env(**options: Any) -> Any:
     """A rover and a quadrotor in one vineyard as a PettingZoo ParallelEnv; options as for vinerow.gym.parallel.ParallelEnv."""
     from .parallel import ParallelEnv
     return ParallelEnv(**options)

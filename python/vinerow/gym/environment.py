@@ -11,15 +11,13 @@ from gymnasium import spaces
 from gymnasium.vector.utils import batch_space
 
 from .. import _core
+from ..arrays import Array
 from ..errors import ConfigError
 from .tasks import TASKS
 
-try:
-    from gymnasium.vector import AutoresetMode
-    _AUTORESET = {"next_step": AutoresetMode.NEXT_STEP, "same_step": AutoresetMode.SAME_STEP, "disabled": AutoresetMode.DISABLED}
-except ImportError:  # before gymnasium 1.1
-    AutoresetMode = None
-    _AUTORESET = {name: name for name in ("next_step", "same_step", "disabled")}
+_AUTORESET: dict[str, Any] = {name: name for name in ("next_step", "same_step", "disabled")}
+if hasattr(gymnasium.vector, "AutoresetMode"):  # from gymnasium 1.1 on
+    _AUTORESET = {name: gymnasium.vector.AutoresetMode[name.upper()] for name in _AUTORESET}
 
 
 def box(elements: Iterable[tuple[str, float, float]]) -> spaces.Box:
@@ -36,22 +34,22 @@ def _seed(value: Any) -> int | None:
     return int(value)
 
 
-def _open(task: str, count: int, threads: int, autoreset: str, *, scenario: str | os.PathLike | None, vehicle: str | None,
+def _open(task: str, count: int, threads: int, autoreset: str, *, scenario: str | os.PathLike[str] | None, vehicle: str | None,
           overrides: Mapping[str, Any] | None, sets: Iterable[str], factors: Mapping[str, Any] | None,
-          options: Mapping[str, Any] | None, control_rate_Hz: float) -> _core.gym.Environments:
+          options: Mapping[str, Any] | None, control_rate_Hz: float) -> _core.Environments:
     if task not in TASKS:
-        _core.gym.check_task(task)  # raises
+        _core.check_task(task)  # raises
     definition = TASKS[task]
     if factors is None:
         factors = definition.factors if scenario is None else {}
     if not control_rate_Hz > 0.0:
         raise ConfigError(f"control_rate_Hz = {control_rate_Hz!r}, must be > 0 Hz")
-    return _core.gym.Environments(
-        os.fspath(scenario if scenario is not None else definition.scenario), dict(overrides or {}), list(sets), dict(factors),
+    return _core.Environments(
+        os.fspath(definition.scenario if scenario is None else scenario), dict(overrides or {}), list(sets), dict(factors),
         vehicle or definition.vehicle, task, dict(options or {}), 1.0 / control_rate_Hz, count, threads, autoreset)
 
 
-class Env(gymnasium.Env):
+class Env(gymnasium.Env[Array, Array]):
     """One vehicle with one task.
 
     Args:
@@ -69,7 +67,7 @@ class Env(gymnasium.Env):
 
     metadata: dict[str, Any] = {"render_modes": []}
 
-    def __init__(self, task: str = "row_following", *, scenario: str | os.PathLike | None = None, vehicle: str | None = None,
+    def __init__(self, task: str = "row_following", *, scenario: str | os.PathLike[str] | None = None, vehicle: str | None = None,
                  overrides: Mapping[str, Any] | None = None, sets: Iterable[str] = (), factors: Mapping[str, Any] | None = None,
                  options: Mapping[str, Any] | None = None, control_rate_Hz: float = 50.0, render_mode: None = None):
         if render_mode is not None:
@@ -80,14 +78,14 @@ class Env(gymnasium.Env):
         self.observation_space = box(self._environments.observation)
         self.action_space = box(self._environments.action)
 
-    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[numpy.ndarray, dict[str, Any]]:
+    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Array, dict[str, Any]]:
         seed = _seed(seed)
         super().reset(seed=seed)
         self._environments.reset([seed], [])
         observations, _, _, _ = self._environments.results()
         return observations[0], {**self._environments.numbers_of(0), "levels": self._environments.levels(0)}
 
-    def step(self, action: numpy.ndarray) -> tuple[numpy.ndarray, float, bool, bool, dict[str, Any]]:
+    def step(self, action: Array) -> tuple[Array, float, bool, bool, dict[str, Any]]:
         return self._environments.step_single(action)
 
     @property
@@ -109,7 +107,7 @@ class Env(gymnasium.Env):
         self._environments.close()
 
 
-class VectorEnv(gymnasium.vector.VectorEnv):
+class VectorEnv(gymnasium.vector.VectorEnv[Array, Array, Array]):
     """Many environments of one task, stepped on several threads.
 
     Args:
@@ -122,10 +120,9 @@ class VectorEnv(gymnasium.vector.VectorEnv):
     Infos have the task's numbers as arrays. With "same_step", `final_obs` and `final_info` are those before the reset.
     """
 
-    _environments: _core.gym.Environments | None = None  # until it is made, for close()
 
     def __init__(self, num_envs: int = 1, task: str = "row_following", *, threads: int | None = None,
-                 autoreset_mode: Any = "next_step", scenario: str | os.PathLike | None = None, vehicle: str | None = None,
+                 autoreset_mode: Any = "next_step", scenario: str | os.PathLike[str] | None = None, vehicle: str | None = None,
                  overrides: Mapping[str, Any] | None = None, sets: Iterable[str] = (), factors: Mapping[str, Any] | None = None,
                  options: Mapping[str, Any] | None = None, control_rate_Hz: float = 50.0, render_mode: None = None):
         if render_mode is not None:
@@ -146,7 +143,7 @@ class VectorEnv(gymnasium.vector.VectorEnv):
         self.action_space = batch_space(self.single_action_space, num_envs)
 
     def reset(self, *, seed: int | Sequence[int | None] | None = None,
-              options: dict[str, Any] | None = None) -> tuple[numpy.ndarray, dict[str, Any]]:
+              options: dict[str, Any] | None = None) -> tuple[Array, dict[str, Any]]:
         if seed is None or isinstance(seed, (int, numpy.integer)):
             first = _seed(seed)
             seeds = [None if first is None else _seed(first + i) for i in range(self.num_envs)]
@@ -165,9 +162,9 @@ class VectorEnv(gymnasium.vector.VectorEnv):
         mask = numpy.asarray(mask)
         if mask.dtype != bool or mask.shape != (self.num_envs,):
             raise ConfigError(f"reset_mask must be {self.num_envs} bools, not {mask.dtype} of shape {mask.shape}")
-        return mask.tolist()
+        return [bool(one) for one in mask]
 
-    def step(self, actions: numpy.ndarray) -> tuple[numpy.ndarray, numpy.ndarray, numpy.ndarray, numpy.ndarray, dict[str, Any]]:
+    def step(self, actions: Array) -> tuple[Array, Array, Array, Array, dict[str, Any]]:
         self._environments.step(actions)
         return (*self._environments.results(), self._infos())
 
@@ -197,5 +194,6 @@ class VectorEnv(gymnasium.vector.VectorEnv):
         return self._environments.levels(index)
 
     def close_extras(self, **options: Any) -> None:
-        if self._environments is not None:
+        # A constructor that failed made none.
+        if "_environments" in self.__dict__:
             self._environments.close()

@@ -6,15 +6,15 @@ import functools
 import os
 from typing import Any, Iterable, Mapping
 
-import numpy
 from gymnasium import spaces
 
 try:
-    import pettingzoo
+    import pettingzoo  # type: ignore[import-untyped]
 except ImportError as missing:
     raise ImportError("vinerow.gym.parallel_env() needs the package pettingzoo: pip install pettingzoo") from missing
 
 from .. import _core
+from ..arrays import Array
 from ..errors import UsageError
 from .environment import _seed, box
 from .tasks import SCENARIOS, _starts
@@ -24,7 +24,7 @@ FACTORS = {**{f"rover_{name}": factor for name, factor in _starts("rover", 2, 0.
            "drone_heading": {"key": "drone.spawn.turn_deg", "from": -10.0, "to": 10.0, "count": 11}}
 
 
-class ParallelEnv(pettingzoo.ParallelEnv):
+class ParallelEnv(pettingzoo.ParallelEnv):  # type: ignore[misc]
     """A rover that follows its alley and a quadrotor that flies along its own, in one session.
 
     Args:
@@ -37,14 +37,14 @@ class ParallelEnv(pettingzoo.ParallelEnv):
 
     metadata = {"name": "vinerow_rover_and_drone_v0", "render_modes": []}
 
-    def __init__(self, *, agents: Mapping[str, tuple[str, Mapping[str, Any]]] | None = None, scenario: str | os.PathLike | None = None,
+    def __init__(self, *, agents: Mapping[str, tuple[str, Mapping[str, Any]]] | None = None, scenario: str | os.PathLike[str] | None = None,
                  overrides: Mapping[str, Any] | None = None, sets: Iterable[str] = (), factors: Mapping[str, Any] | None = None,
                  control_rate_Hz: float = 50.0, render_mode: None = None):
         agents = agents or {"rover": ("row_following", {}), "drone": ("row_flight", {})}
         if factors is None:
             factors = FACTORS if scenario is None else {}
         self.render_mode = render_mode
-        self._episodes = _core.gym.Episodes(
+        self._episodes = _core.Episodes(
             os.fspath(scenario if scenario is not None else SCENARIOS / "rover_and_drone.yaml"), dict(overrides or {}), list(sets),
             dict(factors), [(vehicle, task, dict(options)) for vehicle, (task, options) in agents.items()], 1.0 / control_rate_Hz)
         self._spaces = {agent: (box(observation), box(action)) for agent, (observation, action) in self._episodes.spaces().items()}
@@ -59,19 +59,20 @@ class ParallelEnv(pettingzoo.ParallelEnv):
     def action_space(self, agent: str) -> spaces.Box:
         return self._spaces[agent][1]
 
-    def reset(self, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[dict[str, numpy.ndarray], dict[str, Any]]:
+    def reset(self, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[dict[str, Array], dict[str, Any]]:
         self._episodes.reset(_seed(seed))
         self.agents = list(self.possible_agents)
         states, levels = self._episodes.agents(), self._episodes.levels()
         return ({agent: states[agent][0] for agent in self.agents},
                 {agent: {**states[agent][4], "levels": levels} for agent in self.agents})
 
-    def step(self, actions: Mapping[str, numpy.ndarray]):
+    def step(self, actions: Mapping[str, Array]) -> tuple[dict[str, Any], ...]:
         if not self.agents:
             raise UsageError("the episode is over; reset() begins the next one")
         self._episodes.step(dict(actions))
         states = self._episodes.agents()
-        observations, rewards, terminated, truncated, infos = ({agent: states[agent][i] for agent in self.agents} for i in range(5))
+        observations, rewards, terminated, truncated, infos = (
+            dict(zip(self.agents, column)) for column in zip(*(states[agent] for agent in self.agents)))
         self.agents = [agent for agent in self.agents if not (terminated[agent] or truncated[agent])]
         return observations, rewards, terminated, truncated, infos
 

@@ -16,6 +16,7 @@ try:
 except ImportError as missing:
     raise ImportError("vinerow.gym.stable_baselines needs the package stable-baselines3: pip install stable-baselines3") from missing
 
+from ..arrays import Array
 from ..errors import UsageError
 from .environment import VectorEnv
 
@@ -26,12 +27,12 @@ class VecEnv(_Base):
     def __init__(self, num_envs: int = 1, task: str = "row_following", **options: Any):
         self.render_mode = None
         self.environments = VectorEnv(num_envs, task, autoreset_mode="same_step", **options)
-        self._actions = numpy.zeros(self.environments.action_space.shape, numpy.float32)
+        self._actions: Array = numpy.zeros(0, numpy.float32)
         self._returns = numpy.zeros(num_envs)
         self._lengths = numpy.zeros(num_envs, int)
         super().__init__(num_envs, self.environments.single_observation_space, self.environments.single_action_space)
 
-    def reset(self) -> numpy.ndarray:
+    def reset(self) -> Array:
         seeds = None if self._seeds[0] is None else list(self._seeds)
         observations, _ = self.environments.reset(seed=seeds)
         self._returns[:], self._lengths[:] = 0.0, 0
@@ -39,10 +40,10 @@ class VecEnv(_Base):
         self._reset_options()
         return observations
 
-    def step_async(self, actions: numpy.ndarray) -> None:
+    def step_async(self, actions: Array) -> None:
         self._actions = actions
 
-    def step_wait(self):
+    def step_wait(self) -> tuple[Array, Array, Array, list[dict[str, Any]]]:
         observations, rewards, terminated, truncated, infos = self.environments.step(self._actions)
         self._returns += rewards
         self._lengths += 1

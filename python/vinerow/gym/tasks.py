@@ -49,4 +49,4 @@ TASKS: dict[str, TaskDefinition] = {
 def describe() -> list[dict[str, Any]]:
     """What each task observes, does and is rewarded for: a list of dicts with the keys name, description, parameters (name, unit,
     default, allowed, description), observation and action (name, low, high), numbers."""
-    return _core.gym.task_specs()
+    return _core.task_specs()

@@ -20,7 +20,7 @@ struct PythonParts {
 /// Called by the extension module when it is imported. @param parts  valid until the program ends
 void set_python_parts(const PythonParts* parts);
 
-/// Registers the parts of a file `.py`; starts an interpreter if the program has none.
+/// Registers the parts of a file `.py`; starts an interpreter in a program without one.
 /// @throws ConfigError with file and line, or if Python or the package is missing
 void load_python_parts(const std::filesystem::path& file, Registry& registry);
 

@@ -29,7 +29,7 @@ AlleyTrack::AlleyTrack(const RowMap& rows, int index, bool reversed)
 
 AlleyTrack::AlleyTrack(const RowMap& rows, const Pose& X_WB, const std::string& who) {
   if (rows.alleys.empty()) {
-    throw ConfigError(fmt::format("{} needs a world with an alley; this one has none", who));
+    throw ConfigError(fmt::format("{} needs a world with an alley; there is none in this one", who));
   }
   const Eigen::Vector2d p_W = X_WB.p.head<2>();
   int nearest = 0;

@@ -17,7 +17,7 @@ import vinerow
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDER = ROOT / "docs" / "examples" / "notebooks"
-NAMES = sys.argv[1:] or ["plot_a_run", "tune_a_gain"]
+NAMES = sys.argv[1:] or ["plot_a_run", "tune_a_gain", "train_ppo"]
 
 
 def executed(name: str) -> nbformat.NotebookNode:
@@ -71,6 +71,17 @@ class Notebooks(unittest.TestCase):
         self.assertEqual(count(notebook, "image/png"), 1)
         lookahead_m = float(texts(notebook).split("lookahead ")[1].split(" m:")[0])
         self.assertTrue(0.4 < lookahead_m < 1.5, lookahead_m)
+
+    @unittest.skipUnless("train_ppo" in NAMES, "not asked for")
+    def test_train_ppo(self):
+        notebook = executed("train_ppo")
+        self.assertEqual(count(notebook, "image/png"), 2)
+        returns = [float(line.split("return ")[1]) for line in texts(notebook).splitlines() if "return " in line]
+        self.assertEqual(len(returns), 4)
+        # Standing still gives the price of 10 cm, -0.5 a step; driving on the line gives nearly 1 a step.
+        self.assertGreater(returns[-1], 50.0)
+        self.assertGreater(returns[-1], returns[0] + 50.0)
+        self.assertIn("reached the end: True", texts(notebook))
 
 
 if __name__ == "__main__":

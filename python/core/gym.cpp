@@ -125,6 +125,10 @@ const Session& session_of(const Environment& environment) {
   return *environment.session();
 }
 
+constexpr Guard::Sentences kEnvironmentSentences = {
+    "the environment belongs to the process that made it; make environments after the fork",
+    "the environment is in use by another thread; give each thread its own"};
+
 /// Environments with one agent each.
 class Environments {
  public:
@@ -151,7 +155,7 @@ class Environments {
   }
 
  private:
-  Guard guard_;
+  Guard guard_{kEnvironmentSentences};
   std::unique_ptr<VectorEnvironment> environments_;
 };
 
@@ -264,7 +268,7 @@ class Episodes {
     tasks::check_setup(*setup);
     return setup;
   }
-  Guard guard_;
+  Guard guard_{kEnvironmentSentences};
   Environment environment_;
 };
 

@@ -164,18 +164,8 @@ auto reading(T (Session::*method)() const) {
 
 }  // namespace
 
-PythonSession::Use::Use(PythonSession& owner) : owner_(owner) {
-  if (owner_.process_ != getpid()) {
-    throw UsageError(
-        "the session belongs to the process that opened it; open sessions after the fork");
-  }
-  if (owner_.busy_.exchange(true, std::memory_order_acquire)) {
-    throw UsageError("the session is in use by another thread; give each thread its own (twin())");
-  }
-  if (!owner_.session_) {
-    owner_.busy_ = false;
-    throw UsageError("the session is closed");
-  }
+PythonSession::Use::Use(PythonSession& owner) : owner_(owner), hold_(owner.guard_) {
+  if (!owner_.session_) throw UsageError("the session is closed");
 }
 
 void PythonSession::step(Time until) {
@@ -215,7 +205,7 @@ std::shared_ptr<PythonSession> PythonSession::twin() {
 
 void PythonSession::close() {
   // In a forked child there is nothing to close: the session is its parent's.
-  if (closed() || process_ != getpid()) return;
+  if (closed() || !guard_.in_own_process()) return;
   Use use(*this);
   {
     const py::gil_scoped_release release;

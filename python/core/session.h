@@ -2,13 +2,12 @@
 /// vinerow.Session in C++: a session, and the checks that Python needs around it.
 
 #include <pybind11/pybind11.h>
-#include <unistd.h>
 
-#include <atomic>
 #include <memory>
 #include <optional>
 
 #include "engine/sim/session.h"
+#include "python/core/guard.h"
 #include "python/core/scenario.h"
 
 namespace vinerow::python {
@@ -23,14 +22,12 @@ class PythonSession {
    public:
     /// @throws UsageError
     explicit Use(PythonSession& owner);
-    ~Use() { owner_.busy_.store(false, std::memory_order_release); }
-    Use(const Use&) = delete;
-    Use& operator=(const Use&) = delete;
     Session* operator->() const { return &*owner_.session_; }
     Session& operator*() const { return *owner_.session_; }
 
    private:
     PythonSession& owner_;
+    Guard::Use hold_;
   };
 
   /// Processes every instant up to and including `until`, without the interpreter's lock. Ctrl-C
@@ -50,9 +47,9 @@ class PythonSession {
   void step(Use& use, Time until);
 
   std::optional<Session> session_;
-  std::atomic<bool> busy_ = false;
   std::uint64_t run_number_ = 0;
-  pid_t process_ = getpid();
+  Guard guard_{{"the session belongs to the process that opened it; open sessions after the fork",
+                "the session is in use by another thread; give each thread its own (twin())"}};
 };
 
 void bind_session(pybind11::module_& module);

@@ -44,7 +44,9 @@ void load_plugin(const std::filesystem::path& file, Registry& registry) {
   if (file.extension() == ".py") {
     return register_from(file.string(), registry, [&] { load_python_parts(file, registry); });
   }
-  void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | kOwnLibrariesFirst);
+  // A bare name would be searched in the system's library folders.
+  const std::string path = std::filesystem::absolute(file).string();
+  void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL | kOwnLibrariesFirst);
   if (!library)
     throw ConfigError(fmt::format("plug-in '{}' cannot be loaded: {}", file.string(), dlerror()));
 

@@ -58,6 +58,13 @@ class Bits(unittest.TestCase):
                        for vehicle, values in session.metrics().items()}
             self.assertEqual(metrics, summary["metrics"])
 
+    def test_the_command_finds_a_plugin_in_the_current_folder(self):
+        with tempfile.TemporaryDirectory() as folder:
+            (pathlib.Path(folder) / "mine.so").symlink_to(SINE_CONTROLLER)
+            listed = subprocess.run([VINEROW, "list", "sine", "--plugin", "mine.so"], cwd=folder, capture_output=True, text=True, check=False)
+        self.assertEqual(listed.returncode, 0, listed.stderr)
+        self.assertIn("controller sine", listed.stdout)
+
     def test_a_plugin_computes_what_it_computes_for_the_command(self):
         # The interpreter has loaded the C library's sin before the plug-in is loaded.
         changes = {"plugins": f"[{SINE_CONTROLLER}]", "rover.controller": "{type: sine}", "duration_s": "3"}

@@ -10,6 +10,7 @@
 #include "controllers/planning/survey/survey_forecast.h"
 #include "controllers/planning/survey/survey_order.h"
 #include "controllers/planning/survey/survey_route.h"
+#include "engine/io/geo/area_file.h"
 #include "engine/math/angles.h"
 
 namespace vinerow::controllers {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "controllers/parts/paths/pose2.h"
+#include "engine/io/geo/area_file.h"
 #include "engine/math/angles.h"
 
 namespace vinerow::controllers {

@@ -102,10 +102,10 @@ class CollisionWorld::Dispatcher : public btCollisionDispatcher {
 
   /// True if one of the pair is the height field or a static mesh, and the other certainly does not
   /// touch it.
-  bool is_clear(const btCollisionObject& a, const btCollisionObject& b) const {
+  bool is_clear(const btCollisionObject& a, const btCollisionObject& b) {
     const double margin_m = 2.0 * breaking_threshold_m_;
-    if (a.isStaticObject() && is_clear_of_mesh(a, b, margin_m)) return true;
-    if (b.isStaticObject() && is_clear_of_mesh(b, a, margin_m)) return true;
+    if (a.isStaticObject() && mesh_gate_.is_clear(a, b, margin_m)) return true;
+    if (b.isStaticObject() && mesh_gate_.is_clear(b, a, margin_m)) return true;
     if (!terrain_) return false;
     const auto is_terrain = [](const btCollisionObject& object) {
       return object.getCollisionShape()->getShapeType() == TERRAIN_SHAPE_PROXYTYPE;
@@ -117,6 +117,7 @@ class CollisionWorld::Dispatcher : public btCollisionDispatcher {
   double breaking_threshold_m_;
   const ContactNormals& normals_;
   const HeightField* terrain_;
+  MeshGate mesh_gate_;
 };
 
 CollisionWorld::CollisionWorld(const PhysicsSettings& settings, const StaticScene& scene)

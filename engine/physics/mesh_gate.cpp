@@ -1,50 +1,149 @@
 #include "engine/physics/mesh_gate.h"
 
-#include <LinearMath/btAabbUtil2.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
 
 namespace vinerow::physics {
 namespace {
 
-/// Whether a triangle's bounding box in the body's axes meets that of the body. A vehicle seldom
-/// drives along the mesh's axes, and its box along those is then longer and wider than itself.
-struct NearTriangle : btTriangleCallback {
+/// A search looks this much further than the margin. More saves searches, but each finds more
+/// triangles, in vain where one is near.
+constexpr double kReach_m = 0.3;
+constexpr double kReachNearMesh_m = 0.03;
+
+using Triangle = std::array<btVector3, 3>;
+
+/// Gap of a triangle and a box along an axis; < 0 if they overlap there.
+double gap_along_m(const btVector3& axis, const Triangle& triangle, const Box& box) {
+  const auto [low, high] =
+      std::minmax({axis.dot(triangle[0]), axis.dot(triangle[1]), axis.dot(triangle[2])});
+  const double middle = axis.dot(box.low + box.high) / 2.0;
+  const double half = axis.absolute().dot(box.high - box.low) / 2.0;
+  return std::max(low - middle - half, middle - half - high);
+}
+
+/// The same along the box's own axes, where it is cheap.
+double box_gap_m(const Triangle& triangle, const Box& box) {
+  btVector3 low = triangle[0], high = triangle[0];
+  for (int i = 1; i < 3; ++i) {
+    low.setMin(triangle[i]);
+    high.setMax(triangle[i]);
+  }
+  btVector3 gap = low - box.high;
+  gap.setMax(box.low - high);
+  return gap[gap.maxAxis()];
+}
+
+/// Largest gap along the 13 axes of the separating axis theorem: those of the box, the triangle's
+/// normal, and the products of their edges. It is at most the distance of the two, and < 0 only if
+/// they overlap. A wire's triangles are as long as a row: along the axes of a vehicle that does not
+/// drive along it, their bounding boxes cover the alley.
+double gap_m(const Triangle& triangle, const Box& box) {
+  double largest = box_gap_m(triangle, box);
+  const auto consider = [&](const btVector3& axis) {
+    const double length2 = axis.length2();
+    if (length2 > 1e-12) {  // edges in parallel otherwise: another axis separates these
+      largest = std::max(largest, gap_along_m(axis / std::sqrt(length2), triangle, box));
+    }
+  };
+  consider((triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]));
+  for (int i = 0; i < 3; ++i) {
+    const btVector3 edge = triangle[(i + 1) % 3] - triangle[i];
+    consider({0.0, -edge.z(), edge.y()});  // x axis times edge, and so on
+    consider({edge.z(), 0.0, -edge.x()});
+    consider({-edge.y(), edge.x(), 0.0});
+  }
+  return largest;
+}
+
+/// Finds the least gap between the body and a triangle, in the body's axes. A vehicle seldom drives
+/// along the mesh's axes, and its box along those is longer and wider than itself. A triangle
+/// within the margin of the body's box is compared with the boxes of its shapes.
+struct NearestTriangle : btTriangleCallback {
   btTransform X_BM;
-  btVector3 low_B, high_B;
-  bool found = false;
+  Box body_B;
+  const btCompoundShape* compound;
+  std::vector<Box>* shapes_B;  ///< empty until needed
+  double margin_m = 0.0;
+  double distance_m = 0.0;
 
   void processTriangle(btVector3* corners_M, int /*part*/, int /*triangle*/) override {
-    if (found) return;
-    btVector3 low = X_BM * corners_M[0], high = low;
-    for (int i = 1; i < 3; ++i) {
-      const btVector3 corner = X_BM * corners_M[i];
-      low.setMin(corner);
-      high.setMax(corner);
+    const Triangle triangle{X_BM * corners_M[0], X_BM * corners_M[1], X_BM * corners_M[2]};
+    if (box_gap_m(triangle, body_B) >= distance_m) return;
+    double gap = gap_m(triangle, body_B);
+    if (gap <= margin_m) gap = shapes_gap_m(triangle);
+    distance_m = std::min(distance_m, gap);
+  }
+
+ private:
+  double shapes_gap_m(const Triangle& triangle) {
+    if (shapes_B->empty()) {
+      shapes_B->resize(static_cast<std::size_t>(compound->getNumChildShapes()));
+      for (int i = 0; i < compound->getNumChildShapes(); ++i) {
+        Box& box = (*shapes_B)[static_cast<std::size_t>(i)];
+        compound->getChildShape(i)->getAabb(compound->getChildTransform(i), box.low, box.high);
+      }
     }
-    found = TestAabbAgainstAabb2(low, high, low_B, high_B);
+    double least = std::numeric_limits<double>::infinity();
+    for (const Box& shape : *shapes_B) least = std::min(least, gap_m(triangle, shape));
+    return least;
   }
 };
 
+/// Upper bound of the distance that a point within `radius_m` of the origin moves between two
+/// poses:
+/// |(R1 - R0) p + t1 - t0| <= |R1 - R0|_F |p| + |t1 - t0|.
+double bound_motion_m(const btTransform& from, const btTransform& to, double radius_m) {
+  double turned2 = 0.0;
+  for (int i = 0; i < 3; ++i) turned2 += (to.getBasis()[i] - from.getBasis()[i]).length2();
+  return std::sqrt(turned2) * radius_m + (to.getOrigin() - from.getOrigin()).length();
+}
+
 }  // namespace
 
-bool is_clear_of_mesh(const btCollisionObject& mesh, const btCollisionObject& body,
-                      double margin_m) {
+std::size_t MeshGate::PairHash::operator()(const Pair& pair) const {
+  const std::hash<const void*> hash;
+  return hash(pair.mesh) * 31 + hash(pair.body);
+}
+
+bool MeshGate::is_clear(const btCollisionObject& mesh, const btCollisionObject& body,
+                        double margin_m) {
   const btCollisionShape& shape = *body.getCollisionShape();
   if (mesh.getCollisionShape()->getShapeType() != TRIANGLE_MESH_SHAPE_PROXYTYPE ||
       !shape.isCompound()) {
     return false;
   }
-  const btVector3 margin(margin_m, margin_m, margin_m);
   const btTransform X_MB = mesh.getWorldTransform().inverse() * body.getWorldTransform();
+  Search& last = searches_[{&mesh, &body}];
+  if (last.reach_m > 0.0 && bound_motion_m(last.X_MB, X_MB, last.radius_m) < last.reach_m) {
+    return true;
+  }
+
+  // The tree of the mesh is searched along its own axes.
+  const double wide_m = margin_m + (last.reach_m > 0.0 ? kReach_m : kReachNearMesh_m);
+  const btVector3 wide(wide_m, wide_m, wide_m);
   btVector3 low_M, high_M;
   shape.getAabb(X_MB, low_M, high_M);
-  NearTriangle near;
-  near.X_BM = X_MB.inverse();
-  shape.getAabb(btTransform::getIdentity(), near.low_B, near.high_B);
-  near.low_B -= margin;
-  near.high_B += margin;
+  shapes_B_.clear();
+  NearestTriangle nearest;
+  nearest.X_BM = X_MB.inverse();
+  shape.getAabb(btTransform::getIdentity(), nearest.body_B.low, nearest.body_B.high);
+  nearest.compound = static_cast<const btCompoundShape*>(&shape);
+  nearest.shapes_B = &shapes_B_;
+  nearest.margin_m = margin_m;
+  nearest.distance_m = wide_m;
   static_cast<const btBvhTriangleMeshShape*>(mesh.getCollisionShape())
-      ->processAllTriangles(&near, low_M - margin, high_M + margin);
-  return !near.found;
+      ->processAllTriangles(&nearest, low_M - wide, high_M + wide);
+
+  last.X_MB = X_MB;
+  last.reach_m = nearest.distance_m - margin_m;
+  btVector3 farthest = nearest.body_B.low.absolute();
+  farthest.setMax(nearest.body_B.high.absolute());
+  last.radius_m = farthest.length();
+  return last.reach_m > 0.0;
 }
 
 }  // namespace vinerow::physics

@@ -6,14 +6,44 @@
 
 #include <btBulletCollisionCommon.h>
 
+#include <unordered_map>
+#include <vector>
+
 namespace vinerow::physics {
 
-/// Searches the mesh's tree once, with the bounding box of the whole body, and compares the
-/// triangles that it finds with the body's box in its own axes.
-/// @param body  of a compound shape
-/// @param margin_m  by which the boxes are widened
-/// @returns true if no triangle meets them; false if one does, or the test does not apply
-bool is_clear_of_mesh(const btCollisionObject& mesh, const btCollisionObject& body,
-                      double margin_m);
+struct Box {
+  btVector3 low, high;
+};
+
+/// One per collision world. Remembers for each mesh and body how far the body may move before the
+/// mesh must be searched again.
+class MeshGate {
+ public:
+  /// @param mesh  static; a static object of another shape is never reported as clear
+  /// @param body  of a compound shape that never changes, otherwise it is never reported as clear
+  /// @param margin_m  distance to the mesh up to which the body counts as touching; always the same
+  /// @returns true if no triangle is within `margin_m` of the body; false if one may be
+  bool is_clear(const btCollisionObject& mesh, const btCollisionObject& body, double margin_m);
+
+ private:
+  /// The result of a search of the mesh.
+  struct Search {
+    btTransform X_MB;       ///< pose of the body at the search
+    double reach_m = -1.0;  ///< distance that each point of the body's box may move; < 0: none
+    double radius_m = 0.0;  ///< of the box's corners, around the body's origin
+  };
+  struct Pair {
+    const btCollisionObject* mesh;
+    const btCollisionObject* body;
+    bool operator==(const Pair&) const = default;
+  };
+  struct PairHash {
+    std::size_t operator()(const Pair& pair) const;
+  };
+
+  /// Only looked up, never iterated: the order of addresses has no effect.
+  std::unordered_map<Pair, Search, PairHash> searches_;
+  std::vector<Box> shapes_B_;  ///< scratch: the boxes of the body's shapes, in its axes
+};
 
 }  // namespace vinerow::physics

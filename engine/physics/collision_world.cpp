@@ -49,6 +49,16 @@ class CheckedResult : public btManifoldResult {
   const ContactNormals& normals_;
 };
 
+/// Bullet allocates and clears memory for 4096 pairs in advance: most of the time that a reset of a
+/// session takes. Beyond these pools it takes memory as it needs it.
+btDefaultCollisionConstructionInfo small_pools() {
+  constexpr int kPairs = 128;
+  btDefaultCollisionConstructionInfo info;
+  info.m_defaultMaxPersistentManifoldPoolSize = kPairs;
+  info.m_defaultMaxCollisionAlgorithmPoolSize = kPairs;
+  return info;
+}
+
 }  // namespace
 
 /// Sets the distance up to which contact points are kept for this world; Bullet has it as a global.
@@ -121,7 +131,8 @@ class CollisionWorld::Dispatcher : public btCollisionDispatcher {
 };
 
 CollisionWorld::CollisionWorld(const PhysicsSettings& settings, const StaticScene& scene)
-    : dispatcher_(std::make_unique<Dispatcher>(
+    : configuration_(small_pools()),
+      dispatcher_(std::make_unique<Dispatcher>(
           &configuration_, settings.contact_breaking_threshold_m, scene.normals(),
           scene.world().terrain ? &*scene.world().terrain : nullptr)),
       statics_(scene.geometry().make_objects()),

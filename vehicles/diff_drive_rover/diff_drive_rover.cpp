@@ -7,10 +7,11 @@
 
 namespace vinerow::vehicles {
 
-DiffDriveRover::DiffDriveRover(const DiffDriveRoverParams& params, double gravity_mps2) {
+DiffDriveRover::DiffDriveRover(const DiffDriveRoverParams& params, double gravity_mps2,
+                               const LinkShelf& links) {
   params.validate();
   description_ = describe_diff_drive_rover(params);
-  links_ = make_diff_drive_links(params);
+  links_ = links.get([&] { return make_diff_drive_links(params); });
   WheeledPlatformParams platform = chassis_platform_params(params, gravity_mps2);
   platform.shapes = {make_diff_drive_shape(description_)};
   build_platform(std::move(platform));
@@ -55,8 +56,9 @@ std::vector<VehicleLink> make_diff_drive_links(const DiffDriveRoverParams& param
 std::unique_ptr<Vehicle> make_diff_drive_rover(const ParameterSet& parameters,
                                                const VehicleContext& context) {
   const DiffDriveRoverParams params = read_diff_drive_rover_params(parameters, context.vehicle);
-  if (params.kinematic) return std::make_unique<KinematicRover>(params);
-  auto rover = std::make_unique<DiffDriveRover>(params, context.gravity_mps2);
+  const LinkShelf links(parameters, context);
+  if (params.kinematic) return std::make_unique<KinematicRover>(params, links);
+  auto rover = std::make_unique<DiffDriveRover>(params, context.gravity_mps2, links);
   rover->feel_wind(context.random("wind"));
   return rover;
 }

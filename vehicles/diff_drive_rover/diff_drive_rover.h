@@ -9,6 +9,7 @@
 
 #include "engine/api/registry.h"
 #include "vehicles/diff_drive_rover/diff_drive_rover_params.h"
+#include "vehicles/parts/link_shelf.h"
 #include "vehicles/parts/platform_vehicle.h"
 
 namespace vinerow::vehicles {
@@ -16,7 +17,8 @@ namespace vinerow::vehicles {
 class DiffDriveRover final : public PlatformVehicle {
  public:
   /// @throws ConfigError
-  explicit DiffDriveRover(const DiffDriveRoverParams& params, double gravity_mps2 = 9.80665);
+  explicit DiffDriveRover(const DiffDriveRoverParams& params, double gravity_mps2 = 9.80665,
+                          const LinkShelf& links = {});
 };
 
 /// Description with the effective track of a skid-steered rover on tyres.

@@ -29,10 +29,10 @@ KinematicPlatformParams platform_params(const DiffDriveRoverParams& params,
 
 }  // namespace
 
-KinematicRover::KinematicRover(const DiffDriveRoverParams& params)
+KinematicRover::KinematicRover(const DiffDriveRoverParams& params, const LinkShelf& links)
     : params_(checked(params)),
       description_(describe_diff_drive_rover(params)),
-      links_(make_diff_drive_links(params)),
+      links_(links.get([&] { return make_diff_drive_links(params); })),
       platform_(platform_params(params, description_)) {
   description_.wheeled->effective_track_m = params.track_m;
   for (const ActuatorSpec& actuator : description_.actuators) {

@@ -12,13 +12,14 @@
 #include "engine/api/messages/sensors.h"
 #include "vehicles/diff_drive_rover/diff_drive_rover_params.h"
 #include "vehicles/parts/kinematic_platform.h"
+#include "vehicles/parts/link_shelf.h"
 
 namespace vinerow::vehicles {
 
 class KinematicRover final : public Vehicle {
  public:
   /// @throws ConfigError
-  explicit KinematicRover(const DiffDriveRoverParams& params);
+  explicit KinematicRover(const DiffDriveRoverParams& params, const LinkShelf& links = {});
 
   const VehicleDescription& description() const override { return description_; }
   const std::vector<VehicleLink>& links() const override { return links_; }

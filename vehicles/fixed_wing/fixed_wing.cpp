@@ -25,7 +25,8 @@ constexpr double kPropeller_radps = 1000.0;
 
 }  // namespace
 
-FixedWing::FixedWing(const FixedWingParams& params, const VehicleContext& context)
+FixedWing::FixedWing(const FixedWingParams& params, const VehicleContext& context,
+                     const LinkShelf& links)
     : params_(params),
       name_(context.vehicle),
       gravity_mps2_(context.gravity_mps2),
@@ -38,7 +39,7 @@ FixedWing::FixedWing(const FixedWingParams& params, const VehicleContext& contex
   fault_met_.assign(params_.faults.size(), false);
   battery_.charge = params_.battery.initial_charge;
   describe();
-  make_links();
+  links_ = links.get([&] { return make_links(); });
   air_message_.names = {"airspeed_mps",    "alpha_rad",        "beta_rad", "throttle",
                         "elevon_left_rad", "elevon_right_rad", "thrust_N", "wind_x_mps",
                         "wind_y_mps",      "wind_z_mps"};
@@ -282,7 +283,8 @@ void FixedWing::publish(Time now) {
 std::unique_ptr<Vehicle> make_fixed_wing(const ParameterSet& parameters,
                                          const VehicleContext& context) {
   return std::make_unique<FixedWing>(
-      read_fixed_wing_params(parameters, context.vehicle, context.gravity_mps2), context);
+      read_fixed_wing_params(parameters, context.vehicle, context.gravity_mps2), context,
+      LinkShelf(parameters, context));
 }
 
 }  // namespace vinerow::vehicles

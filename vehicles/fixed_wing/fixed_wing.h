@@ -29,6 +29,7 @@
 #include "vehicles/fixed_wing/fixed_wing_params.h"
 #include "vehicles/fixed_wing/launcher.h"
 #include "vehicles/parts/foliage_watch.h"
+#include "vehicles/parts/link_shelf.h"
 #include "vehicles/parts/mid_step.h"
 #include "vehicles/parts/rotor.h"
 #include "vehicles/parts/wind_probe.h"
@@ -42,7 +43,8 @@ class FixedWing final : public Vehicle {
   using Actuators = std::array<double, kActuators>;
 
   /// @throws ConfigError
-  FixedWing(const FixedWingParams& params, const VehicleContext& context);
+  FixedWing(const FixedWingParams& params, const VehicleContext& context,
+            const LinkShelf& links = {});
 
   const VehicleDescription& description() const override { return description_; }
   const std::vector<VehicleLink>& links() const override { return links_; }
@@ -75,7 +77,7 @@ class FixedWing final : public Vehicle {
   void describe();
   /// Adds the air density at the start, for which the described numbers are valid.
   void describe_air(double density_kgm3);
-  void make_links();
+  std::vector<VehicleLink> make_links() const;
   void start_in_air(const Pose& X_WB, const Eigen::Vector3d& ground_W);
   void meet_faults(Time now);
   /// Advances motor and servos. @returns the mean of the throttle squared over the step

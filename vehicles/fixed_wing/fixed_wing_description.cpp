@@ -44,18 +44,20 @@ void FixedWing::describe_air(double density_kgm3) {
   aircraft.air_density_kgm3 = density_kgm3;
 }
 
-void FixedWing::make_links() {
+std::vector<VehicleLink> FixedWing::make_links() const {
+  std::vector<VehicleLink> links;
   Material material;
   material.name = "fixed_wing";
   material.colour = {1.0f, 1.0f, 1.0f};  // the meshes carry their colours
   material.roughness = 0.5f;
   const auto add = [&](const char* name, TriangleMesh mesh) {
-    links_.push_back({name, std::make_shared<TriangleMesh>(std::move(mesh)), material});
+    links.push_back({name, std::make_shared<TriangleMesh>(std::move(mesh)), material});
   };
   add("body", make_fixed_wing_body(params_));
   add("elevon_left", make_fixed_wing_elevon(params_, 1.0));
   add("elevon_right", make_fixed_wing_elevon(params_, -1.0));
   add("propeller", make_fixed_wing_propeller(params_));
+  return links;
 }
 
 }  // namespace vinerow::vehicles

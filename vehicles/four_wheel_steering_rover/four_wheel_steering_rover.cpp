@@ -40,11 +40,11 @@ physics::HullShape hull_shape(const VehicleDescription& about) {
 }  // namespace
 
 FourWheelSteeringRover::FourWheelSteeringRover(const FourWheelSteeringRoverParams& params,
-                                               double gravity_mps2)
+                                               double gravity_mps2, const LinkShelf& links)
     : params_(params) {
   params_.validate();
   describe();
-  make_links();
+  links_ = links.get([&] { return make_links(); });
   WheeledPlatformParams platform = chassis_platform_params(params_, gravity_mps2);
   platform.shapes = {{hull_shape(description_), Pose{}}};
   build_platform(std::move(platform));
@@ -65,12 +65,13 @@ void FourWheelSteeringRover::describe() {
   description_.battery_capacity_J = p.battery.capacity_Wh * 3600.0;
 }
 
-void FourWheelSteeringRover::make_links() {
+std::vector<VehicleLink> FourWheelSteeringRover::make_links() const {
+  std::vector<VehicleLink> links;
   Material material;
   material.name = "four_wheel_steering_rover";
   material.colour = {1.0f, 1.0f, 1.0f};  // the meshes carry their colours
   material.roughness = 0.55f;
-  links_.push_back(
+  links.push_back(
       {"body", std::make_shared<TriangleMesh>(make_four_wheel_steering_body(params_)), material});
   WheelMeshParams wheel;
   wheel.radius_m = params_.wheel_radius_m;
@@ -81,18 +82,20 @@ void FourWheelSteeringRover::make_links() {
   wheel.hub_srgb = 0xb4b8bc;
   Material rubber = material;
   rubber.roughness = 0.9f;
-  append_wheel_links(wheel, rubber, links_);
+  append_wheel_links(wheel, rubber, links);
   for (const Corner& corner : kCorners) {
-    links_.push_back({fmt::format("knuckle_{}", corner.name),
-                      std::make_shared<TriangleMesh>(make_steering_knuckle(params_, corner)),
-                      material});
+    links.push_back({fmt::format("knuckle_{}", corner.name),
+                     std::make_shared<TriangleMesh>(make_steering_knuckle(params_, corner)),
+                     material});
   }
+  return links;
 }
 
 std::unique_ptr<Vehicle> make_four_wheel_steering_rover(const ParameterSet& parameters,
                                                         const VehicleContext& context) {
   auto rover = std::make_unique<FourWheelSteeringRover>(
-      read_four_wheel_steering_rover_params(parameters, context.vehicle), context.gravity_mps2);
+      read_four_wheel_steering_rover_params(parameters, context.vehicle), context.gravity_mps2,
+      LinkShelf(parameters, context));
   rover->feel_wind(context.random("wind"));
   return rover;
 }

@@ -19,6 +19,7 @@
 
 #include "engine/api/registry.h"
 #include "vehicles/four_wheel_steering_rover/four_wheel_steering_rover_params.h"
+#include "vehicles/parts/link_shelf.h"
 #include "vehicles/parts/steered_platform_vehicle.h"
 
 namespace vinerow::vehicles {
@@ -27,11 +28,11 @@ class FourWheelSteeringRover final : public SteeredPlatformVehicle {
  public:
   /// @throws ConfigError
   explicit FourWheelSteeringRover(const FourWheelSteeringRoverParams& params,
-                                  double gravity_mps2 = 9.80665);
+                                  double gravity_mps2 = 9.80665, const LinkShelf& links = {});
 
  private:
   void describe();
-  void make_links();
+  std::vector<VehicleLink> make_links() const;
 
   FourWheelSteeringRoverParams params_;
 };

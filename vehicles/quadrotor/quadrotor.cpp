@@ -33,7 +33,8 @@ Vector3d calc_body_drag_W(double drag_area_m2, double air_density_kgm3, const Ve
 
 }  // namespace
 
-Quadrotor::Quadrotor(const QuadrotorParams& params, const VehicleContext& context)
+Quadrotor::Quadrotor(const QuadrotorParams& params, const VehicleContext& context,
+                     const LinkShelf& links)
     : params_(params),
       name_(context.vehicle),
       random_(context.random("wind")),
@@ -49,7 +50,7 @@ Quadrotor::Quadrotor(const QuadrotorParams& params, const VehicleContext& contex
   actuator_states_.assign(kRotors, 0.0);
   battery_.charge = params_.battery.initial_charge;
   describe();
-  make_links();
+  links_ = links.get([&] { return make_links(); });
   for (std::size_t i = 1; i <= kRotors; ++i) {
     rotors_message_.names.push_back(fmt::format("rotor_{}_speed_radps", i));
     rotors_message_.names.push_back(fmt::format("rotor_{}_thrust_N", i));
@@ -291,7 +292,8 @@ void Quadrotor::publish(Time now) {
 std::unique_ptr<Vehicle> make_quadrotor(const ParameterSet& parameters,
                                         const VehicleContext& context) {
   return std::make_unique<Quadrotor>(
-      read_quadrotor_params(parameters, context.vehicle, context.gravity_mps2), context);
+      read_quadrotor_params(parameters, context.vehicle, context.gravity_mps2), context,
+      LinkShelf(parameters, context));
 }
 
 }  // namespace vinerow::vehicles

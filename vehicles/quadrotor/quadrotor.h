@@ -28,6 +28,7 @@
 #include "engine/api/registry.h"
 #include "engine/physics/physics_world.h"
 #include "vehicles/parts/foliage_watch.h"
+#include "vehicles/parts/link_shelf.h"
 #include "vehicles/parts/mid_step.h"
 #include "vehicles/parts/wind_probe.h"
 #include "vehicles/quadrotor/quadrotor_params.h"
@@ -45,7 +46,8 @@ struct RotorState {
 class Quadrotor final : public Vehicle {
  public:
   /// @throws ConfigError
-  Quadrotor(const QuadrotorParams& params, const VehicleContext& context);
+  Quadrotor(const QuadrotorParams& params, const VehicleContext& context,
+            const LinkShelf& links = {});
 
   const VehicleDescription& description() const override { return description_; }
   const std::vector<VehicleLink>& links() const override { return links_; }
@@ -86,7 +88,7 @@ class Quadrotor final : public Vehicle {
   /// Scales the described thrust and drag of the rotors by the density at the start over the rated
   /// one.
   void describe_air(double density_ratio);
-  void make_links();
+  std::vector<VehicleLink> make_links() const;
   void meet_faults(Time now);
   void feel_wind(Time now, Duration dt);
   void feel_ground();

@@ -40,21 +40,22 @@ void Quadrotor::describe_air(double density_ratio) {
   craft.torque_coefficient_Nms2 = density_ratio * params_.rotor.torque_coefficient_Nms2;
 }
 
-void Quadrotor::make_links() {
+std::vector<VehicleLink> Quadrotor::make_links() const {
+  std::vector<VehicleLink> links;
   Material material;
   material.name = "quadrotor";
   material.colour = {1.0f, 1.0f, 1.0f};  // the meshes carry their colours
   material.roughness = 0.5f;
-  links_.push_back(
-      {"body", std::make_shared<TriangleMesh>(make_quadrotor_body(params_)), material});
+  links.push_back({"body", std::make_shared<TriangleMesh>(make_quadrotor_body(params_)), material});
   // Rotors that turn opposite ways are each other's mirror image.
   for (std::size_t i = 0; i < kRotors; ++i) {
     const bool counter_clockwise = QuadrotorParams::torque_sign(i) < 0.0;
-    links_.push_back({fmt::format("rotor_{}", i + 1),
-                      std::make_shared<TriangleMesh>(
-                          make_quadrotor_rotor(params_.rotor_radius_m, counter_clockwise)),
-                      material});
+    links.push_back({fmt::format("rotor_{}", i + 1),
+                     std::make_shared<TriangleMesh>(
+                         make_quadrotor_rotor(params_.rotor_radius_m, counter_clockwise)),
+                     material});
   }
+  return links;
 }
 
 }  // namespace vinerow::vehicles

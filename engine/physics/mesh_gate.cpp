@@ -17,7 +17,7 @@ constexpr double kReachNearMesh_m = 0.03;
 using Triangle = std::array<btVector3, 3>;
 
 /// Gap of a triangle and a box along an axis; < 0 if they overlap there.
-double gap_along_m(const btVector3& axis, const Triangle& triangle, const Box& box) {
+double gap_along_m(const btVector3& axis, const Triangle& triangle, const AxisBox& box) {
   const auto [low, high] =
       std::minmax({axis.dot(triangle[0]), axis.dot(triangle[1]), axis.dot(triangle[2])});
   const double middle = axis.dot(box.low + box.high) / 2.0;
@@ -26,7 +26,7 @@ double gap_along_m(const btVector3& axis, const Triangle& triangle, const Box& b
 }
 
 /// The same along the box's own axes, where it is cheap.
-double box_gap_m(const Triangle& triangle, const Box& box) {
+double box_gap_m(const Triangle& triangle, const AxisBox& box) {
   btVector3 low = triangle[0], high = triangle[0];
   for (int i = 1; i < 3; ++i) {
     low.setMin(triangle[i]);
@@ -41,7 +41,7 @@ double box_gap_m(const Triangle& triangle, const Box& box) {
 /// normal, and the products of their edges. It is at most the distance of the two, and < 0 only if
 /// they overlap. A wire's triangles are as long as a row: along the axes of a vehicle that does not
 /// drive along it, their bounding boxes cover the alley.
-double gap_m(const Triangle& triangle, const Box& box) {
+double gap_m(const Triangle& triangle, const AxisBox& box) {
   double largest = box_gap_m(triangle, box);
   const auto consider = [&](const btVector3& axis) {
     const double length2 = axis.length2();
@@ -64,9 +64,9 @@ double gap_m(const Triangle& triangle, const Box& box) {
 /// within the margin of the body's box is compared with the boxes of its shapes.
 struct NearestTriangle : btTriangleCallback {
   btTransform X_BM;
-  Box body_B;
+  AxisBox body_B;
   const btCompoundShape* compound;
-  std::vector<Box>* shapes_B;  ///< empty until needed
+  std::vector<AxisBox>* shapes_B;  ///< empty until needed
   double margin_m = 0.0;
   double distance_m = 0.0;
 
@@ -83,12 +83,12 @@ struct NearestTriangle : btTriangleCallback {
     if (shapes_B->empty()) {
       shapes_B->resize(static_cast<std::size_t>(compound->getNumChildShapes()));
       for (int i = 0; i < compound->getNumChildShapes(); ++i) {
-        Box& box = (*shapes_B)[static_cast<std::size_t>(i)];
+        AxisBox& box = (*shapes_B)[static_cast<std::size_t>(i)];
         compound->getChildShape(i)->getAabb(compound->getChildTransform(i), box.low, box.high);
       }
     }
     double least = std::numeric_limits<double>::infinity();
-    for (const Box& shape : *shapes_B) least = std::min(least, gap_m(triangle, shape));
+    for (const AxisBox& shape : *shapes_B) least = std::min(least, gap_m(triangle, shape));
     return least;
   }
 };
@@ -116,15 +116,16 @@ bool MeshGate::is_clear(const btCollisionObject& mesh, const btCollisionObject& 
       !shape.isCompound()) {
     return false;
   }
-  const btTransform X_MB = mesh.getWorldTransform().inverse() * body.getWorldTransform();
+  const btTransform& X_WB = body.getWorldTransform();
   Search& last = searches_[{&mesh, &body}];
-  if (last.reach_m > 0.0 && bound_motion_m(last.X_MB, X_MB, last.radius_m) < last.reach_m) {
+  if (last.reach_m > 0.0 && bound_motion_m(last.X_WB, X_WB, last.radius_m) < last.reach_m) {
     return true;
   }
 
   // The tree of the mesh is searched along its own axes.
   const double wide_m = margin_m + (last.reach_m > 0.0 ? kReach_m : kReachNearMesh_m);
   const btVector3 wide(wide_m, wide_m, wide_m);
+  const btTransform X_MB = mesh.getWorldTransform().inverse() * X_WB;
   btVector3 low_M, high_M;
   shape.getAabb(X_MB, low_M, high_M);
   shapes_B_.clear();
@@ -138,7 +139,7 @@ bool MeshGate::is_clear(const btCollisionObject& mesh, const btCollisionObject& 
   static_cast<const btBvhTriangleMeshShape*>(mesh.getCollisionShape())
       ->processAllTriangles(&nearest, low_M - wide, high_M + wide);
 
-  last.X_MB = X_MB;
+  last.X_WB = X_WB;
   last.reach_m = nearest.distance_m - margin_m;
   btVector3 farthest = nearest.body_B.low.absolute();
   farthest.setMax(nearest.body_B.high.absolute());

@@ -11,7 +11,8 @@
 
 namespace vinerow::physics {
 
-struct Box {
+/// Box along the axes of a body.
+struct AxisBox {
   btVector3 low, high;
 };
 
@@ -19,7 +20,7 @@ struct Box {
 /// mesh must be searched again.
 class MeshGate {
  public:
-  /// @param mesh  static; a static object of another shape is never reported as clear
+  /// @param mesh  static, never moved; a static object of another shape is never reported as clear
   /// @param body  of a compound shape that never changes, otherwise it is never reported as clear
   /// @param margin_m  distance to the mesh up to which the body counts as touching; always the same
   /// @returns true if no triangle is within `margin_m` of the body; false if one may be
@@ -28,8 +29,8 @@ class MeshGate {
  private:
   /// The result of a search of the mesh.
   struct Search {
-    btTransform X_MB;       ///< pose of the body at the search
-    double reach_m = -1.0;  ///< distance that each point of the body's box may move; < 0: none
+    btTransform X_WB;       ///< pose of the body at the search
+    double reach_m = 0.0;   ///< distance that each point of the body may move; <= 0: none
     double radius_m = 0.0;  ///< of the box's corners, around the body's origin
   };
   struct Pair {
@@ -43,7 +44,7 @@ class MeshGate {
 
   /// Only looked up, never iterated: the order of addresses has no effect.
   std::unordered_map<Pair, Search, PairHash> searches_;
-  std::vector<Box> shapes_B_;  ///< scratch: the boxes of the body's shapes, in its axes
+  std::vector<AxisBox> shapes_B_;  ///< scratch: the boxes of the body's shapes, in its axes
 };
 
 }  // namespace vinerow::physics

@@ -20,8 +20,10 @@ from typing import Any, Iterable, Mapping
 
 # The interpreter has loaded the C library's sin, exp, ... already. The simulator's own functions (engine/elementary) must come
 # first in the simulator and its libraries, or the bits of a run would be others than those of `vinerow run`.
+# The functions of a sanitizer must come before these.
+_own_first = 0 if "libasan" in os.environ.get("LD_PRELOAD", "") else os.RTLD_DEEPBIND
 _flags = sys.getdlopenflags()
-sys.setdlopenflags(os.RTLD_NOW | os.RTLD_LOCAL | os.RTLD_DEEPBIND)
+sys.setdlopenflags(os.RTLD_NOW | os.RTLD_LOCAL | _own_first)
 try:
     from . import _core
 finally:

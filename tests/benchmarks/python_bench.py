@@ -1,16 +1,17 @@
 #!/usr/bin/env python3
 """Prints what the Python package costs, in CPU time of one thread. Table of docs/contributing/performance.md.
 
+Times are those of the fastest of 15 turns: what else runs on the machine slows the others, by up to a half.
+
 usage: python_bench.py [calls] [steps] [resets] [first_update]     run in the environment of tools/python_environment
 
   calls         a call of Session.step() that has nothing to do, and one field of a signal
-  steps         environment steps at 50 Hz, 64 environments on one thread: medians of five turns
-  resets        memory of 10^6 resets (takes about 20 minutes)
+  steps         environment steps at 50 Hz, 64 environments on one thread
+  resets        memory of 10^6 resets (takes about 10 minutes)
   first_update  wall clock from the start of the interpreter to the first update of PPO
 """
 
 import pathlib
-import statistics
 import subprocess
 import sys
 import time
@@ -21,18 +22,18 @@ import vinerow
 import vinerow.gym
 from vinerow.gym.tasks import SCENARIOS
 
-TURNS = 5
+TURNS = 15
 
 
 def cpu_us(call, count: int) -> float:
-    """Median CPU time of a call, us."""
+    """CPU time of a call, us."""
     times = []
     for _ in range(TURNS):
         begin = time.process_time()
         for _ in range(count):
             call()
         times.append((time.process_time() - begin) / count * 1e6)
-    return statistics.median(times)
+    return min(times)
 
 
 def calls() -> None:
@@ -47,11 +48,11 @@ def calls() -> None:
 def steps() -> None:
     physical = {"rover.fidelity": "physics", "physics.step_s": 0.0025}
     for name, task, overrides, count in (
-            ("kinematic rover on the headland", "headland_turn", {}, 1000),
-            ("kinematic rover in a row, four range sensors", "row_following", {}, 500),
-            ("the same with wheels and tyres, steps of 2.5 ms", "row_following", physical, 100),
-            ("quadrotor in gusts, steps of 4 ms", "row_flight", {}, 100),
-            ("rover with sprayer", "spraying", {}, 200)):
+            ("kinematic rover on the headland", "headland_turn", {}, 1500),
+            ("kinematic rover in a row, four range sensors", "row_following", {}, 450),
+            ("the same with wheels and tyres, steps of 2.5 ms", "row_following", physical, 150),
+            ("quadrotor in gusts, steps of 4 ms", "row_flight", {}, 150),
+            ("rover with sprayer", "spraying", {}, 150)):
         env = vinerow.gym.VectorEnv(64, task, threads=1, factors={}, overrides=overrides)
         env.reset(seed=1)
         # In the row slowly straight on, on the headland on the spot: no episode ends.

@@ -26,26 +26,7 @@ std::vector<scenario::CameraConfig> chosen_cameras(const scenario::Scenario& sce
                                                    const std::vector<std::string>& wanted) {
   if (wanted.empty()) return scenario.pictures.cameras;
   std::vector<scenario::CameraConfig> chosen;
-  std::vector<std::string> known;
-  for (const scenario::CameraConfig& camera : scenario.pictures.cameras)
-    known.push_back(camera.name);
-  for (const std::string& name : wanted) {
-    const auto found = std::find(known.begin(), known.end(), name);
-    if (found == known.end() && name == "chase" && !scenario.vehicles.empty()) {
-      // The default camera of a scenario without cameras: behind the first vehicle.
-      scenario::CameraConfig chase;
-      chase.name = name;
-      chase.vehicle = scenario.vehicles.front().name;
-      chosen.push_back(chase);
-      continue;
-    }
-    if (found == known.end()) {
-      throw ConfigError(fmt::format("no camera '{}' in scenario '{}'{} (known: {})", name,
-                                    scenario.name, did_you_mean(name, known),
-                                    known.empty() ? "none" : join(known)));
-    }
-    chosen.push_back(scenario.pictures.cameras[found - known.begin()]);
-  }
+  for (const std::string& name : wanted) chosen.push_back(find_camera(scenario, name));
   return chosen;
 }
 
@@ -160,6 +141,23 @@ scenario::Scenario scenario_in(const record::LogReader& reader, const std::files
 }
 
 }  // namespace
+
+scenario::CameraConfig find_camera(const scenario::Scenario& scenario, const std::string& name) {
+  std::vector<std::string> known;
+  for (const scenario::CameraConfig& camera : scenario.pictures.cameras) {
+    if (camera.name == name) return camera;
+    known.push_back(camera.name);
+  }
+  if (name == "chase" && !scenario.vehicles.empty()) {
+    scenario::CameraConfig chase;
+    chase.name = name;
+    chase.vehicle = scenario.vehicles.front().name;
+    return chase;
+  }
+  throw ConfigError(fmt::format("no camera '{}' in scenario '{}'{} (known: {})", name,
+                                scenario.name, did_you_mean(name, known),
+                                known.empty() ? "none" : join(known)));
+}
 
 scenario::Scenario scenario_of_log(const std::filesystem::path& log, const Registry& registry,
                                    const scenario::Overrides& overrides) {

@@ -47,6 +47,10 @@ struct PictureReport {
 PictureReport render_log(const std::filesystem::path& log, const std::filesystem::path& out,
                          const Registry& registry, const PictureOptions& options);
 
+/// A camera of a scenario. "chase", if it has none of that name, is behind its first vehicle.
+/// @throws ConfigError "no camera 'tpo' in scenario 'demo'; did you mean 'top'? (known: top)"
+scenario::CameraConfig find_camera(const scenario::Scenario& scenario, const std::string& name);
+
 /// Scenario that a log contains. @param overrides  applied to it and checked like it
 scenario::Scenario scenario_of_log(const std::filesystem::path& log, const Registry& registry,
                                    const scenario::Overrides& overrides = {});

@@ -13,6 +13,7 @@
 #include "python/core/arguments.h"
 #include "python/core/guard.h"
 #include "python/core/parts.h"
+#include "python/core/run.h"
 #include "python/core/scenario.h"
 #include "python/core/yaml_from_python.h"
 #include "python/tasks/vector_environment.h"
@@ -318,6 +319,23 @@ void step_episode(Episodes& self, const Values& given) {
   without_lock([&] { environment.step(); });
 }
 
+/// @throws ConfigError
+playback::PictureChoice choice_of(const TextArgument& camera, int width, int height) {
+  check_side("width", width);
+  check_side("height", height);
+  return {camera.value("camera"), width, height};
+}
+
+py::array_t<std::uint8_t> draw(const Environment& environment) {
+  static_cast<void>(session_of(environment));
+  render::Image image;
+  {
+    const py::gil_scoped_release release;
+    image = environment.draw();
+  }
+  return pixels_of(image);
+}
+
 /// {agent: (observation, reward, terminated, truncated, numbers)}
 Typed<"dict[str, tuple[typing.Any, float, bool, bool, dict[str, typing.Any]]]"> agents_to_python(
     Episodes& self) {
@@ -378,6 +396,18 @@ void bind_gym(py::module_& module) {
       .def_property_readonly("number_names",
                              [](Environments& self) { return self.get().task().numbers(); })
       .def("reset", &reset, py::arg("seeds"), py::arg("chosen"))
+      .def(
+          "watch",
+          [](Environments& self, const TextArgument& camera, int width, int height) {
+            self.get().environment(0).watch(choice_of(camera, width, height));
+          },
+          py::arg("camera"), py::arg("width"), py::arg("height"),
+          "Lets draw() picture the first environment, from its next reset on.")
+      .def("draw",
+           [](Environments& self) {
+             const Guard::Use use(self.guard());
+             return draw(self.get().environment(0));
+           })
       .def("step", &step, py::arg("actions"), "actions: (environments, elements), finite")
       .def("step_single", &step_single, py::arg("action"))
       .def("results", &results)
@@ -410,6 +440,18 @@ void bind_gym(py::module_& module) {
             }
             return all;
           })
+      .def(
+          "watch",
+          [](Episodes& self, const TextArgument& camera, int width, int height) {
+            self.environment().watch(choice_of(camera, width, height));
+          },
+          py::arg("camera"), py::arg("width"), py::arg("height"),
+          "Lets draw() picture the episodes from the next reset on.")
+      .def("draw",
+           [](Episodes& self) {
+             const Guard::Use use(self.guard());
+             return draw(self.environment());
+           })
       .def("reset", &reset_episode, py::arg("seed"))
       .def("step", &step_episode, py::arg("actions"))
       .def("agents", &agents_to_python)

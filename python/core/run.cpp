@@ -134,14 +134,6 @@ py::bytes encode_picture(
   return render::encode_png(pixels);
 }
 
-/// @throws ConfigError if a side of a picture is not one that `vinerow render` takes
-void check_side(const char* name, std::optional<int> pixels) {
-  constexpr int kLeast = 16, kMost = 8192;
-  if (!pixels || (*pixels >= kLeast && *pixels <= kMost)) return;
-  throw ConfigError(
-      fmt::format("{} = {}, must be from {} to {} pixels", name, *pixels, kLeast, kMost));
-}
-
 /// Makes the wish for a camera part of the options.
 void choose_camera(const py::object& camera, const std::filesystem::path& log,
                    playback::PictureOptions& options) {
@@ -163,6 +155,18 @@ void choose_camera(const py::object& camera, const std::filesystem::path& log,
 }
 
 }  // namespace
+
+void check_side(const char* name, std::optional<int> pixels) {
+  constexpr int kLeast = 16, kMost = 8192;
+  if (!pixels || (*pixels >= kLeast && *pixels <= kMost)) return;
+  throw ConfigError(
+      fmt::format("{} = {}, must be from {} to {} pixels", name, *pixels, kLeast, kMost));
+}
+
+py::array_t<std::uint8_t> pixels_of(const render::Image& image) {
+  return py::array_t<std::uint8_t>(std::vector<py::ssize_t>{image.height, image.width, 3},
+                                   image.rgb.data());
+}
 
 std::vector<py::array_t<std::uint8_t>> render(const std::filesystem::path& log,
                                               const std::vector<double>& times_s,
@@ -191,9 +195,7 @@ std::vector<py::array_t<std::uint8_t>> render(const std::filesystem::path& log,
                                   options.cameras.front(), images.size(), times_s.size()));
   }
   std::vector<py::array_t<std::uint8_t>> pictures;
-  for (const render::Image& image : images) {
-    pictures.emplace_back(std::vector<py::ssize_t>{image.height, image.width, 3}, image.rgb.data());
-  }
+  for (const render::Image& image : images) pictures.push_back(pixels_of(image));
   return pictures;
 }
 

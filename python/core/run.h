@@ -8,6 +8,10 @@
 #include <optional>
 #include <vector>
 
+namespace vinerow::render {
+struct Image;
+}
+
 namespace vinerow::python {
 
 /// Pictures of a log at some times, (h, w, 3) each. @param camera  a name, a dict of a camera's
@@ -18,6 +22,12 @@ std::vector<pybind11::array_t<std::uint8_t>> render(const std::filesystem::path&
                                                     const pybind11::object& camera,
                                                     std::optional<int> width,
                                                     std::optional<int> height);
+
+/// @throws ConfigError if a side of a picture is not one that `vinerow render` takes
+void check_side(const char* name, std::optional<int> pixels);
+
+/// A copy, (height, width, 3).
+pybind11::array_t<std::uint8_t> pixels_of(const render::Image& image);
 
 void bind_run(pybind11::module_& module);
 

@@ -79,6 +79,7 @@ void Environment::reset() {
     agent.task->begin(*session_);
   }
   for (Agent& agent : agents_) observe(agent);
+  if (pictures_) pictures_->begin(*session_);
 }
 
 void Environment::observe(Agent& agent) {
@@ -104,6 +105,7 @@ void Environment::step() {
     agent.truncated = session_->over() && !agent.judgement.terminated;
     observe(agent);
   }
+  if (pictures_) pictures_->note(*session_);
 }
 
 }  // namespace vinerow::tasks

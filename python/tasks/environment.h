@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/core/random.h"
+#include "engine/playback/session_pictures.h"
 #include "engine/scenario/scenario.h"
 #include "engine/scenario/study.h"
 #include "engine/sim/run_shelf.h"
@@ -62,6 +63,11 @@ class Environment {
   /// @throws SimulationError, ConfigError
   void step();
 
+  /// Keeps what pictures of the episodes from the next reset() on need.
+  void watch(playback::PictureChoice choice) { pictures_.emplace(setup_->registry, choice); }
+  /// The present instant. @pre watch() came before the episode's reset()
+  render::Image draw() const { return pictures_->draw(); }
+
   /// An episode runs: reset() was called and an agent is not done.
   bool running() const { return session_ && !done(); }
   bool done() const;
@@ -81,6 +87,7 @@ class Environment {
   std::vector<std::size_t> level_;  ///< of each factor
   std::optional<Session> session_;
   std::vector<Agent> agents_;
+  std::optional<playback::SessionPictures> pictures_;
 };
 
 }  // namespace vinerow::tasks

@@ -41,6 +41,7 @@ class VectorEnvironment {
   int size() const { return static_cast<int>(environments_.size()); }
   const Task& task() const { return *environments_.front()->agents().front().task; }
   const Environment& environment(int index) const { return *environments_.at(index); }
+  Environment& environment(int index) { return *environments_.at(index); }
   const Arrays& arrays() const { return arrays_; }
 
   /// Begins episodes. @param seeds  of each environment, or nothing: the next episode

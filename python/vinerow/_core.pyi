@@ -265,6 +265,8 @@ class Environments:
         ...
     def digest(self, arg0: int) -> str:
         ...
+    def draw(self) -> numpy.ndarray[typing.Any, numpy.dtype[numpy.uint8]]:
+        ...
     def levels(self, arg0: int) -> dict[str, str]:
         ...
     def now_s(self, arg0: int) -> float:
@@ -285,6 +287,10 @@ class Environments:
         """
     def step_single(self, action: typing.Any) -> tuple[typing.Any, float, bool, bool, dict[str, typing.Any]]:
         ...
+    def watch(self, camera: str, width: int, height: int) -> None:
+        """
+        Lets draw() picture the first environment, from its next reset on.
+        """
     @property
     def action(self) -> list[tuple[str, float, float]]:
         """
@@ -308,6 +314,8 @@ class Episodes:
         ...
     def digest(self) -> str:
         ...
+    def draw(self) -> numpy.ndarray[typing.Any, numpy.dtype[numpy.uint8]]:
+        ...
     def levels(self) -> dict[str, str]:
         ...
     def now_s(self) -> float:
@@ -318,6 +326,10 @@ class Episodes:
         ...
     def step(self, actions: dict[str, typing.Any]) -> None:
         ...
+    def watch(self, camera: str, width: int, height: int) -> None:
+        """
+        Lets draw() picture the episodes from the next reset on.
+        """
 class PartReader:
     """
     A signal as a part reads it; only in its step().

@@ -13,6 +13,7 @@ import pathlib
 import re
 import subprocess
 import sys
+import tempfile
 import threading
 import unittest
 import warnings
@@ -344,7 +345,7 @@ class Misuse(unittest.TestCase):
                 ("options.speed_mps = -1 m/s, must be > 0 m/s", {"options": {"speed_mps": -1.0}}),
                 ("the period of an action, 0.03 s, is not a whole number of physics steps of 0.02 s", {"control_rate_Hz": 100.0 / 3.0}),
                 ("control_rate_Hz = 0, must be > 0 Hz", {"control_rate_Hz": 0}),
-                ("render_mode = 'human', must be None: pictures are drawn from the log of a run", {"render_mode": "human"})):
+                ("render_mode = 'human', must be None or 'rgb_array'", {"render_mode": "human"})):
             with self.subTest(text), self.assertRaises(vinerow.ConfigError) as caught:
                 Env(**arguments)
             self.assertTrue(str(caught.exception).startswith(text), str(caught.exception))
@@ -411,6 +412,61 @@ class Misuse(unittest.TestCase):
             run = subprocess.run([sys.executable, "-c", f"import sys; sys.modules['{package}'] = None; {line}"], capture_output=True,
                                  text=True, check=False)
             self.assertEqual(run.stderr.strip().splitlines()[-1], f"ImportError: {text}")
+
+
+class Pictures(unittest.TestCase):
+    OPTIONS = {"render_mode": "rgb_array", "width": 320, "height": 200}
+
+    def test_it_is_the_picture_of_a_log(self):
+        """A rover that stands, with the same camera and seed, in a run with a log."""
+        env = Env("headland_turn", factors={}, **self.OPTIONS)
+        env.reset(seed=1)
+        for _ in range(24):
+            env.step(numpy.zeros(2, numpy.float32))
+        with tempfile.TemporaryDirectory() as out:
+            run = vinerow.run(SCENARIOS / "headland_turn.yaml", out=out, overrides={"duration_s": 1.0}, seed=env.run_seed, pictures=False,
+                              report=False)
+            expected = run.log.render(env.now_s, width=320, height=200)
+        numpy.testing.assert_array_equal(env.render(), expected)
+
+    def test_it_changes_no_bit_and_shows_what_moves(self):
+        digests, pictures = [], []
+        for options in ({}, self.OPTIONS):
+            env = Env("row_following", **options)
+            env.reset(seed=3)
+            for action in actions_for(env, 60):
+                env.step(action)
+                if options and len(pictures) < 2:
+                    pictures.append(env.render())
+            digests.append(env.digest)
+        self.assertEqual(*digests)
+        self.assertEqual([(picture.shape, picture.dtype) for picture in pictures], 2 * [((200, 320, 3), numpy.uint8)])
+        self.assertGreater(int((pictures[0] != pictures[1]).sum()), 100)
+        self.assertIsNone(Env("row_following").render())
+
+    def test_another_world_and_a_camera_of_its_own(self):
+        env = Env("headland_turn", factors={"vines": {"key": "world.plant_seed", "values": [1, 2]}}, **self.OPTIONS,
+                  camera={"kind": "top", "height_m": 8, "vehicle": "rover"})
+        pictures = {}
+        for seed in range(8):
+            _, info = env.reset(seed=seed)
+            pictures.setdefault(info["levels"]["vines"], env.render())
+        self.assertGreater(int((pictures["1"] != pictures["2"]).any(2).sum()), 500)
+
+    def test_two_vehicles(self):
+        env = vinerow.gym.parallel_env(overrides=SHORT, **self.OPTIONS)
+        env.reset(seed=1)
+        self.assertEqual(env.render().shape, (200, 320, 3))
+
+    def test_misuse(self):
+        with self.assertRaisesRegex(vinerow.UsageError, "reset\\(\\) comes first: no episode has begun"):
+            Env("headland_turn", **self.OPTIONS).render()
+        with self.assertRaisesRegex(vinerow.ConfigError, "no camera 'tpo' in scenario 'headland_turn' \\(known: chase\\)"):
+            Env("headland_turn", render_mode="rgb_array", camera="tpo").reset()
+        with self.assertRaisesRegex(vinerow.ConfigError, "width = 1, must be from 16 to 8192 pixels"):
+            Env("headland_turn", render_mode="rgb_array", width=1)
+        with self.assertRaisesRegex(vinerow.ConfigError, "an Env with the same seed draws the same episode"):
+            VectorEnv(2, "headland_turn", render_mode="rgb_array")
 
 
 class Parallel(unittest.TestCase):

@@ -49,6 +49,16 @@ def _open(task: str, count: int, threads: int, autoreset: str, *, scenario: str 
         vehicle or definition.vehicle, task, dict(options or {}), 1.0 / control_rate_Hz, count, threads, autoreset)
 
 
+def with_camera(overrides: Mapping[str, Any] | None, render_mode: str | None,
+                camera: str | Mapping[str, Any] | None) -> tuple[dict[str, Any], str]:
+    """Overrides of the scenario with this camera in it, and the camera's name."""
+    if render_mode not in (None, "rgb_array"):
+        raise ConfigError(f"render_mode = {render_mode!r}, must be None or 'rgb_array'", key="render_mode")
+    if isinstance(camera, Mapping):
+        return {**(overrides or {}), "pictures.cameras.view": dict(camera)}, "view"
+    return dict(overrides or {}), "" if camera is None else camera
+
+
 class Env(gymnasium.Env[Array, Array]):
     """One vehicle with one task.
 
@@ -60,21 +70,27 @@ class Env(gymnasium.Env[Array, Array]):
         factors: what varies between episodes, as in a study; {} for nothing but the seed; default: the task's
         options: prices, limits and speeds of the task (vinerow.gym.describe())
         control_rate_Hz: actions per second
+        render_mode: "rgb_array" if render() is called, else None
+        camera: name of a camera of the scenario, or a dict with the keys of one; default: the first, with the rays of range sensors
+        width, height: of the picture, pixels
 
     Observations and actions are float32 arrays; actions outside -1 to 1 are clipped. The info of a step has the task's numbers; that of
     reset() also the levels of the factors. reset() without a seed begins the next episode of the last seed (0 at first).
     """
 
-    metadata: dict[str, Any] = {"render_modes": []}
+    metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 50}
 
     def __init__(self, task: str = "row_following", *, scenario: str | os.PathLike[str] | None = None, vehicle: str | None = None,
                  overrides: Mapping[str, Any] | None = None, sets: Iterable[str] = (), factors: Mapping[str, Any] | None = None,
-                 options: Mapping[str, Any] | None = None, control_rate_Hz: float = 50.0, render_mode: None = None):
-        if render_mode is not None:
-            raise ConfigError(f"render_mode = {render_mode!r}, must be None: pictures are drawn from the log of a run")
-        self.render_mode = None
+                 options: Mapping[str, Any] | None = None, control_rate_Hz: float = 50.0, render_mode: str | None = None,
+                 camera: str | Mapping[str, Any] | None = None, width: int = 640, height: int = 360):
+        overrides, name = with_camera(overrides, render_mode, camera)
+        self.render_mode = render_mode
+        self.metadata = {**self.metadata, "render_fps": max(1, round(control_rate_Hz))}
         self._environments = _open(task, 1, 1, "disabled", scenario=scenario, vehicle=vehicle, overrides=overrides, sets=sets,
                                    factors=factors, options=options, control_rate_Hz=control_rate_Hz)
+        if render_mode is not None:
+            self._environments.watch(name, width, height)
         self.observation_space = box(self._environments.observation)
         self.action_space = box(self._environments.action)
 
@@ -87,6 +103,15 @@ class Env(gymnasium.Env[Array, Array]):
 
     def step(self, action: Array) -> tuple[Array, float, bool, bool, dict[str, Any]]:
         return self._environments.step_single(action)
+
+    def render(self) -> Array | None:  # type: ignore[override]
+        """The present instant, (height, width, 3) uint8, if render_mode is "rgb_array".
+
+        Raises:
+            UsageError: before the first reset()
+            ConfigError: from reset() already, if the camera does not exist or this machine cannot draw
+        """
+        return None if self.render_mode is None else self._environments.draw()
 
     @property
     def digest(self) -> str:
@@ -126,7 +151,7 @@ class VectorEnv(gymnasium.vector.VectorEnv[Array, Array, Array]):
                  overrides: Mapping[str, Any] | None = None, sets: Iterable[str] = (), factors: Mapping[str, Any] | None = None,
                  options: Mapping[str, Any] | None = None, control_rate_Hz: float = 50.0, render_mode: None = None):
         if render_mode is not None:
-            raise ConfigError(f"render_mode = {render_mode!r}, must be None: pictures are drawn from the log of a run")
+            raise ConfigError(f"render_mode = {render_mode!r}, must be None: an Env with the same seed draws the same episode")
         mode = getattr(autoreset_mode, "name", str(autoreset_mode)).lower()
         if threads is None:
             threads = len(os.sched_getaffinity(0))

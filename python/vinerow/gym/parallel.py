@@ -16,7 +16,7 @@ except ImportError as missing:
 from .. import _core
 from ..arrays import Array
 from ..errors import UsageError
-from .environment import _seed, box
+from .environment import _seed, box, with_camera
 from .tasks import SCENARIOS, _starts
 
 FACTORS = {**{f"rover_{name}": factor for name, factor in _starts("rover", 2, 0.1, 4.0).items()},
@@ -30,16 +30,18 @@ class ParallelEnv(pettingzoo.ParallelEnv):  # type: ignore[misc]
     Args:
         agents: {vehicle: (task, options of the task)}
         scenario: a scenario file with these vehicles
-        overrides, sets, factors, control_rate_Hz: as for Env
+        overrides, sets, factors, control_rate_Hz, render_mode, camera, width, height: as for Env
 
     An agent whose episode is over leaves `agents`; its vehicle stops, or hovers, until the others are done.
     """
 
-    metadata = {"name": "vinerow_rover_and_drone_v0", "render_modes": []}
+    metadata = {"name": "vinerow_rover_and_drone_v0", "render_modes": ["rgb_array"], "render_fps": 50}
 
     def __init__(self, *, agents: Mapping[str, tuple[str, Mapping[str, Any]]] | None = None, scenario: str | os.PathLike[str] | None = None,
                  overrides: Mapping[str, Any] | None = None, sets: Iterable[str] = (), factors: Mapping[str, Any] | None = None,
-                 control_rate_Hz: float = 50.0, render_mode: None = None):
+                 control_rate_Hz: float = 50.0, render_mode: str | None = None, camera: str | Mapping[str, Any] | None = None,
+                 width: int = 640, height: int = 360):
+        overrides, name = with_camera(overrides, render_mode, camera)
         agents = agents or {"rover": ("row_following", {}), "drone": ("row_flight", {})}
         if factors is None:
             factors = FACTORS if scenario is None else {}
@@ -47,6 +49,8 @@ class ParallelEnv(pettingzoo.ParallelEnv):  # type: ignore[misc]
         self._episodes = _core.Episodes(
             os.fspath(scenario if scenario is not None else SCENARIOS / "rover_and_drone.yaml"), dict(overrides or {}), list(sets),
             dict(factors), [(vehicle, task, dict(options)) for vehicle, (task, options) in agents.items()], 1.0 / control_rate_Hz)
+        if render_mode is not None:
+            self._episodes.watch(name, width, height)
         self._spaces = {agent: (box(observation), box(action)) for agent, (observation, action) in self._episodes.spaces().items()}
         self.possible_agents = list(self._spaces)
         self.agents: list[str] = []
@@ -75,6 +79,10 @@ class ParallelEnv(pettingzoo.ParallelEnv):  # type: ignore[misc]
             dict(zip(self.agents, column)) for column in zip(*(states[agent] for agent in self.agents)))
         self.agents = [agent for agent in self.agents if not (terminated[agent] or truncated[agent])]
         return observations, rewards, terminated, truncated, infos
+
+    def render(self) -> Array | None:
+        """As Env.render()."""
+        return None if self.render_mode is None else self._episodes.draw()
 
     @property
     def digest(self) -> str:

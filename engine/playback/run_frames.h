@@ -47,7 +47,7 @@ struct PictureReport {
 PictureReport render_log(const std::filesystem::path& log, const std::filesystem::path& out,
                          const Registry& registry, const PictureOptions& options);
 
-/// A camera of a scenario. "chase", if it has none of that name, is behind its first vehicle.
+/// A camera of a scenario. A scenario that lacks "chase" gets one behind its first vehicle.
 /// @throws ConfigError "no camera 'tpo' in scenario 'demo'; did you mean 'top'? (known: top)"
 scenario::CameraConfig find_camera(const scenario::Scenario& scenario, const std::string& name);
 

@@ -8,19 +8,11 @@
 #include "engine/api/plugin.h"
 #include "engine/core/error.h"
 #include "engine/sim/abi_difference.h"
+#include "engine/sim/own_libraries_first.h"
 #include "engine/sim/python_parts.h"
 
 namespace vinerow {
 namespace {
-
-// A plug-in must call the simulator's elementary functions (engine/elementary). The command loads
-// them before the C library; an interpreter that imports the simulator does not, so the plug-in's
-// own libraries, among them the simulator, come first. The sanitizers refuse this.
-#ifdef __SANITIZE_ADDRESS__
-constexpr int kOwnLibrariesFirst = 0;
-#else
-constexpr int kOwnLibrariesFirst = RTLD_DEEPBIND;
-#endif
 
 /// Calls a function that registers parts of this origin.
 template <class Register>
@@ -46,6 +38,8 @@ void load_plugin(const std::filesystem::path& file, Registry& registry) {
   }
   // A bare name would be searched in the system's library folders.
   const std::string path = std::filesystem::absolute(file).string();
+  // A plug-in must call the simulator's elementary functions (engine/elementary). The command loads
+  // them before the C library; an interpreter that imports the simulator does not.
   void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL | kOwnLibrariesFirst);
   if (!library)
     throw ConfigError(fmt::format("plug-in '{}' cannot be loaded: {}", file.string(), dlerror()));

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "engine/core/error.h"
+#include "engine/sim/own_libraries_first.h"
 
 namespace vinerow {
 namespace {
@@ -37,7 +38,7 @@ void start_interpreter(const std::filesystem::path& file) {
   // Python's extension modules find the interpreter among the global symbols. Its own libraries
   // come first: sin in a part is then that of the machine's C library, as in any interpreter, and
   // not the simulator's.
-  void* library = dlopen(host.c_str(), RTLD_NOW | RTLD_GLOBAL | RTLD_DEEPBIND);
+  void* library = dlopen(host.c_str(), RTLD_NOW | RTLD_GLOBAL | kOwnLibrariesFirst);
   if (!library) fail(fmt::format("its interpreter cannot be loaded: {}", dlerror()));
   using Start = const char* (*)();
   const auto start = reinterpret_cast<Start>(dlsym(library, "vinerow_python_start"));

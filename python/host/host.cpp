@@ -12,6 +12,8 @@
 #include <filesystem>
 #include <string>
 
+#include "engine/sim/own_libraries_first.h"
+
 namespace vinerow::python {
 namespace {
 
@@ -73,7 +75,7 @@ std::string take_exception() {
 /// KeyboardInterrupt where the program asks for it (PyErr_SetInterruptEx).
 constexpr const char* kPreparation = R"(
 import os, signal, sys
-sys.setdlopenflags(os.RTLD_NOW | os.RTLD_LOCAL | os.RTLD_DEEPBIND)
+sys.setdlopenflags(os.RTLD_NOW | os.RTLD_LOCAL | own_first)
 if folder:
     sys.path.insert(0, folder)
 signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -87,12 +89,14 @@ const char* import_package() {
   PyObject* folder = PyUnicode_DecodeFSDefault(folder_of_package().c_str());
   PyDict_SetItemString(names, "__builtins__", PyEval_GetBuiltins());
   PyDict_SetItemString(names, "folder", folder);
+  PyObject* own_first = PyLong_FromLong(kOwnLibrariesFirst);
+  PyDict_SetItemString(names, "own_first", own_first);
   PyObject* result = PyRun_String(kPreparation, Py_file_input, names, names);
   if (!result) {
     failure = "the package vinerow cannot be imported (" + take_exception() +
               "); install python3-vinerow";
   }
-  Py_XDECREF(result), Py_XDECREF(folder), Py_XDECREF(names);
+  Py_XDECREF(result), Py_XDECREF(own_first), Py_XDECREF(folder), Py_XDECREF(names);
   sigaction(SIGINT, &handler, nullptr);
   return failure.empty() ? nullptr : failure.c_str();
 }

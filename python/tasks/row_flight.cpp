@@ -8,6 +8,7 @@
 
 #include "engine/api/map.h"
 #include "engine/api/parameter_table.h"
+#include "engine/core/error.h"
 #include "engine/math/angles.h"
 #include "engine/sim/simulation.h"
 #include "python/tasks/alley_track.h"
@@ -220,6 +221,10 @@ class RowFlight final : public Task {
               t_s < up_s ? ReferenceTrajectory::Phase::kTakeOff : ReferenceTrajectory::Phase::kRow);
       session.advance_for(duration_from_s(period_s_));
     }
+    if (!session.over()) return;
+    throw ConfigError(
+        fmt::format("{}: the run is over after {:.3g} s, but the take-off takes {:.3g} s", who_,
+                    session.now().s(), up_s + kSettle_s));
   }
 
   void command(Session& session, const Eigen::Vector3d& p_W, const Eigen::Vector3d& v_W,

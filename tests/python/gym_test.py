@@ -367,6 +367,10 @@ class Misuse(unittest.TestCase):
         with self.assertRaisesRegex(vinerow.ConfigError, "^task headland_turn of 'rover' needs a world with two alleys; this one has 1$"):
             Env("headland_turn", scenario=here).reset()
 
+    def test_run_that_ends_before_the_take_off(self):
+        with self.assertRaisesRegex(vinerow.ConfigError, "^task row_flight of 'drone': the run is over after 1 s, but the take-off takes "):
+            Env("row_flight", overrides={"duration_s": 1.0}).reset()
+
     def test_two_threads(self):
         env = VectorEnv(8, "row_flight", threads=1)
         started, refused = threading.Event(), []

@@ -467,6 +467,8 @@ class Pictures(unittest.TestCase):
             Env("headland_turn", **self.OPTIONS).render()
         with self.assertRaisesRegex(vinerow.ConfigError, "no camera 'tpo' in scenario 'headland_turn' \\(known: chase\\)"):
             Env("headland_turn", render_mode="rgb_array", camera="tpo").reset()
+        with self.assertRaisesRegex(vinerow.ConfigError, "camera must be the name of a camera or a dict of its keys, not int"):
+            Env("headland_turn", render_mode="rgb_array", camera=7)
         with self.assertRaisesRegex(vinerow.ConfigError, "width = 1, must be from 16 to 8192 pixels"):
             Env("headland_turn", render_mode="rgb_array", width=1)
         with self.assertRaisesRegex(vinerow.ConfigError, "an Env with the same seed draws the same episode"):

@@ -56,7 +56,9 @@ def with_camera(overrides: Mapping[str, Any] | None, render_mode: str | None,
         raise ConfigError(f"render_mode = {render_mode!r}, must be None or 'rgb_array'", key="render_mode")
     if isinstance(camera, Mapping):
         return {**(overrides or {}), "pictures.cameras.view": dict(camera)}, "view"
-    return dict(overrides or {}), "" if camera is None else camera
+    if camera is not None and not isinstance(camera, str):
+        raise ConfigError(f"camera must be the name of a camera or a dict of its keys, not {type(camera).__name__}", key="camera")
+    return dict(overrides or {}), camera or ""
 
 
 class Env(gymnasium.Env[Array, Array]):

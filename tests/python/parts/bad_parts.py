@@ -39,6 +39,7 @@ class Exits(Bad):
 @bad("loops")
 class Loops(Bad):
     def fail(self):
+        print("looping", flush=True)
         while True:
             pass
 

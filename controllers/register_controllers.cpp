@@ -23,6 +23,8 @@
 #include "controllers/quadrotor_lqr/quadrotor_lqr.h"
 #include "controllers/quadrotor_mpc/quadrotor_mpc.h"
 #include "controllers/quadrotor_pid/quadrotor_pid.h"
+#include "controllers/remote/remote_actuators.h"
+#include "controllers/remote/remote_velocity.h"
 #include "controllers/trajectory/trajectory.h"
 #include "controllers/trmpc/trmpc.h"
 #include "controllers/waypoint_guidance/waypoint_guidance.h"
@@ -54,6 +56,8 @@ void register_controllers(Registry& registry) {
   registry.add_controller(quadrotor_lqr_spec(), make_quadrotor_lqr);
   registry.add_controller(quadrotor_pid_spec(), make_quadrotor_pid);
   registry.add_controller(quadrotor_mpc_spec(), make_quadrotor_mpc);
+  registry.add_controller(remote_velocity_spec(), make_remote_velocity);
+  registry.add_controller(remote_actuators_spec(), make_remote_actuators);
   registry.add_controller(mpc_nominal_spec(), make_mpc_nominal);
   registry.add_controller(trmpc_spec(), make_trmpc);
 }

@@ -13,9 +13,6 @@
 
 namespace vinerow {
 
-/// Writer of such a signal, in the bus's list and in errors.
-inline constexpr const char* kOutside = "outside";
-
 /// Declaration of a signal that is written from outside.
 struct OutsideSignal {
   std::string name;  ///< "<vehicle>/<what>"

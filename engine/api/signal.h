@@ -19,6 +19,9 @@
 
 namespace vinerow {
 
+/// Writer of signals that programs outside the run write (outside.h), in lists and errors.
+inline constexpr const char* kOutside = "outside";
+
 class SignalBase {
  public:
   SignalBase(std::string name, const MessageType& type) : name_(std::move(name)), type_(type) {}
@@ -152,6 +155,11 @@ class SignalBus {
   template <class T>
   SignalReader<T> subscribe_optional(const std::string& name, const std::string& reader);
 
+  /// Like subscribe, for a signal that programs outside the run write. Until they do, the reader
+  /// has no value. @throws ConfigError if a part writes the signal, or the name has another type.
+  template <class T>
+  SignalReader<T> subscribe_outside(const std::string& name, const std::string& reader);
+
   /// @throws ConfigError "rover.controller reads signal 'rover/estimat', which nobody writes; did
   /// you mean ...?"
   void check_connected() const;
@@ -202,6 +210,14 @@ SignalReader<T> SignalBus::subscribe_optional(const std::string& name, const std
   return SignalReader<T>(static_cast<const Signal<T>*>(&signal));
 }
 
+template <class T>
+SignalReader<T> SignalBus::subscribe_outside(const std::string& name, const std::string& reader) {
+  const SignalReader<T> signal = subscribe<T>(name, reader);
+  SignalBase& base = *find(name);
+  if (base.writer() != kOutside) set_writer(base, kOutside);
+  return signal;
+}
+
 /// View of the bus for one part: local names inside its vehicle, e.g. "estimate" ->
 /// "rover/estimate".
 class Ports {
@@ -226,6 +242,12 @@ class Ports {
   template <class T>
   SignalReader<T> read_optional(const std::string& name) {
     return bus_.subscribe_optional<T>(full_name(name), part_);
+  }
+  /// For commands of programs outside the run: `vinerow run --live`, ROS 2 nodes, a Session's
+  /// owner.
+  template <class T>
+  SignalReader<T> read_from_outside(const std::string& name) {
+    return bus_.subscribe_outside<T>(full_name(name), part_);
   }
   template <class T>
   SignalWriter<T> write(const std::string& name) {

@@ -38,8 +38,12 @@ struct LogReader::Impl {
     info.messages = mcap.message_count();
     info.bytes = mcap.file_size();
     info.attachments = mcap.attachments();
-    const auto metadata = mcap.metadata().find("vinerow");
-    if (metadata != mcap.metadata().end()) info.metadata = metadata->second;
+    const auto take = [this](const char* record, std::map<std::string, std::string>& values) {
+      const auto metadata = mcap.metadata().find(record);
+      if (metadata != mcap.metadata().end()) values = metadata->second;
+    };
+    take("vinerow", info.metadata);
+    take("vinerow_result", info.result);
     for (const auto& [id, channel] : mcap.channels()) {
       const auto schema = mcap.schemas().find(channel.schema);
       info.channels.push_back({.id = id,

@@ -34,6 +34,8 @@ struct LogInfo {
   std::uint64_t bytes = 0;
   std::vector<ChannelInfo> channels;               ///< by id
   std::map<std::string, std::string> metadata;     ///< of the "vinerow" record
+  /// "digest", "end" ("over" or "broken off") and "end_ns"; empty if the run was killed.
+  std::map<std::string, std::string> result;
   std::map<std::string, std::string> attachments;  ///< name -> content
 
   // Skipped data. Chunks of a complete file are checked when they are read; both members can grow

@@ -3,175 +3,23 @@
 #include <vinerow/version.h>
 #include <chrono>
 #include <utility>
-#include <vector>
 
-#include "engine/api/messages.h"
 #include "engine/core/error.h"
 #include "engine/record/mcap_writer.h"
-#include "engine/record/ros_mapping.h"
 
 namespace vinerow::record {
 
 using WallClock = std::chrono::steady_clock;
 
-struct RecordedSignal {
-  const SignalBase* signal = nullptr;
-  Duration min_period;
-  FrameNames frames;
-  const Signal<Odometry>* truth = nullptr;  ///< of the same vehicle
-  std::uint16_t channel = 0;                ///< 0: only the exact channel
-  std::uint16_t exact_channel = 0;          ///< 0: none
-  std::uint64_t seen = 0;
-  bool recorded = false;
-  Time last_stamp;
-  void (*write)(McapWriter&, const RecordedSignal&, Time now) = nullptr;
-};
-
-namespace {
-
-WriteContext context_of(const RecordedSignal& entry) {
-  const Time stamp = entry.signal->stamp();
-  const bool is_body_known =
-      entry.truth != nullptr && entry.truth->sequence() > 0 && entry.truth->stamp() == stamp;
-  return {entry.frames, stamp, is_body_known ? &entry.truth->value().X_WB : nullptr};
-}
-
-template <class T>
-void write_messages(McapWriter& writer, const RecordedSignal& entry, Time now) {
-  const T& value = static_cast<const Signal<T>&>(*entry.signal).value();
-  const Time stamp = entry.signal->stamp();
-  const WriteContext context = context_of(entry);
-  const auto log_time = static_cast<std::uint64_t>(now.ns);
-  const auto publish_time = static_cast<std::uint64_t>(stamp.ns);
-  if (entry.channel != 0) {
-    CdrWriter out(writer.start_message(entry.channel, log_time, publish_time));
-    RosMapping<T>::write(out, context, value);
-    writer.end_message();
-  }
-  if constexpr (requires { &RosMapping<T>::write_exact; }) {
-    CdrWriter out(writer.start_message(entry.exact_channel, log_time, publish_time));
-    RosMapping<T>::write_exact(out, context, value);
-    writer.end_message();
-  }
-}
-
-/// Fields of a signal whose type is known only to its plug-in.
-class FieldsOfSignal final : public MessageFields {
- public:
-  explicit FieldsOfSignal(const SignalBase& signal) : signal_(signal) {}
-  void visit(FieldVisitor& visitor) const override { signal_.describe(visitor); }
-
- private:
-  const SignalBase& signal_;
-};
-
-void write_described_signal(McapWriter& writer, const RecordedSignal& entry, Time now) {
-  const SignalBase& signal = *entry.signal;
-  CdrWriter out(writer.start_message(entry.channel, static_cast<std::uint64_t>(now.ns),
-                                     static_cast<std::uint64_t>(signal.stamp().ns)));
-  write_described(out, context_of(entry), signal.message_type().frame, {}, FieldsOfSignal(signal));
-  writer.end_message();
-}
-
-}  // namespace
-
-namespace {
-
-/// QoS profile as rosbag2 stores it: late subscribers also receive the message (reliable, transient
-/// local).
-constexpr const char* kLatchedQos =
-    "- history: 1\n  depth: 1\n  reliability: 1\n  durability: 1\n"
-    "  deadline:\n    sec: 9223372036\n    nsec: 854775807\n"
-    "  lifespan:\n    sec: 9223372036\n    nsec: 854775807\n"
-    "  liveliness: 1\n"
-    "  liveliness_lease_duration:\n    sec: 9223372036\n    nsec: 854775807\n"
-    "  avoid_ros_namespace_conventions: false\n";
-
-}  // namespace
-
 struct Recorder::Impl {
   Impl(const std::filesystem::path& file, const RecorderOptions& options)
       : path(file),
         chunk_bytes(options.chunk_bytes),
-        compact_poses(options.compact_poses),
         flush_period(std::chrono::duration_cast<WallClock::duration>(
             std::chrono::duration<double>(options.flush_wall_s))),
         writer(file, options.compression, options.chunk_bytes, "ros2",
-               "vinerow " VINEROW_VERSION_STRING) {}
-
-  std::uint16_t schema_id(const std::string& type, const std::string& definition) {
-    // Two plug-ins may use one name for different definitions.
-    const std::pair key(type, definition);
-    const auto found = schema_ids.find(key);
-    if (found != schema_ids.end()) return found->second;
-    const std::uint16_t id = writer.add_schema(type, "ros2msg", definition);
-    schema_ids.emplace(key, id);
-    return id;
-  }
-
-  /// Adds a channel with one message at time 0.
-  template <class F>
-  void add_once(const std::string& topic, const std::string& type, const F& write) {
-    const std::uint16_t channel =
-        writer.add_channel(schema_id(type, full_ros_definition(type)), topic, "cdr",
-                           {{"offered_qos_profiles", kLatchedQos}});
-    CdrWriter out(writer.start_message(channel, 0, 0));
-    write(out);
-    writer.end_message();
-  }
-
-  std::uint16_t add_channel(const SignalBase& signal, const std::string& type,
-                            const std::string& definition, std::string_view suffix) {
-    // The ros2 profile requires offered_qos_profiles; an empty list means that nothing was
-    // published.
-    TextMap metadata = {{"signal", signal.name()}, {"offered_qos_profiles", "[]"}};
-    if (suffix.empty()) {
-      metadata["vinerow_type"] = signal.type();
-    } else {
-      metadata["exact_of"] = "/" + signal.name();
-    }
-    return writer.add_channel(schema_id(type, definition),
-                              "/" + signal.name() + std::string(suffix), "cdr", metadata);
-  }
-
-  template <class T>
-  void set_type(RecordedSignal& entry, bool exact_alone) {
-    if (!is_message<T>(*entry.signal)) return;
-    using Mapping = RosMapping<T>;
-    entry.write = &write_messages<T>;
-    if constexpr (requires { &Mapping::write_exact; }) {
-      if (exact_alone) {
-        entry.exact_channel =
-            add_channel(*entry.signal, Mapping::exact_type(), Mapping::exact_definition(), "");
-        return;
-      }
-    }
-    entry.channel = add_channel(*entry.signal, Mapping::type(), Mapping::definition(), "");
-    if constexpr (requires { &Mapping::write_exact; }) {
-      entry.exact_channel =
-          add_channel(*entry.signal, Mapping::exact_type(), Mapping::exact_definition(), "/exact");
-    }
-  }
-
-  /// Sets the mapping of a plug-in's type.
-  void set_described_type(RecordedSignal& entry) {
-    const std::string type = ros_type_of(entry.signal->type());
-    entry.write = &write_described_signal;
-    entry.channel = add_channel(*entry.signal, type,
-                                described_definition(type, {}, FieldsOfSignal(*entry.signal)), "");
-  }
-
-  /// Connects each signal to "<vehicle>/truth" for the vehicle's pose, in any order of signals.
-  void connect_truth() {
-    for (const RecordedSignal& truth : entries) {
-      if (truth.signal->name() != truth.frames.prefix + "truth") continue;
-      if (!is_message<Odometry>(*truth.signal)) continue;
-      for (RecordedSignal& entry : entries) {
-        if (entry.frames.prefix != truth.frames.prefix) continue;
-        entry.truth = static_cast<const Signal<Odometry>*>(truth.signal);
-      }
-    }
-  }
+               "vinerow " VINEROW_VERSION_STRING),
+        channels(writer, options.compact_poses) {}
 
   void throw_on_failure(Time now) {
     if (failed || writer.failure().empty()) return;
@@ -182,11 +30,9 @@ struct Recorder::Impl {
 
   std::filesystem::path path;
   std::size_t chunk_bytes;
-  bool compact_poses;
   WallClock::duration flush_period;
   McapWriter writer;
-  std::map<std::pair<std::string, std::string>, std::uint16_t> schema_ids;  ///< type, definition
-  std::vector<RecordedSignal> entries;
+  SignalChannels channels;
   WallClock::time_point last_flush = WallClock::now();
   Time last_now;
   bool finished = false;
@@ -207,45 +53,15 @@ Recorder::~Recorder() {
   }
 }
 
-void Recorder::add_static_transforms(const std::vector<StaticTransform>& transforms) {
-  if (transforms.empty()) return;
-  impl_->add_once("/tf_static", "tf2_msgs/msg/TFMessage",
-                  [&](CdrWriter& out) { write_static_transforms(out, transforms); });
-}
-
-void Recorder::add_scene(const std::vector<SceneEntity>& entities) {
-  if (entities.empty()) return;
-  impl_->add_once("/run/scene", "foxglove_msgs/msg/SceneUpdate",
-                  [&](CdrWriter& out) { write_scene(out, entities); });
-}
-
-void Recorder::add_signal(const SignalBase& signal, Duration min_period, const std::string& frame,
-                          bool exact_alone) {
-  RecordedSignal entry;
-  entry.signal = &signal;
-  entry.min_period = min_period;
-  entry.frames = FrameNames::of_signal(signal.name());
-  if (!frame.empty()) entry.frames.own = frame;
-  for_each_message_type([&]<class T>(T*) { impl_->set_type<T>(entry, exact_alone); });
-  if (entry.write == nullptr) impl_->set_described_type(entry);
-  impl_->entries.push_back(std::move(entry));
-  if (impl_->compact_poses) impl_->connect_truth();
+SignalChannels& Recorder::channels() {
+  return impl_->channels;
 }
 
 void Recorder::record(Time now) {
   Impl& impl = *impl_;
   if (impl.finished || impl.failed) return;
   impl.last_now = now;
-  for (RecordedSignal& entry : impl.entries) {
-    if (entry.signal->sequence() == entry.seen) continue;
-    entry.seen = entry.signal->sequence();
-    const Time stamp = entry.signal->stamp();
-    const bool thinned = entry.min_period.ns > 0 && entry.recorded;
-    if (thinned && stamp - entry.last_stamp < entry.min_period) continue;
-    entry.recorded = true;
-    entry.last_stamp = stamp;
-    entry.write(impl.writer, entry, now);
-  }
+  impl.channels.write_new(now);
   if (impl.writer.open_bytes() == 0) return;
   const WallClock::time_point wall = WallClock::now();
   if (impl.writer.open_bytes() < impl.chunk_bytes && wall - impl.last_flush < impl.flush_period) {
@@ -259,6 +75,10 @@ void Recorder::record(Time now) {
 void Recorder::add_attachment(const std::string& name, const std::string& media_type,
                               const std::string& content) {
   if (!impl_->finished) impl_->writer.add_attachment(name, media_type, content);
+}
+
+void Recorder::add_result(const std::map<std::string, std::string>& values) {
+  if (!impl_->finished) impl_->writer.add_metadata("vinerow_result", values);
 }
 
 void Recorder::finish() {

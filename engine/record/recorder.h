@@ -11,10 +11,8 @@
 #include <map>
 #include <memory>
 #include <string>
-#include <vector>
 
-#include "engine/api/signal.h"
-#include "engine/record/scene_message.h"
+#include "engine/record/signal_channels.h"
 
 namespace vinerow::record {
 
@@ -36,19 +34,8 @@ class Recorder {
   /// Closes the file with summary and footer if finish() was not called.
   ~Recorder();
 
-  /// Adds a channel for a signal, and a second one "<topic>/exact" if the ROS 2 type cannot hold
-  /// the exact value. The topic is "/" + signal name. Channel ids follow the order of calls.
-  /// @param min_period  samples closer than this to the last recorded stamp are skipped; 0 = record
-  /// all
-  /// @param frame  of messages that name the signal's own; empty: the signal's name
-  /// @param exact_alone  if there are two messages, record only the exact one, as "<topic>"
-  void add_signal(const SignalBase& signal, Duration min_period, const std::string& frame = {},
-                  bool exact_alone = false);
-
-  /// Stores static transforms between frames as "/tf_static", at time 0.
-  void add_static_transforms(const std::vector<StaticTransform>& transforms);
-  /// Stores solid objects for display as "/run/scene", at time 0.
-  void add_scene(const std::vector<SceneEntity>& entities);
+  /// Channels of the log, before the first record().
+  SignalChannels& channels();
 
   /// Stores every added signal that was written since the last call. Log time is `now`, publish
   /// time is the signal's stamp. @throws SimulationError once if the file cannot be written (disk
@@ -58,6 +45,9 @@ class Recorder {
   /// Embeds a whole file (resolved scenario, summary) as an MCAP attachment.
   void add_attachment(const std::string& name, const std::string& media_type,
                       const std::string& content);
+
+  /// Adds the MCAP metadata record "vinerow_result".
+  void add_result(const std::map<std::string, std::string>& values);
 
   /// Writes summary and footer. Nothing may be added afterwards. @throws SimulationError if the
   /// file cannot be written and record() has not thrown already

@@ -184,6 +184,41 @@ constexpr std::array kDefinitions = {
                "foxglove_msgs/SceneEntity[] entities\n"},
     Definition{"geometry_msgs/Vector3Stamped",
                "std_msgs/Header header\ngeometry_msgs/Vector3 vector\n"},
+    // Commands and services of live runs.
+    Definition{"geometry_msgs/Accel",
+               "geometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular\n"},
+    Definition{"rosgraph_msgs/Clock", "builtin_interfaces/Time clock\n"},
+    Definition{"sensor_msgs/JointState",
+               "std_msgs/Header header\nstring[] name\n# rad or m, rad/s or m/s, Nm or N\n"
+               "float64[] position\nfloat64[] velocity\nfloat64[] effort\n"},
+    Definition{"simulation_interfaces/Result",
+               "uint8 RESULT_FEATURE_UNSUPPORTED=0\nuint8 RESULT_OK=1\n"
+               "uint8 RESULT_NOT_FOUND=2\nuint8 RESULT_INCORRECT_STATE=3\n"
+               "uint8 RESULT_OPERATION_FAILED=4\nuint8 result\nstring error_message\n"},
+    Definition{"simulation_interfaces/SimulationState",
+               "uint8 STATE_STOPPED=0\nuint8 STATE_PLAYING=1\nuint8 STATE_PAUSED=2\n"
+               "uint8 STATE_QUITTING=3\nuint8 state\n"},
+    Definition{"simulation_interfaces/SimulatorFeatures",
+               "uint8 ENTITY_STATE_GETTING=10\nuint8 SIMULATION_RESET=20\n"
+               "uint8 SIMULATION_RESET_TIME=21\nuint8 SIMULATION_RESET_STATE=22\n"
+               "uint8 SIMULATION_STATE_GETTING=24\nuint8 SIMULATION_STATE_SETTING=25\n"
+               "uint8 SIMULATION_STATE_PAUSE=26\nuint8 STEP_SIMULATION_SINGLE=31\n"
+               "uint8 STEP_SIMULATION_MULTIPLE=32\nuint16[] features\nstring[] spawn_formats\n"
+               "string custom_info\n"},
+    Definition{"simulation_interfaces/EntityCategory",
+               "uint8 CATEGORY_OBJECT=0\nuint8 CATEGORY_ROBOT=1\nuint8 category\n"},
+    Definition{"simulation_interfaces/TagsFilter",
+               "string[] tags\nuint8 FILTER_MODE_ANY=0\nuint8 FILTER_MODE_ALL=1\n"
+               "uint8 filter_mode\n"},
+    Definition{"simulation_interfaces/Bounds",
+               "uint8 TYPE_EMPTY=0\nuint8 TYPE_BOX=1\nuint8 TYPE_CONVEX_HULL=2\n"
+               "uint8 TYPE_SPHERE=3\nuint8 type\ngeometry_msgs/Vector3[] points\n"},
+    Definition{"simulation_interfaces/EntityFilters",
+               "string filter\nsimulation_interfaces/EntityCategory[] categories\n"
+               "simulation_interfaces/TagsFilter tags\nsimulation_interfaces/Bounds bounds\n"},
+    Definition{"simulation_interfaces/EntityState",
+               "std_msgs/Header header\ngeometry_msgs/Pose pose\ngeometry_msgs/Twist twist\n"
+               "geometry_msgs/Accel acceleration\n"},
 };
 
 std::string_view find_text(std::string_view type, std::span<const RosDefinition> inside) {

@@ -11,16 +11,13 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "engine/api/messages/flight.h"
-#include "engine/api/messages/sensors.h"
 #include "engine/core/error.h"
 #include "engine/core/whole_file.h"
 #include "engine/io/files/output_folder.h"
 #include "engine/playback/canopy_file.h"
-#include "engine/playback/log_scene.h"
 #include "engine/playback/run_frames.h"
-#include "engine/record/recorder.h"
 #include "engine/run/junit.h"
+#include "engine/run/log_observer.h"
 #include "engine/run/summary.h"
 #include "engine/sim/judge.h"
 #include "engine/sim/session.h"
@@ -41,128 +38,18 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Observer that writes the log: truth and diagnostics at record.truth_rate_Hz, most other signals
-/// at record.sensor_rate_limit_Hz at most, and events, plans and contacts whenever they are
-/// written.
-class LogObserver final : public RunObserver {
- public:
-  LogObserver(const Simulation& simulation, const std::filesystem::path& file)
-      : recorder_(file, options_of(simulation.scenario()), metadata_of(simulation.scenario())) {
-    const scenario::RecordConfig& config = simulation.scenario().record;
-    recorder_.add_attachment("scenario.resolved.yaml", "application/yaml",
-                             simulation.scenario().resolved_yaml);
-    const std::map<std::string, std::string> frames = playback::frames_of_readings(simulation);
-    for (const auto& signal : simulation.bus().signals()) {
-      if (signal->writer().empty()) continue;
-      const auto frame = frames.find(signal->name());
-      recorder_.add_signal(*signal, shortest_period(*signal, config),
-                           frame != frames.end() ? frame->second : "", is_true_scan(*signal));
-    }
-    recorder_.add_static_transforms(playback::sensor_transforms(simulation));
-    std::vector<record::SceneEntity> scene = playback::world_scene(simulation.world());
-    for (const auto& vehicle : simulation.vehicles()) {
-      for (auto& link : playback::vehicle_scene(vehicle->name(), vehicle->vehicle().links())) {
-        scene.push_back(std::move(link));
-      }
-    }
-    recorder_.add_scene(scene);
-  }
-
-  void on_instant(Time now) override { recorder_.record(now); }
-  /// Several events can fall into one instant; each is stored before the next overwrites it.
-  void on_event(Time now, const Event&) override { recorder_.record(now); }
-
-  /// @throws SimulationError if the log cannot be completed
-  void finish() { recorder_.finish(); }
-
- private:
-  static record::RecorderOptions options_of(const scenario::Scenario& scenario) {
-    record::RecorderOptions options;
-    options.compression = scenario.record.compression;
-    return options;
-  }
-  static std::map<std::string, std::string> metadata_of(const scenario::Scenario& scenario) {
-    return {{"scenario", scenario.name},
-            {"seed", std::to_string(scenario.seed)},
-            {"vinerow", program_version()},
-            {"latitude_longitude_note", "frame map is East-North-Up at the scenario's origin"}};
-  }
-  /// True for the error-free readings of a laser scanner. They are the largest messages, and checks
-  /// need them with full precision.
-  static bool is_true_scan(const SignalBase& signal) {
-    return std::string_view(signal.type()) == LaserScan::kType && signal.name().ends_with("_truth");
-  }
-  static Duration shortest_period(const SignalBase& signal, const scenario::RecordConfig& config) {
-    const std::string& name = signal.name();
-    const bool is_observed = std::string_view(signal.type()) == Odometry::kType &&
-                             signal.writer().find(".observers.") != std::string::npos;
-    const bool is_truth = name.ends_with("/truth") || name.ends_with("/estimate");
-    if (is_truth || is_observed) return period_of_rate(config.truth_rate_Hz);
-    // A large message; half the rate is enough to see changes of slip.
-    if (name.ends_with("/wheels")) return period_of_rate(config.truth_rate_Hz) * 2;
-    // A large message whose values change slowly.
-    if (name.ends_with("/battery")) return period_of_rate(std::min(1.0, config.truth_rate_Hz));
-    // Consecutive references overlap in their previews.
-    if (std::string_view(signal.type()) == ReferenceTrajectory::kType) {
-      return period_of_rate(config.truth_rate_Hz) * 4;
-    }
-    const bool is_event = std::string_view(signal.type()) == Event::kType;
-    if (is_event || name.ends_with("/plan") || name.ends_with("/contacts")) return {};
-    return period_of_rate(config.sensor_rate_limit_Hz);
-  }
-
-  record::Recorder recorder_;
-};
-
-class EventFile final : public RunObserver {
- public:
-  explicit EventFile(const std::filesystem::path& file)
-      : name_(fmt::format("'{}'", file.string())) {
-    file_.reset(std::fopen(file.c_str(), "wb"));
-    if (!file_) throw_cannot_write(name_, errno);
-  }
-  void on_event(Time now, const Event& event) override {
-    const char* level = event.level == Event::Level::kInfo      ? "info"
-                        : event.level == Event::Level::kWarning ? "warning"
-                                                                : "error";
-    const std::string line = nlohmann::ordered_json{{"t_s", static_cast<double>(now.ns) / 1e9},
-                                                    {"level", level},
-                                                    {"source", event.source},
-                                                    {"text", event.text}}
-                                 .dump() +
-                             "\n";
-    if (error_number_) return;
-    // Flushed line by line, so that the events of a killed run are readable.
-    errno = 0;
-    const bool stored = std::fwrite(line.data(), 1, line.size(), file_.get()) == line.size() &&
-                        std::fflush(file_.get()) == 0;
-    if (stored) {
-      whole_bytes_ += static_cast<off_t>(line.size());
-      return;
-    }
-    error_number_ = errno;
-    static_cast<void>(::ftruncate(::fileno(file_.get()), whole_bytes_));  // no partial line
-  }
-
-  /// @throws ConfigError, WriteError if a line is missing
-  void check() const {
-    if (error_number_) throw_cannot_write(name_, *error_number_);
-  }
-
- private:
-  std::string name_;
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_{nullptr, &std::fclose};
-  off_t whole_bytes_ = 0;
-  std::optional<int> error_number_;  ///< of the first line that could not be stored
-};
-
 /// Steps to the end in slices of simulated time, to report progress. Slices change no result.
-void step_to_end(Session& session, const RunOptions& options, Clock::time_point start) {
+/// @returns the seed of the next run if the driver wants to start again
+std::optional<std::uint64_t> step_to_end(Session& session, const RunOptions& options,
+                                         Clock::time_point start) {
   const double duration_s = session.scenario().duration_s;
   constexpr Duration kSlice{250'000'000};
   double stated_s = -1.0;
   while (!session.over()) {
-    session.advance(session.now() + kSlice);
+    RunDriver::Next next{session.now() + kSlice};
+    if (options.driver) next = options.driver->next(session, next.until);
+    if (next.restart_seed) return next.restart_seed;
+    session.advance(next.until);
     if (options.interrupted && options.interrupted()) {
       const SimulationError error("run", session.now(), "interrupted by the user");
       session.simulation().emit(Event::Level::kError, error.culprit(), error.what());
@@ -174,6 +61,7 @@ void step_to_end(Session& session, const RunOptions& options, Clock::time_point 
       options.progress({session.now().s(), duration_s, wall_s});
     }
   }
+  return std::nullopt;
 }
 
 /// Criteria that can be checked before the run. Those of jobs are excluded, because their numbers
@@ -318,8 +206,9 @@ void draw_pictures(const std::filesystem::path& log, const Registry& registry,
 }
 
 /// Steps to the end and judges. @param log  may be null
-void step_and_judge(Session& session, const RunOptions& options, LogObserver* log,
-                    RunResult& result) {
+/// @returns the seed of the next run if the driver wants to start again; nothing is judged then
+std::optional<std::uint64_t> step_and_judge(Session& session, const RunOptions& options,
+                                            LogObserver* log, RunResult& result) {
   Simulation& simulation = session.simulation();
   const scenario::Scenario& scenario = session.scenario();
   const auto break_off = [&](const SimulationError& error) {
@@ -328,19 +217,24 @@ void step_and_judge(Session& session, const RunOptions& options, LogObserver* lo
   };
   const Clock::time_point start = Clock::now();
   try {
-    step_to_end(session, options, start);
+    if (options.driver) options.driver->begin(session);
+    const auto restart_seed = step_to_end(session, options, start);
+    if (restart_seed) return restart_seed;
   } catch (const SimulationError& error) {
     break_off(error);
   }
   try {
     if (log && result.status != RunStatus::kBrokenOff) log->on_instant(simulation.now());
-    if (log) log->finish();
+    const bool broke_off = result.status == RunStatus::kBrokenOff;
+    if (log) log->finish(simulation, broke_off ? kRunBrokenOff : kRunOver);
   } catch (const SimulationError& error) {
     break_off(error);
     simulation.emit(Event::Level::kError, error.culprit(), error.what());
   }
   result.wall_s = seconds_since(start);
   judge_run(scenario, session, result);
+  if (options.driver) options.driver->end(session);
+  return std::nullopt;
 }
 
 }  // namespace
@@ -368,33 +262,49 @@ RunResult run_scenario(const scenario::Scenario& scenario, const Registry& regis
   const bool writes = !options.out.empty();
   Session session =
       open_run(scenario, registry, writes ? options.out / "products" : "", options.shelf);
-  Simulation& simulation = session.simulation();
-  simulation.scheduler().set_clock(wall_ns, options.measure_cost);
+  const auto measure_cost = [&] {
+    session.simulation().scheduler().set_clock(wall_ns, options.measure_cost);
+  };
+  measure_cost();
 
   RunResult result;
   if (!writes) {
-    step_and_judge(session, options, nullptr, result);
+    while (const auto seed = step_and_judge(session, options, nullptr, result)) {
+      session.reset(*seed);
+      measure_cost();
+    }
     return result;
   }
   io::make_folder(options.out);
   result.lock = std::make_shared<FolderLock>(options.out);
-  clear_earlier_run(options.out);
   // Space for the verdict, in case the disk fills up during the run.
   constexpr std::size_t kVerdictBytes = 1 << 20;
   DiskReserve reserve(options.out, kVerdictBytes);
-  write_whole_file(options.out / "scenario.resolved.yaml", scenario.resolved_yaml);
   const std::filesystem::path log_file = options.out / "log.mcap";
   const bool with_log = options.log && scenario.record.enabled;
   std::unique_ptr<LogObserver> log;
-  if (with_log) {
-    log = std::make_unique<LogObserver>(simulation, log_file);
-    simulation.add_observer(log.get());
+  std::unique_ptr<EventFile> events;
+  for (bool runs = true; runs;) {
+    clear_earlier_run(options.out);
+    write_whole_file(options.out / "scenario.resolved.yaml", session.scenario().resolved_yaml);
+    Simulation& simulation = session.simulation();
+    if (with_log) {
+      log = std::make_unique<LogObserver>(simulation, log_file);
+      simulation.add_observer(log.get());
+    }
+    events = std::make_unique<EventFile>(options.out / "events.jsonl");
+    simulation.add_observer(events.get());
+    const auto seed = step_and_judge(session, options, log.get(), result);
+    runs = seed.has_value();
+    if (!runs) break;
+    // The files are those of the last run; its observers must not outlive its signals.
+    log.reset();
+    session.reset(*seed);
+    measure_cost();
   }
-  EventFile events(options.out / "events.jsonl");
-  simulation.add_observer(&events);
-  step_and_judge(session, options, log.get(), result);
 
   reserve.give_back();
+  Simulation& simulation = session.simulation();
   const auto write_verdict = [&] {
     write_whole_file(options.out / "summary.json", summary_json(result, simulation));
     write_whole_file(options.out / "junit.xml", junit_xml(scenario.name, result));
@@ -415,7 +325,7 @@ RunResult run_scenario(const scenario::Scenario& scenario, const Registry& regis
     result.canopy = write_canopy(simulation, options.out / "canopy");
     if (!result.canopy.empty()) write_verdict();  // because it lists these files
   });
-  store([&] { events.check(); });
+  store([&] { events->check(); });
   if (options.judged) options.judged(result);
   if (wants_pictures && with_log && result.write_failure.empty()) {
     draw_pictures(log_file, registry, options, result);

@@ -10,6 +10,7 @@
 
 #include "engine/api/registry.h"
 #include "engine/run/folder_lock.h"
+#include "engine/run/run_driver.h"
 #include "engine/scenario/scenario.h"
 #include "engine/sim/crash.h"
 #include "engine/sim/phase_report.h"
@@ -35,8 +36,9 @@ struct RunOptions {
   std::filesystem::path out;  ///< folder of the files; created; if empty, nothing is written
   bool log = true;
   bool pictures = true;
-  bool measure_cost = true;         ///< computing time of each stage in summary.json
-  std::shared_ptr<RunShelf> shelf;  ///< cache of worlds and file contents, shared with other runs
+  bool measure_cost = true;           ///< computing time of each stage in summary.json
+  std::shared_ptr<RunShelf> shelf;    ///< cache of worlds and file contents, shared with other runs
+  std::shared_ptr<RunDriver> driver;  ///< may be null: the run goes to its end as fast as it can
   std::function<void(const Progress&)> progress;  ///< called about five times a second of wall time
   /// Called every simulated quarter second and before each picture; true ends the run or the
   /// drawing.

@@ -47,6 +47,7 @@ class ScenarioReader {
     resolved_.put("world", std::move(world.resolved));
     read_vehicles();
     read_mission();
+    read_lockstep();
     read_metrics();
     read_limits();
     read_record();
@@ -227,6 +228,20 @@ class ScenarioReader {
     scenario_.traffic =
         read_traffic(read_group("traffic"), mark_of("traffic", "reserve_alleys"), vehicle_names_);
     if (!traffic) resolved_.erase("traffic");
+  }
+
+  void read_lockstep() {
+    const io::YamlEntry* entry = root_.find_entry("lockstep");
+    if (!entry) return;
+    LockstepConfig& lockstep = scenario_.lockstep;
+    lockstep = lockstep_table().read(read_group("lockstep"), "");
+    lockstep.where = mark_of("lockstep", "topic");
+    // A ROS topic begins with a slash, a signal does not.
+    if (lockstep.signal.starts_with('/')) lockstep.signal.erase(0, 1);
+    const io::SourceMark rate =
+        entry->value.find("rate_Hz") ? mark_of("lockstep", "rate_Hz") : entry->mark;
+    lockstep.period =
+        check_rate(lockstep.rate_Hz, scenario_.physics_step, rate, "lockstep.rate_Hz");
   }
 
   void read_limits() {

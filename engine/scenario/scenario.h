@@ -183,6 +183,16 @@ struct TrafficConfig {
   io::SourceMark where;
 };
 
+/// A run in which simulated time waits for the command of a program outside.
+struct LockstepConfig {
+  std::string signal;  ///< key `topic`: "rover/cmd_vel"; empty: no lock-step
+  double rate_Hz = 20.0;
+  Duration period{50'000'000};  ///< of the rate; a command is due at each multiple of it but 0
+  double timeout_s = 10.0;      ///< wall time that the run waits for one command
+  bool ends_on_timeout = true;  ///< false: the run goes on without commands until the next one
+  io::SourceMark where;
+};
+
 struct Scenario {
   std::string name;
   std::string description;
@@ -197,6 +207,7 @@ struct Scenario {
   std::vector<NamedPart> metrics;       ///< run for every vehicle
   std::vector<PhaseConfig> phases;      ///< in file order; empty: every vehicle starts at once
   TrafficConfig traffic;
+  LockstepConfig lockstep;
   std::vector<Criterion> criteria;
   RecordConfig record;
   PicturesConfig pictures;

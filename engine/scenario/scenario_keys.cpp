@@ -96,6 +96,25 @@ const ParameterTable<TrafficConfig>& traffic_table() {
   return table;
 }
 
+const ParameterTable<LockstepConfig>& lockstep_table() {
+  using P = LockstepConfig;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .text("topic", &P::signal,
+                "signal from outside whose commands the run waits for, <vehicle>/cmd_vel; needs "
+                "'vinerow run --live' or '--ros2'")
+          .required()
+          .number("rate_Hz", "Hz", &P::rate_Hz, above(0.0, 1e6),
+                  "rate at which commands are due: each is stamped with a multiple of the period, "
+                  "the first with one period")
+          .number("timeout_s", "s", &P::timeout_s, above(0.0, 1e6),
+                  "wall time that the run waits for one command")
+          .choice("on_timeout", &P::ends_on_timeout, {{"end", true}, {"continue", false}},
+                  "after the timeout: end the run, or continue it without commands until the next "
+                  "one comes");
+  return table;
+}
+
 const ParameterTable<RecordConfig>& record_table() {
   using P = RecordConfig;
   static const ParameterTable<P> table =
@@ -149,6 +168,8 @@ const std::vector<StructuralKey>& scenario_keys() {
                "mission graph: phases of vehicles, and jobs; absent: every vehicle starts at "
                "once"),
         group("traffic", traffic_table().specs(), "reservation of alleys by several vehicles"),
+        group("lockstep", lockstep_table().specs(),
+              "simulated time waits for the commands of a program outside"),
         part("metrics", KeyShape::kNamedParts, PartKind::kMetric, false,
              "metrics computed for every vehicle; default: all known metrics"),
         group_list("criteria", criterion_table().specs(), "limits that the run must meet"),

@@ -54,6 +54,7 @@ struct PhysicsParams {
 };
 const ParameterTable<PhysicsParams>& physics_table();
 const ParameterTable<TrafficConfig>& traffic_table();
+const ParameterTable<LockstepConfig>& lockstep_table();
 const ParameterTable<RecordConfig>& record_table();
 /// Values of a vehicle besides its type's own.
 const ParameterTable<VehicleConfig>& vehicle_table();

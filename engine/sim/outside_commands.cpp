@@ -12,15 +12,15 @@ namespace vinerow {
 
 OutsideCommands::OutsideCommands(SignalBus& bus, const std::vector<OutsideSignal>& signals)
     : bus_(bus) {
-  for (const OutsideSignal& signal : signals) {
-    signal.advertise(bus_);
-    signals_.push_back(signal.name);
-  }
+  for (const OutsideSignal& signal : signals) signal.advertise(bus_);
 }
 
-void OutsideCommands::check_read() const {
-  for (const std::string& name : signals_) {
-    if (bus_.find(name)->is_read()) continue;
+void OutsideCommands::close() {
+  for (const auto& written : bus_.signals()) {
+    if (written->writer() != kOutside) continue;
+    const std::string& name = written->name();
+    signals_.push_back(name);
+    if (written->is_read()) continue;
     std::vector<std::string> read;
     for (const auto& signal : bus_.signals()) {
       if (signal->is_read()) read.push_back(signal->name());

@@ -14,8 +14,12 @@ class OutsideCommands {
   /// @throws ConfigError if a signal is claimed twice
   OutsideCommands(SignalBus& bus, const std::vector<OutsideSignal>& signals);
 
-  /// Call when every part is connected. @throws ConfigError if no part reads one of the signals
-  void check_read() const;
+  /// Call when every part is connected. Adds the signals that parts read from outside
+  /// (Ports::read_from_outside). @throws ConfigError if no part reads one of the signals
+  void close();
+
+  /// Signals that programs outside the run may write, in the bus's order.
+  const std::vector<std::string>& signals() const { return signals_; }
 
   /// Queues a value for the first instant at or after its stamp.
   /// @param now  the next instant to be processed
@@ -26,8 +30,6 @@ class OutsideCommands {
   /// Writes the values that are due, in order of stamp, then of signal name, then of arrival. If
   /// several values of one signal are due, the last one counts.
   void deliver(Time now);
-
-  bool empty() const { return signals_.empty(); }
 
  private:
   SignalBase& find(const SignalBase& value) const;

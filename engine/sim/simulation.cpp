@@ -89,8 +89,21 @@ Simulation::Simulation(const scenario::Scenario& scenario, const Registry& regis
   }
   add_traffic(run);
   bus_.check_connected();
-  outside_.check_read();
+  outside_.close();
+  check_lockstep();
   classify_signals();
+}
+
+void Simulation::check_lockstep() const {
+  const std::string& signal = scenario_.lockstep.signal;
+  const std::vector<std::string>& known = outside_.signals();
+  if (signal.empty() || std::find(known.begin(), known.end(), signal) != known.end()) return;
+  throw ConfigError(fmt::format(
+      "{}: lockstep.topic = '{}': {}", scenario_.lockstep.where.text(), signal,
+      known.empty() ? "no part of this scenario takes commands from outside (controllers: "
+                      "remote_velocity, remote_actuators)"
+                    : fmt::format("no part takes commands from outside as that{} (there are: {})",
+                                  did_you_mean(signal, known), join(known))));
 }
 
 void Simulation::add_traffic(const RunContext& run) {

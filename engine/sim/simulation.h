@@ -21,6 +21,7 @@
 #include "engine/sim/crash.h"
 #include "engine/sim/outside_commands.h"
 #include "engine/sim/phase_report.h"
+#include "engine/sim/run_observer.h"
 #include "engine/sim/scheduler.h"
 
 namespace vinerow {
@@ -30,16 +31,6 @@ class Separation;
 class TrafficControl;
 struct RunContext;
 class VehicleRuntime;
-
-/// Observer of a run; it does not change the run.
-class RunObserver {
- public:
-  virtual ~RunObserver() = default;
-  /// All signals of this instant are written; physics has not advanced yet.
-  virtual void on_instant(Time /*now*/) {}
-  /// The signal "run/events" has just been written.
-  virtual void on_event(Time /*now*/, const Event& /*event*/) {}
-};
 
 /// Inputs of a run besides its scenario.
 struct SimulationSetup {
@@ -73,6 +64,8 @@ class Simulation {
   /// Queues a value for a signal that is written from outside (SimulationSetup::outside).
   /// @throws ConfigError as OutsideCommands::add, and on actuators that the vehicle does not have
   void command(OutsideCommand command);
+  /// Signals that command() may write.
+  const std::vector<std::string>& outside_signals() const { return outside_.signals(); }
 
   /// Runs until the run is over or `end` is reached; can be called again to continue.
   /// @throws SimulationError
@@ -112,6 +105,7 @@ class Simulation {
   /// Decides which signals belong to the digest. Call when all known signals exist.
   void classify_signals();
   void end_mission();
+  void check_lockstep() const;
   void add_traffic(const RunContext& run);
   void watch_separation(Time now);
   /// No vehicle has anything left to do, or a crash ends the run.

@@ -202,7 +202,9 @@ void VehicleRuntime::try_to_plan(Time now) {
 }
 
 void VehicleRuntime::check_command(const SignalBase& value) const {
-  if (value.name() != config_.name + "/actuators") return;
+  const bool is_meant = value.name() == config_.name + "/actuators" ||
+                        value.name() == config_.name + "/actuator_command";
+  if (!is_meant) return;
   if (std::string_view(value.type()) != NamedValues::kType) return;
   const NamedValues& wanted = static_cast<const Signal<NamedValues>&>(value).value();
   if (wanted.names.size() != wanted.values.size()) {

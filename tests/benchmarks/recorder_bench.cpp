@@ -25,7 +25,7 @@ void record_odometry_and_imu(benchmark::State& state) {
   double bytes = 0.0, messages = 0.0;
   {
     record::Recorder recorder(file, options, {});
-    for (const auto& signal : bus.signals()) recorder.add_signal(*signal, {});
+    for (const auto& signal : bus.signals()) recorder.channels().add_signal(*signal, {});
     Odometry pose;
     ImuSample sample;
     Time now;

@@ -24,7 +24,7 @@ void record_until(const std::filesystem::path& file, const std::string& compress
   vinerow::record::Recorder recorder(
       file, {.compression = compression, .chunk_bytes = 200'000, .flush_wall_s = 0.05},
       {{"scenario", "mission.yaml"}, {"seed", "1"}});
-  for (const auto& signal : mission.signals()) recorder.add_signal(*signal, Duration{0});
+  for (const auto& signal : mission.signals()) recorder.channels().add_signal(*signal, Duration{0});
   for (Time now; now < end; now = now + vinerow::test::MissionSignals::kTick) {
     mission.write(now);
     recorder.record(now);

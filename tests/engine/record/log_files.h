@@ -50,7 +50,7 @@ inline void record_mission(const std::filesystem::path& file,
                            const record::RecorderOptions& options, Time end) {
   MissionSignals mission;
   record::Recorder recorder(file, options, {{"scenario", "mission.yaml"}, {"seed", "1"}});
-  for (const auto& signal : mission.signals()) recorder.add_signal(*signal, Duration{0});
+  for (const auto& signal : mission.signals()) recorder.channels().add_signal(*signal, Duration{0});
   for (Time now; now < end; now = now + MissionSignals::kTick) {
     mission.write(now);
     recorder.record(now);

@@ -53,7 +53,7 @@ TEST(PluginMessage, IsRecordedAndReadBack) {
   auto other = bus.advertise<OtherSample>("sprayer/soil", "test");
   {
     Recorder recorder(file.path(), {}, {});
-    for (const auto& signal : bus.signals()) recorder.add_signal(*signal, Duration{0});
+    for (const auto& signal : bus.signals()) recorder.channels().add_signal(*signal, Duration{0});
     soil.write(Time{0}, {});
     other.write(Time{0}, {0.5});
     recorder.record(Time{0});

@@ -71,7 +71,7 @@ TEST(Recorder, ThinsByStampsExactly) {
   auto fast = bus.advertise<VelocityCommand>("rover/command", "test");
   {
     Recorder recorder(file.path(), {}, {});
-    recorder.add_signal(*bus.find("rover/command"), Duration{50'000'000});
+    recorder.channels().add_signal(*bus.find("rover/command"), Duration{50'000'000});
     // 1 kHz for 10 s, written at every step: 20 Hz remain, on the exact nanosecond.
     for (std::int64_t ms = 0; ms < 10'000; ++ms) {
       fast.write(Time{ms * 1'000'000}, {static_cast<double>(ms), 0});
@@ -93,7 +93,7 @@ TEST(Recorder, StoresOnlyWhatWasWrittenSince) {
   SignalBus bus;
   auto command = bus.advertise<VelocityCommand>("rover/command", "test");
   Recorder recorder(file.path(), {}, {});
-  recorder.add_signal(*bus.find("rover/command"), Duration{0});
+  recorder.channels().add_signal(*bus.find("rover/command"), Duration{0});
   recorder.record(Time{0});
   EXPECT_EQ(recorder.message_count(), 0u);
   command.write(Time{1}, {});
@@ -137,7 +137,7 @@ TEST(Recorder, AllocatesNothingOnceWarm) {
   const TemporaryFile file;
   test::MissionSignals mission;
   Recorder recorder(file.path(), {.chunk_bytes = 200'000, .flush_wall_s = 1e6}, {});
-  for (const auto& signal : mission.signals()) recorder.add_signal(*signal, Duration{0});
+  for (const auto& signal : mission.signals()) recorder.channels().add_signal(*signal, Duration{0});
   std::size_t allocations = 0;
   std::uint64_t chunks_begun = 0;
   std::uint64_t bytes = recorder.bytes_written();
@@ -172,7 +172,7 @@ TEST(Recorder, AnHourFitsInto100MB) {
     const bool is_once = name == "rover/plan" || name == "rover/plan_tree" || name == "run/map";
     // A rover without a local planner, which does not fly.
     if (is_once || name == "rover/local_command" || name == "rover/reference") continue;
-    recorder.add_signal(*signal, Duration{period_ms * 1'000'000});
+    recorder.channels().add_signal(*signal, Duration{period_ms * 1'000'000});
   }
   for (Time now; now.ns < 120'000'000'000; now = now + test::MissionSignals::kTick) {
     mission.write(now);
@@ -203,7 +203,7 @@ TEST(Recorder, AMapOfFiveMillionCellsIsSmallAndQuick) {
   SignalBus bus;
   auto map = bus.advertise<OccupancyGrid>("run/map", "run");
   Recorder recorder(file.path(), {}, {});
-  recorder.add_signal(*bus.find("run/map"), Duration{0});
+  recorder.channels().add_signal(*bus.find("run/map"), Duration{0});
   map.write(Time{0}, grid);
   const auto start = std::chrono::steady_clock::now();
   recorder.record(Time{0});
@@ -236,7 +236,7 @@ TEST(Recorder, SaysThatTheDiskIsFullOnce) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
   test::MissionSignals mission;
   Recorder recorder("/dev/full", {.flush_wall_s = 0}, {});
-  for (const auto& signal : mission.signals()) recorder.add_signal(*signal, Duration{0});
+  for (const auto& signal : mission.signals()) recorder.channels().add_signal(*signal, Duration{0});
   mission.write(Time{0});
   const std::string error = error_of([&] { recorder.record(Time{0}); });
   EXPECT_NE(error.find("/dev/full: the log cannot be written: the disk is full"), std::string::npos)

@@ -34,7 +34,7 @@ TEST_P(RoundTrip, EveryTypeComesBackToTheBit) {
   for_each_message_type([&]<class T>(T*) {
     const std::string name = std::string("rover/") + T::kType;
     auto writer = bus.advertise<T>(name, "test");
-    recorder.add_signal(*bus.find(name), Duration{0});
+    recorder.channels().add_signal(*bus.find(name), Duration{0});
     for (int i = 0; i < kSamples; ++i) {
       T value;
       test::fill(random, value);
@@ -74,7 +74,7 @@ TEST(RoundTrip, MessagesInAnotherOrderAreReadInTheOrderOfTheirStamps) {
     RecorderOptions options;
     options.chunk_bytes = 200;  // several chunks
     Recorder recorder(file.path(), options, {});
-    for (const auto& signal : bus.signals()) recorder.add_signal(*signal, Duration{0});
+    for (const auto& signal : bus.signals()) recorder.channels().add_signal(*signal, Duration{0});
     RangeSample sample;
     for (int i = 0; i < 7; ++i) {
       sample.range_m = i;
@@ -114,7 +114,7 @@ TEST(RoundTrip, AStampOfNoTimeIsLeftOut) {
   auto range = bus.advertise<RangeSample>("rover/range", "test");
   {
     Recorder recorder(file.path(), {}, {});
-    recorder.add_signal(*bus.find("rover/range"), Duration{0});
+    recorder.channels().add_signal(*bus.find("rover/range"), Duration{0});
     for (const std::int64_t stamp_ns : {std::int64_t{5}, std::int64_t{-1}, std::int64_t{6}}) {
       range.write(Time{stamp_ns}, RangeSample{});
       recorder.record(Time{10});
@@ -144,7 +144,7 @@ TEST(RoundTrip, SpecialNumbersComeBackToTheBit) {
   wanted_range.X_WS.p = {-0.0, 1.0, -0.0};
   {
     Recorder recorder(file.path(), {}, {});
-    for (const auto& signal : bus.signals()) recorder.add_signal(*signal, Duration{0});
+    for (const auto& signal : bus.signals()) recorder.channels().add_signal(*signal, Duration{0});
     values.write(Time{0}, wanted_values);
     range.write(Time{0}, wanted_range);
     recorder.record(Time{0});
@@ -174,7 +174,7 @@ TEST(RoundTrip, CompactPosesComeBackWithinNanometres) {
   std::vector<RangeSample> ranges;
   {
     Recorder recorder(file.path(), {}, {});
-    for (const auto& signal : bus.signals()) recorder.add_signal(*signal, Duration{0});
+    for (const auto& signal : bus.signals()) recorder.channels().add_signal(*signal, Duration{0});
     for (int i = 0; i < kSamples; ++i) {
       Odometry truth;
       test::fill(random, truth);
@@ -235,7 +235,7 @@ TEST(RoundTrip, LinksWrittenAtAnotherTimeThanTheTruthAreExact) {
   const LinkPoses links{{"body", "wheel"}, {truth.X_WB, truth.X_WB}};
   {
     Recorder recorder(file.path(), {}, {});
-    for (const auto& signal : bus.signals()) recorder.add_signal(*signal, Duration{0});
+    for (const auto& signal : bus.signals()) recorder.channels().add_signal(*signal, Duration{0});
     truth_out.write(Time{1}, truth);
     links_out.write(Time{2}, links);
     recorder.record(Time{2});

@@ -1,0 +1,29 @@
+#pragma once
+/// Receiver of encoded messages: a log file, or the clients of a live run.
+
+#include <cstdint>
+#include <string>
+
+#include "engine/record/byte_buffer.h"
+#include "engine/record/mcap_format.h"
+
+namespace vinerow::record {
+
+class MessageSink {
+ public:
+  virtual ~MessageSink() = default;
+  /// @returns id >= 1
+  virtual std::uint16_t add_schema(const std::string& name, const std::string& encoding,
+                                   const std::string& data) = 0;
+  /// @returns id >= 1
+  virtual std::uint16_t add_channel(std::uint16_t schema, const std::string& topic,
+                                    const std::string& encoding, const TextMap& metadata) = 0;
+  /// False if nobody would receive a message of this channel now: it is then not encoded.
+  virtual bool wants(std::uint16_t /*channel*/) const { return true; }
+  /// Starts a message; add its bytes to the returned buffer, then call end_message().
+  virtual ByteBuffer& start_message(std::uint16_t channel, std::uint64_t log_time,
+                                    std::uint64_t publish_time) = 0;
+  virtual void end_message() = 0;
+};
+
+}  // namespace vinerow::record

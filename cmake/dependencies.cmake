@@ -4,7 +4,7 @@ find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 if(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
   include(${CMAKE_CURRENT_LIST_DIR}/eigen_on_aarch64.cmake)
 endif()
-# Headers alone: Boost.Math in tools/study.
+# Headers alone: Math in tools/study, the Sobol sequence in engine/scenario, Beast in engine/live.
 find_package(Boost 1.74 REQUIRED CONFIG)
 find_package(fmt REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
@@ -26,6 +26,14 @@ pkg_check_modules(LZ4 REQUIRED IMPORTED_TARGET liblz4)
 pkg_check_modules(SQLITE REQUIRED IMPORTED_TARGET sqlite3)
 pkg_check_modules(MUPARSER REQUIRED IMPORTED_TARGET muparser)
 pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
+if(VINEROW_ROS2)
+  find_package(CycloneDDS 0.10 QUIET)
+  find_package(OpenSSL QUIET COMPONENTS Crypto)
+  if(NOT CycloneDDS_FOUND OR NOT OpenSSL_FOUND)
+    message(STATUS "Cyclone DDS or OpenSSL is absent (Debian: cyclonedds-dev libssl-dev): built without --ros2")
+    set(VINEROW_ROS2 OFF)
+  endif()
+endif()
 find_library(GEOGRAPHICLIB_LIBRARY NAMES GeographicLib REQUIRED)
 
 # Debian ships Bullet in both precisions and finds single by default; only the double build is right here.

@@ -191,6 +191,28 @@ export async function readLog(file, { allowTruncated = false } = {}) {
   return result;
 }
 
+/** Channels and messages of a log as they are: {channels: [{topic, type, encoding, schema}], messages: [{topic, logTime, data}]}. */
+export async function readRecords(file) {
+  const reader = new McapStreamReader({ decompressHandlers: await loadDecompressHandlers() });
+  reader.append(new Uint8Array(await readFile(file)));
+  const schemas = new Map(), channels = new Map(), messages = [];
+  for (let record; (record = reader.nextRecord()); ) {
+    if (record.type === "Schema") schemas.set(record.id, record);
+    if (record.type === "Channel") channels.set(record.id, record);
+    if (record.type === "Message") {
+      const data = Uint8Array.from(record.data);
+      messages.push({ topic: channels.get(record.channelId).topic, logTime: record.logTime, data });
+    }
+  }
+  const described = [...channels.values()].map((channel) => ({
+    topic: channel.topic,
+    encoding: channel.messageEncoding,
+    type: schemas.get(channel.schemaId).name,
+    schema: new TextDecoder().decode(schemas.get(channel.schemaId).data),
+  }));
+  return { channels: described, messages };
+}
+
 /** JSON.stringify's replacer for 64-bit numbers and typed arrays. */
 export const plain = (_, value) => {
   if (typeof value === "bigint") return value.toString();

@@ -2,14 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "engine/api/map.h"
 #include "engine/core/check.h"
 #include "tools/replay/page_text.h"
 #include "tools/replay/replay_assets.h"
+#include "tools/replay/replay_index.h"
 #include "tools/replay/replay_scene.h"
 #include "tools/replay/replay_textures.h"
 #include "tools/replay/replay_tracks.h"
@@ -26,39 +24,6 @@ std::string script_json(const json& value) {
     out += c == '<' ? "\\u003c" : std::string(1, c);
   }
   return out;
-}
-
-/// Lines as lists of x, y, z to a millimetre.
-json lines_of(const std::vector<Eigen::Vector3d>& line) {
-  json points = json::array();
-  for (const Eigen::Vector3d& p : line) {
-    for (int c = 0; c < 3; ++c) points.push_back(1e-3 * std::round(1e3 * p[c]));
-  }
-  return points;
-}
-
-json ground_index(const WorldModel& world) {
-  json rows = json::array(), alleys = json::array();
-  Eigen::AlignedBox3d box;
-  double top_m = 0.0;
-  for (const PlantRow& row : world.rows->rows) {
-    top_m = std::max(top_m, row.canopy_top_m);
-    rows.push_back(lines_of(row.line_W));
-    for (const Eigen::Vector3d& p : row.line_W) {
-      box.extend(p).extend(p + Eigen::Vector3d(0, 0, row.canopy_top_m));
-    }
-  }
-  for (const Alley& alley : world.rows->alleys) alleys.push_back(lines_of(alley.line_W));
-  json index = {{"rows", rows}, {"alleys", alleys}, {"canopy_top_m", top_m}};
-  if (!box.isEmpty()) index["row_box"] = {lines_of({box.min()}), lines_of({box.max()})};
-  if (world.terrain) {
-    const HeightField& field = *world.terrain;
-    const auto [low, high] = std::minmax_element(field.heights_m.begin(), field.heights_m.end());
-    const Eigen::Vector2d far = field.corner_W + Eigen::Vector2d(field.width_m(), field.depth_m());
-    index["terrain_box"] = {{field.corner_W.x(), field.corner_W.y(), *low},
-                            {far.x(), far.y(), *high}};
-  }
-  return index;
 }
 
 json phases_of(const ReplayInput& input) {
@@ -110,13 +75,10 @@ std::string replay_section(const ReplayInput& input, const ReplayLimits& limits)
   ReplayTracks tracks = make_replay_tracks(input, limits);
   const ReplayTextures textures = make_replay_textures(input.world->daylight);
 
-  json index = {{"name", input.scenario->name},
-                {"first_s", input.trace->first.s()},
-                {"duration_s", (input.trace->last - input.trace->first).s()},
-                {"ground", ground_index(*input.world)},
-                {"light", replay_light(input.world->daylight)},
-                {"textures", textures.index},
-                {"phases", phases_of(input)}};
+  json index = replay_index(input.scenario->name, *input.world, textures);
+  index["first_s"] = input.trace->first.s();
+  index["duration_s"] = (input.trace->last - input.trace->first).s();
+  index["phases"] = phases_of(input);
   index["vehicles"] = std::move(tracks.index["vehicles"]);
   index["notes"] = json::array();
   for (const std::vector<std::string>* notes : {&scene.notes, &tracks.notes}) {
@@ -134,8 +96,10 @@ std::string replay_section(const ReplayInput& input, const ReplayLimits& limits)
   html += "<!--\n";
   html += three_notice();
   html += "-->\n";
-  for (const std::string_view script : three_scripts()) append_script(html, script);
-  for (const std::string_view script : replay_scripts()) append_script(html, script);
+  for (const std::vector<EmbeddedFile>& scripts :
+       {three_scripts(), picture_scripts(), player_scripts()}) {
+    for (const EmbeddedFile& script : scripts) append_script(html, script.text);
+  }
   return html;
 }
 

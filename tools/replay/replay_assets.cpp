@@ -1,18 +1,13 @@
 #include "tools/replay/replay_assets.h"
 
-// Symbols of the assembly file that replay.cmake writes: start and end of each file.
-#define VINEROW_ASSET(name)                     \
-  extern "C" const char vinerow_asset_##name[]; \
-  extern "C" const char vinerow_asset_##name##_end[]
-#define VINEROW_ASSET_TEXT(name) \
-  std::string_view(vinerow_asset_##name, vinerow_asset_##name##_end - vinerow_asset_##name)
-
 VINEROW_ASSET(replay_style);
 VINEROW_ASSET(replay_markup);
 VINEROW_ASSET(replay_data);
 VINEROW_ASSET(replay_look);
 VINEROW_ASSET(replay_scene);
 VINEROW_ASSET(replay_camera);
+VINEROW_ASSET(replay_view);
+VINEROW_ASSET(replay_view_controls);
 VINEROW_ASSET(replay_player);
 VINEROW_ASSET(replay_controls);
 VINEROW_ASSET(three_notice);
@@ -27,14 +22,14 @@ VINEROW_ASSET(three_line_segments);
 
 namespace vinerow::tools {
 
-std::vector<std::string_view> three_scripts() {
+std::vector<EmbeddedFile> three_scripts() {
 #ifdef VINEROW_HAS_THREE
-  return {VINEROW_ASSET_TEXT(three),
-          VINEROW_ASSET_TEXT(three_orbit_controls),
-          VINEROW_ASSET_TEXT(three_gltf_loader),
-          VINEROW_ASSET_TEXT(three_line_geometry),
-          VINEROW_ASSET_TEXT(three_line_material),
-          VINEROW_ASSET_TEXT(three_line_segments)};
+  return {{"three.min.js", VINEROW_ASSET_TEXT(three)},
+          {"OrbitControls.js", VINEROW_ASSET_TEXT(three_orbit_controls)},
+          {"GLTFLoader.js", VINEROW_ASSET_TEXT(three_gltf_loader)},
+          {"LineSegmentsGeometry.js", VINEROW_ASSET_TEXT(three_line_geometry)},
+          {"LineMaterial.js", VINEROW_ASSET_TEXT(three_line_material)},
+          {"LineSegments2.js", VINEROW_ASSET_TEXT(three_line_segments)}};
 #else
   return {};
 #endif
@@ -50,10 +45,18 @@ std::string_view replay_markup() {
   return VINEROW_ASSET_TEXT(replay_markup);
 }
 
-std::vector<std::string_view> replay_scripts() {
-  return {VINEROW_ASSET_TEXT(replay_data),   VINEROW_ASSET_TEXT(replay_look),
-          VINEROW_ASSET_TEXT(replay_scene),  VINEROW_ASSET_TEXT(replay_camera),
-          VINEROW_ASSET_TEXT(replay_player), VINEROW_ASSET_TEXT(replay_controls)};
+std::vector<EmbeddedFile> picture_scripts() {
+  return {{"data.js", VINEROW_ASSET_TEXT(replay_data)},
+          {"look.js", VINEROW_ASSET_TEXT(replay_look)},
+          {"scene.js", VINEROW_ASSET_TEXT(replay_scene)},
+          {"camera.js", VINEROW_ASSET_TEXT(replay_camera)},
+          {"view.js", VINEROW_ASSET_TEXT(replay_view)},
+          {"view_controls.js", VINEROW_ASSET_TEXT(replay_view_controls)}};
+}
+
+std::vector<EmbeddedFile> player_scripts() {
+  return {{"player.js", VINEROW_ASSET_TEXT(replay_player)},
+          {"controls.js", VINEROW_ASSET_TEXT(replay_controls)}};
 }
 
 }  // namespace vinerow::tools

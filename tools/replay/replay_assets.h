@@ -1,20 +1,22 @@
 #pragma once
-/// Files that the build embeds in the program.
+/// Files of a replay that the build embeds in the program. Lists are in loading order.
 
-#include <string_view>
 #include <vector>
+
+#include "tools/replay/embedded_file.h"
 
 namespace vinerow::tools {
 
-/// three.js and the examples of it that a replay uses, in loading order; empty if the build did not
-/// find them.
-std::vector<std::string_view> three_scripts();
+/// three.js and the examples of it that a picture uses; empty if the build did not find them.
+std::vector<EmbeddedFile> three_scripts();
 /// Its licence.
 std::string_view three_notice();
 
-/// Files of a replay, in the order a page loads them.
 std::string_view replay_style();
 std::string_view replay_markup();
-std::vector<std::string_view> replay_scripts();
+/// Scripts of the picture: scene, camera, its controls. A live run has them too.
+std::vector<EmbeddedFile> picture_scripts();
+/// Scripts of a recorded run's time, after those of the picture.
+std::vector<EmbeddedFile> player_scripts();
 
 }  // namespace vinerow::tools

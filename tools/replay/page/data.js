@@ -30,6 +30,7 @@
     }
     for (let c = 0; c < 4; ++c) out[c] /= Math.sqrt(square);
   }
+  Replay.slerp = slerp;
 
   function normalised(values) {
     const out = new Float32Array(values.length);

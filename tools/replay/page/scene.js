@@ -200,6 +200,11 @@
           }
         }
       }
+      return this.addTrailLine(vehicle, pairs);
+    }
+
+    /** @param pairs ends of segments */
+    addTrailLine(vehicle, pairs) {
       const line = this.addLine(this.trails, pairs, vehicle.colour, 3.5, 1);
       // The trail covers the plan where the vehicle followed it exactly.
       line.material.polygonOffset = true;
@@ -232,11 +237,16 @@
         vehicle.group.position.copy(vehicle.position);
         vehicle.group.quaternion.copy(vehicle.quaternion);
         for (const part of vehicle.links) this.setLink(vehicle.track, part, at, t);
-        const passed = Math.min(at.index + (at.share > 0.5 ? 1 : 0), vehicle.track.times.length - 1);
-        vehicle.trail.geometry.maxInstancedCount = passed;
-        vehicle.trail.visible = passed > 0;
+        this.showTrail(vehicle, at, t);
         this.showPlan(vehicle, t);
       }
+    }
+
+    /** Draws the points of a trail that its vehicle has passed. */
+    showTrail(vehicle, at) {
+      const passed = Math.min(at.index + (at.share > 0.5 ? 1 : 0), vehicle.track.times.length - 1);
+      vehicle.trail.geometry.maxInstancedCount = passed;
+      vehicle.trail.visible = passed > 0;
     }
 
     setLink(track, part, at, t) {
@@ -309,6 +319,8 @@
     object.add(disc);
     return disc;
   }
+  Replay.addDisc = addDisc;
+  Replay.kHover = kHover;
 
   Replay.Scene = Scene;
 })(typeof window === "undefined" ? globalThis : window);

@@ -1,0 +1,132 @@
+#include "engine/live/ros2_topics.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include "engine/record/ros_definitions.h"
+#include "engine/record/ros_fields.h"
+#include "engine/ros2/type_hash.h"
+#include "engine/run/run_channels.h"
+
+namespace vinerow::live {
+namespace {
+
+constexpr std::string_view kRange = "sensor_msgs/msg/Range";
+
+/// As other drivers and simulators publish it.
+ros2::Qos qos_of(const std::string& topic, std::string_view type) {
+  if (topic == "/tf_static" || type == "nav_msgs/msg/Path" ||
+      type == "nav_msgs/msg/OccupancyGrid" || type == "visualization_msgs/msg/Marker" ||
+      topic == "/run/scene") {
+    return ros2::kLatchedQos;
+  }
+  if (topic == "/tf") return ros2::kTransformsQos;
+  return type.starts_with("sensor_msgs/") ? ros2::kSensorDataQos : ros2::kDefaultQos;
+}
+
+}  // namespace
+
+Ros2Topics::Ros2Topics(ros2::Node& node, bool is_humble) : node_(node), is_humble_(is_humble) {
+  const std::string type = "rosgraph_msgs/msg/Clock";
+  clock_ = topic_of("/clock", type, ros2::kClockQos, record::full_ros_definition(type));
+}
+
+Ros2Topics::Topic* Ros2Topics::topic_of(const std::string& name, const std::string& type,
+                                        const ros2::Qos& qos, const std::string& definition) {
+  std::unique_ptr<Topic>& topic = topics_[name];
+  if (!topic) {
+    topic = std::make_unique<Topic>();
+    topic->publisher =
+        node_.create_publisher(name, type, qos, ros2::message_type_hash(type, definition));
+    topic->is_latched = qos.transient_local;
+  }
+  return topic.get();
+}
+
+void Ros2Topics::begin(const Simulation& simulation) {
+  schemas_.clear();
+  channels_.clear();
+  // Not make_unique: the base is private.
+  signals_.reset(new record::SignalChannels(*this, true));
+  run::add_run_channels(simulation, *signals_);
+}
+
+std::uint16_t Ros2Topics::add_schema(const std::string& name, const std::string&,
+                                     const std::string& data) {
+  std::string text = data;
+  // Since Iron, Range ends with a variance; 0: not known.
+  if (name == kRange && !is_humble_) {
+    text.insert(text.find("float32 range\n") + std::string_view("float32 range\n").size(),
+                "float32 variance\n");
+  }
+  schemas_.push_back({name, text});
+  return static_cast<std::uint16_t>(schemas_.size());
+}
+
+std::uint16_t Ros2Topics::add_channel(std::uint16_t id, const std::string& topic,
+                                      const std::string&, const record::TextMap& metadata) {
+  const Schema& schema = schemas_[id - 1];
+  ChannelTopic channel;
+  // Exact values are for logs; commands would come back as those of another peer.
+  const bool is_command = std::ranges::any_of(metadata, [](const auto& entry) {
+    return entry.first == "writer" && entry.second == kOutside;
+  });
+  if (!topic.ends_with("/exact") && !is_command) {
+    // Listeners of tf take the links of all vehicles from one topic.
+    const bool is_tree = schema.name == "tf2_msgs/msg/TFMessage" && topic != "/tf_static";
+    const std::string name = is_tree ? "/tf" : topic;
+    channel.topic = topic_of(name, schema.name, qos_of(name, schema.name), schema.text);
+    channel.is_range = schema.name == kRange;
+  }
+  channels_.push_back(channel);
+  return static_cast<std::uint16_t>(channels_.size());
+}
+
+bool Ros2Topics::wants(std::uint16_t id) const {
+  const Topic* topic = channels_[id - 1].topic;
+  if (!topic) return false;
+  return topic->is_latched || topic->subscribers.load(std::memory_order_relaxed) > 0;
+}
+
+record::ByteBuffer& Ros2Topics::start_message(std::uint16_t id, std::uint64_t, std::uint64_t) {
+  open_channel_ = id;
+  buffer_.clear();
+  return buffer_;
+}
+
+void Ros2Topics::end_message() {
+  const ChannelTopic& channel = channels_[open_channel_ - 1u];
+  if (!channel.topic) return;
+  // The last field before it is a float32, so it is aligned.
+  if (channel.is_range && !is_humble_) buffer_.add(0.0f);
+  channel.topic->publisher->publish(buffer_.view());
+}
+
+void Ros2Topics::on_instant(Time now) {
+  publish_clock(now);
+  signals_->write_new(now);
+}
+
+void Ros2Topics::on_event(Time now, const Event&) {
+  signals_->write_new(now);
+}
+
+void Ros2Topics::publish_clock(Time now) {
+  if (clock_->subscribers.load(std::memory_order_relaxed) == 0) return;
+  buffer_.clear();
+  record::CdrWriter out(buffer_);
+  record::write_time(out, now);
+  clock_->publisher->publish(buffer_.view());
+}
+
+void Ros2Topics::count_subscribers() {
+  int readers = 0;
+  for (auto& [name, topic] : topics_) {
+    const int count = topic->publisher->subscriber_count();
+    topic->subscribers = count;
+    readers += count;
+  }
+  readers_ = readers;
+}
+
+}  // namespace vinerow::live

@@ -31,8 +31,8 @@ class FoxgloveClient final : public Subscriber,
   FoxgloveClient(LiveRun& run, std::string name, std::string session_id,
                  std::function<void()> wake);
 
-  /// Greets the client: what the server can do, channels, services. Call again when the run begins
-  /// anew: the client then finds other channels under the same ids.
+  /// Greets the client: what the server can do, channels, services. Call again after a restart of
+  /// the run: the client then finds other channels under the same ids.
   void greet();
   void on_text(std::string_view text);
   void on_binary(std::span<const std::uint8_t> bytes);

@@ -54,7 +54,7 @@ class Subscriber {
   virtual void miss() = 0;
 };
 
-/// Channels of one run. Made anew when the run starts again; a subscriber then subscribes again.
+/// Channels of one run. A restart of the run makes another hub; a subscriber then subscribes again.
 class MessageHub final : public RunObserver, private record::MessageSink {
  public:
   /// @param simulation  outlives this object's use as an observer

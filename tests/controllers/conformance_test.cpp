@@ -236,20 +236,48 @@ INSTANTIATE_TEST_SUITE_P(Controllers, EveryController,
                          ::testing::ValuesIn(parts_that_read(PartKind::kController, "plan")),
                          [](const auto& test) { return test.param; });
 
-TEST(Controllers, AreEachRunByOneOfTheThreeSuites) {
+/// Controllers that take commands from outside the run.
+std::vector<std::string> remote_controllers() {
+  std::vector<std::string> names;
+  for (const char* signal : {"cmd_vel", "actuator_command"}) {
+    for (const std::string& name : parts_that_read(PartKind::kController, signal)) {
+      names.push_back(name);
+    }
+  }
+  return names;
+}
+
+class EveryRemoteController : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(EveryRemoteController, StandsWithoutCommands) {
+  Bench bench(GetParam());
+  for (int i = 0; i < 5; ++i) bench.step();
+  bench.expect_standing();
+  EXPECT_FALSE(bench.finished());
+}
+
+INSTANTIATE_TEST_SUITE_P(Controllers, EveryRemoteController,
+                         ::testing::ValuesIn(remote_controllers()),
+                         [](const auto& test) { return test.param; });
+
+TEST(Controllers, AreEachRunByOneOfTheFourSuites) {
   const std::vector<std::string> ground = parts_that_read(PartKind::kController, "plan"),
                                  rotors = parts_that_write(PartKind::kController, "wrench"),
-                                 wings = parts_that_write(PartKind::kController, "deviation");
+                                 wings = parts_that_write(PartKind::kController, "deviation"),
+                                 remote = remote_controllers();
   for (const std::string& name : parts().names(PartKind::kController)) {
     EXPECT_EQ(std::count(ground.begin(), ground.end(), name) +
                   std::count(rotors.begin(), rotors.end(), name) +
-                  std::count(wings.begin(), wings.end(), name),
+                  std::count(wings.begin(), wings.end(), name) +
+                  std::count(remote.begin(), remote.end(), name),
               1)
-        << name << " must read \"plan\" or write either \"wrench\" or \"deviation\"";
+        << name << " must read \"plan\" or commands from outside, or write either \"wrench\" or "
+        << "\"deviation\"";
   }
   EXPECT_GE(ground.size(), 3u);
   EXPECT_GE(rotors.size(), 2u);
   EXPECT_GE(wings.size(), 2u);
+  EXPECT_GE(remote.size(), 2u);
 }
 
 class EveryEstimator : public ::testing::TestWithParam<std::string> {};

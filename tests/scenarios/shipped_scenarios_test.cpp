@@ -48,9 +48,10 @@ bool waits(const scenario::Scenario& scenario, const std::string& vehicle) {
   return false;
 }
 
-/// Whether it sets out within 3 s: who has no controller stands, and who starts later waits.
+/// Whether it sets out within 3 s: who has no controller stands, and who starts later or takes
+/// commands from outside waits.
 bool moves_soon(const scenario::VehicleConfig& vehicle) {
-  if (!vehicle.controller) return false;
+  if (!vehicle.controller || vehicle.controller->type.starts_with("remote_")) return false;
   if (!vehicle.guidance) return true;
   const auto& specs = vehicle.guidance->parameters.specs();
   const bool has_start = std::any_of(
@@ -98,7 +99,8 @@ INSTANTIATE_TEST_SUITE_P(All, ShippedScenario, ::testing::ValuesIn(shipped_scena
 
 /// Whether a vehicle that acts takes its state, or part of it, from the truth all the time.
 bool goes_by_truth(const scenario::VehicleConfig& vehicle) {
-  if (!vehicle.controller) return false;
+  // Those that take commands from outside use no estimate.
+  if (!vehicle.controller || vehicle.controller->type.starts_with("remote_")) return false;
   if (!vehicle.estimator || vehicle.estimator->type == "truth") return true;
   const ParameterSet& parameters = vehicle.estimator->parameters;
   const auto& specs = parameters.specs();

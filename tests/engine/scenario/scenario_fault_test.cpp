@@ -46,8 +46,8 @@ TEST(ScenarioFault, KeyInTheWrongPlaceIsToldWhereItBelongs) {
 TEST(ScenarioFault, KnownKeysAreSortedAndCompleteAtTheTop) {
   EXPECT_EQ(fault_of(with_line(2, "wrld: 3")),
             "scenario:2: wrld: unknown key; did you mean 'world'? (known: criteria, description, "
-            "duration_s, gravity_mps2, metrics, name, phases, physics, pictures, plugins, record, "
-            "seed, stop_when_finished, traffic, vehicles, vinerow, world)");
+            "duration_s, gravity_mps2, lockstep, metrics, name, phases, physics, pictures, "
+            "plugins, record, seed, stop_when_finished, traffic, vehicles, vinerow, world)");
 }
 
 TEST(ScenarioFault, WrongTypeSaysWhatIsExpected) {

@@ -105,8 +105,10 @@ export class Browser {
     if (type !== "down") await send("mouseReleased");
   }
 
+  /** @param file .png or .jpg */
   async picture(file) {
-    const { data } = await this.call("Page.captureScreenshot", { format: "png" });
+    const kind = file.endsWith(".jpg") ? { format: "jpeg", quality: 85 } : { format: "png" };
+    const { data } = await this.call("Page.captureScreenshot", kind);
     writeFileSync(file, Buffer.from(data, "base64"));
   }
 

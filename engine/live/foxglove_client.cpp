@@ -104,9 +104,9 @@ void FoxgloveClient::greet() {
     for (const Channel& channel : hub_->channels()) {
       channels.push_back({{"id", channel.id},
                           {"topic", channel.topic},
-                          {"encoding", channel.encoding},
+                          {"encoding", "cdr"},
                           {"schemaName", channel.type},
-                          {"schema", channel.schema},
+                          {"schema", channel.definition},
                           {"schemaEncoding", "ros2msg"}});
     }
   }

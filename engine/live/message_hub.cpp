@@ -75,28 +75,18 @@ void MessageHub::on_event(Time now, const Event&) {
   signals_->write_new(now);
 }
 
-std::uint16_t MessageHub::add_schema(const std::string& name, const std::string&,
-                                     const std::string& data) {
-  schemas_.push_back({name, data});
-  return static_cast<std::uint16_t>(schemas_.size());
-}
-
-std::uint16_t MessageHub::add_channel(std::uint16_t schema, const std::string& topic,
-                                      const std::string& encoding,
-                                      const record::TextMap& metadata) {
-  const Schema& type = schemas_[schema - 1];
-  const auto id = static_cast<std::uint16_t>(channels_.size() + 1);
-  const bool has_signal =
-      std::ranges::any_of(metadata, [](const auto& entry) { return entry.first == "signal"; });
-  Channel channel{id, topic, encoding, type.name, type.text, metadata};
-  channel.kept = kept_of(type.name, has_signal);
-  if (channel.kept == 0 && is_pose(topic, type.name)) {
+std::uint16_t MessageHub::add_channel(const record::ChannelSpec& spec) {
+  const bool has_signal = spec.metadata.contains("signal");
+  Channel channel{spec};
+  channel.id = static_cast<std::uint16_t>(channels_.size() + 1);
+  channel.kept = kept_of(spec.type, has_signal);
+  if (channel.kept == 0 && is_pose(spec.topic, spec.type)) {
     channel.kept = 1;
     channel.is_kept_for_clients = true;
   }
   channels_.push_back(std::move(channel));
   audiences_.emplace_back();
-  return id;
+  return channels_.back().id;
 }
 
 bool MessageHub::wants(std::uint16_t id) const {

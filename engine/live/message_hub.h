@@ -23,13 +23,8 @@ class Simulation;
 
 namespace vinerow::live {
 
-struct Channel {
+struct Channel : record::ChannelSpec {
   std::uint16_t id = 0;  ///< as in the log of the run, from 1
-  std::string topic;     ///< "/rover/gps"
-  std::string encoding;  ///< "cdr"
-  std::string type;      ///< "sensor_msgs/msg/NavSatFix"
-  std::string schema;    ///< text in the encoding "ros2msg"
-  record::TextMap metadata;
   /// Number of last messages that a new subscriber receives: 0 for what comes often.
   std::size_t kept = 0;
   /// Kept only once somebody has subscribed to anything, because it comes often.
@@ -75,24 +70,17 @@ class MessageHub final : public RunObserver, private record::MessageSink {
   void on_event(Time now, const Event& event) override;
 
  private:
-  std::uint16_t add_schema(const std::string& name, const std::string& encoding,
-                           const std::string& data) override;
-  std::uint16_t add_channel(std::uint16_t schema, const std::string& topic,
-                            const std::string& encoding, const record::TextMap& metadata) override;
+  std::uint16_t add_channel(const record::ChannelSpec& spec) override;
   bool wants(std::uint16_t channel) const override;
   record::ByteBuffer& start_message(std::uint16_t channel, std::uint64_t log_time,
                                     std::uint64_t publish_time) override;
   void end_message() override;
 
-  struct Schema {
-    std::string name, text;
-  };
   struct Audience {
     std::vector<std::shared_ptr<Subscriber>> subscribers;
     std::deque<Message> kept;
   };
 
-  std::vector<Schema> schemas_;
   std::vector<Channel> channels_;
   mutable std::mutex mutex_;
   std::vector<Audience> audiences_;             ///< by channel, guarded by mutex_

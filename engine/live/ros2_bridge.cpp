@@ -90,7 +90,7 @@ class Bridge final : public Ros2Bridge, public RunListener {
     const std::string topic = "/" + port.signal;
     if (commands_.contains(topic)) return;
     std::string type = port.ros_types.front();
-    if (options_.holds_start && port.ros_types.size() > 1) type = port.ros_types[1];
+    if (options_.is_lockstep && port.ros_types.size() > 1) type = port.ros_types[1];
     const std::string definition = command_definition(port.message_type, type);
     commands_[topic] = {topic, type,
                         node_.create_subscription(topic, type, ros2::kDefaultQos,
@@ -129,7 +129,9 @@ class Bridge final : public Ros2Bridge, public RunListener {
       while (command.subscription->take(message)) {
         const std::string refusal = run_.publish(command.topic, command.type, "cdr", message.cdr,
                                                  peer_name(message.writer), say_refusal());
-        if (!refusal.empty() && refusal != command.last_refusal) {
+        // Nodes cannot know that the run is over.
+        const bool is_over = run_.control().snapshot().state == RunState::kOver;
+        if (!refusal.empty() && refusal != command.last_refusal && !is_over) {
           run_.say(RunControl::Level::kError, refusal);
         }
         command.last_refusal = refusal;

@@ -9,10 +9,11 @@
 namespace vinerow::live {
 
 struct Ros2Options {
-  int domain = 0;                      ///< ROS_DOMAIN_ID
+  int domain = 0;                      ///< 0 .. 232
   bool network = false;                ///< false: only programs on this machine see the node
   std::string distribution = "jazzy";  ///< "humble" | "jazzy": forms of messages that differ
-  bool holds_start = false;            ///< in lock-step: wait at time 0 for the commanding node
+  bool is_lockstep = false;  ///< commands carry a stamp: cmd_vel is TwistStamped, otherwise Twist
+  bool holds_start = false;  ///< wait at time 0 until a node commands and reads a topic
 };
 
 /// Whether this program was built with Cyclone DDS.
@@ -23,17 +24,8 @@ class Ros2Bridge {
   virtual ~Ros2Bridge() = default;
 };
 
-/// Joins the domain as node "/vinerow" and takes part in the run.
-///
-/// | topic | type | QoS |
-/// |---|---|---|
-/// | /clock | rosgraph_msgs/msg/Clock | best effort, last 1 |
-/// | /tf, /tf_static | tf2_msgs/msg/TFMessage | reliable, last 100; latched |
-/// | /<vehicle>/<signal> | as in the log, without "/exact" | sensors: best effort, last 5; plans
-/// and maps: latched; others: reliable, last 10 | | /<vehicle>/cmd_vel and others | in: see
-/// command_codec.h | reliable, last 10 | | /vinerow/step_simulation and others |
-/// simulation_interfaces | services |
-///
+/// Joins the domain as node "/vinerow" and takes part in the run. Topics, their QoS and services:
+/// docs/guides/live.md.
 /// @param run  outlives the bridge
 /// @throws ConfigError as ros2::Node, or if the program was built without Cyclone DDS
 std::unique_ptr<Ros2Bridge> make_ros2_bridge(LiveRun& run, const Ros2Options& options);

@@ -1,6 +1,5 @@
 #include "engine/live/ros2_topics.h"
 
-#include <algorithm>
 #include <string_view>
 
 #include "engine/record/ros_definitions.h"
@@ -24,6 +23,12 @@ ros2::Qos qos_of(const std::string& topic, std::string_view type) {
   return type.starts_with("sensor_msgs/") ? ros2::kSensorDataQos : ros2::kDefaultQos;
 }
 
+/// Definition of Range since Iron, which ends with a variance; 0: not known.
+std::string with_variance(std::string definition) {
+  constexpr std::string_view kLast = "float32 range\n";
+  return definition.insert(definition.find(kLast) + kLast.size(), "float32 variance\n");
+}
+
 }  // namespace
 
 Ros2Topics::Ros2Topics(ros2::Node& node, bool is_humble) : node_(node), is_humble_(is_humble) {
@@ -44,39 +49,24 @@ Ros2Topics::Topic* Ros2Topics::topic_of(const std::string& name, const std::stri
 }
 
 void Ros2Topics::begin(const Simulation& simulation) {
-  schemas_.clear();
   channels_.clear();
   // Not make_unique: the base is private.
   signals_.reset(new record::SignalChannels(*this, true));
   run::add_run_channels(simulation, *signals_);
 }
 
-std::uint16_t Ros2Topics::add_schema(const std::string& name, const std::string&,
-                                     const std::string& data) {
-  std::string text = data;
-  // Since Iron, Range ends with a variance; 0: not known.
-  if (name == kRange && !is_humble_) {
-    text.insert(text.find("float32 range\n") + std::string_view("float32 range\n").size(),
-                "float32 variance\n");
-  }
-  schemas_.push_back({name, text});
-  return static_cast<std::uint16_t>(schemas_.size());
-}
-
-std::uint16_t Ros2Topics::add_channel(std::uint16_t id, const std::string& topic,
-                                      const std::string&, const record::TextMap& metadata) {
-  const Schema& schema = schemas_[id - 1];
+std::uint16_t Ros2Topics::add_channel(const record::ChannelSpec& spec) {
   ChannelTopic channel;
   // Exact values are for logs; commands would come back as those of another peer.
-  const bool is_command = std::ranges::any_of(metadata, [](const auto& entry) {
-    return entry.first == "writer" && entry.second == kOutside;
-  });
-  if (!topic.ends_with("/exact") && !is_command) {
+  const bool is_command = spec.metadata.contains("writer");
+  if (!spec.topic.ends_with("/exact") && !is_command) {
     // Listeners of tf take the links of all vehicles from one topic.
-    const bool is_tree = schema.name == "tf2_msgs/msg/TFMessage" && topic != "/tf_static";
-    const std::string name = is_tree ? "/tf" : topic;
-    channel.topic = topic_of(name, schema.name, qos_of(name, schema.name), schema.text);
-    channel.is_range = schema.name == kRange;
+    const bool is_tree = spec.type == "tf2_msgs/msg/TFMessage" && spec.topic != "/tf_static";
+    const std::string name = is_tree ? "/tf" : spec.topic;
+    channel.has_variance = spec.type == kRange && !is_humble_;
+    channel.topic =
+        topic_of(name, spec.type, qos_of(name, spec.type),
+                 channel.has_variance ? with_variance(spec.definition) : spec.definition);
   }
   channels_.push_back(channel);
   return static_cast<std::uint16_t>(channels_.size());
@@ -98,7 +88,7 @@ void Ros2Topics::end_message() {
   const ChannelTopic& channel = channels_[open_channel_ - 1u];
   if (!channel.topic) return;
   // The last field before it is a float32, so it is aligned.
-  if (channel.is_range && !is_humble_) buffer_.add(0.0f);
+  if (channel.has_variance) buffer_.add(0.0f);
   channel.topic->publisher->publish(buffer_.view());
 }
 

@@ -44,29 +44,21 @@ class Ros2Topics final : public RunObserver, private record::MessageSink {
     bool is_latched = false;
   };
   struct ChannelTopic {
-    Topic* topic = nullptr;  ///< null: not published
-    bool is_range = false;   ///< sensor_msgs/Range, whose form differs between distributions
+    Topic* topic = nullptr;     ///< null: not published
+    bool has_variance = false;  ///< sensor_msgs/Range in its form since Iron
   };
 
   Topic* topic_of(const std::string& name, const std::string& type, const ros2::Qos& qos,
                   const std::string& definition);
-  std::uint16_t add_schema(const std::string& name, const std::string& encoding,
-                           const std::string& data) override;
-  std::uint16_t add_channel(std::uint16_t schema, const std::string& topic,
-                            const std::string& encoding, const record::TextMap& metadata) override;
+  std::uint16_t add_channel(const record::ChannelSpec& spec) override;
   bool wants(std::uint16_t channel) const override;
   record::ByteBuffer& start_message(std::uint16_t channel, std::uint64_t log_time,
                                     std::uint64_t publish_time) override;
   void end_message() override;
   void publish_clock(Time now);
 
-  struct Schema {
-    std::string name, text;
-  };
-
   ros2::Node& node_;
   const bool is_humble_;
-  std::vector<Schema> schemas_;
   std::vector<ChannelTopic> channels_;  ///< by channel id - 1
   std::map<std::string, std::unique_ptr<Topic>> topics_;
   std::unique_ptr<record::SignalChannels> signals_;

@@ -128,6 +128,7 @@ void RunControl::stop(const std::string& reason) {
 std::string RunControl::submit(PeerCommand command) {
   const Lock lock(mutex_);
   const std::string signal = command.command.value->name();
+  if (snapshot_.state == RunState::kStarting) return "the run has not begun";
   if (snapshot_.state == RunState::kOver) return "the run is over";
   if (std::ranges::find(signals_, signal) == signals_.end()) {
     if (signals_.empty()) return "no part of this run takes commands from outside";

@@ -38,6 +38,17 @@ constexpr seconds kRequestTimeout{10};
 constexpr std::size_t kMostClients = 100;
 constexpr std::size_t kLongestMessage = 4 << 20;  // of a client
 
+/// 128 random bits of the system as text.
+std::string make_token() {
+  std::array<unsigned char, 16> bytes{};
+  if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) {
+    throw ConfigError("the system gives no random numbers for a token");
+  }
+  std::string token;
+  for (const unsigned char byte : bytes) token += fmt::format("{:02x}", byte);
+  return token;
+}
+
 using Request = http::request<http::string_body>;
 using Response = http::response<http::string_body>;
 
@@ -48,12 +59,29 @@ struct Shared {
   asio::io_context& io;
   std::string token;
   std::string session_id;
+  std::function<std::vector<WebFile>()>
+      make_page;            ///< empty: the run is being built, or it is called
+  std::thread page_thread;  ///< runs make_page
   std::map<std::string, std::shared_ptr<const WebFile>> files;
   std::map<int, std::shared_ptr<class Connection>> clients;
   int next_client = 1;
   std::atomic<int> client_count = 0;  ///< from any thread
   bool is_closing = false;
 };
+
+/// Makes the page in a thread of its own, unless it is being made, or there is no run yet.
+void make_page(Shared& shared) {
+  if (!shared.make_page) return;
+  shared.page_thread = std::thread([&shared, make = std::exchange(shared.make_page, nullptr)] {
+    auto files = std::make_shared<std::vector<WebFile>>(make());
+    asio::post(shared.io, [&shared, files] {
+      for (WebFile& file : *files) {
+        const std::string path = file.path;
+        shared.files.emplace(path, std::make_shared<const WebFile>(std::move(file)));
+      }
+    });
+  });
+}
 
 /// One client on a WebSocket.
 class Connection final : public std::enable_shared_from_this<Connection> {
@@ -224,11 +252,13 @@ class HttpConnection final : public std::enable_shared_from_this<HttpConnection>
     if (request.method() != http::verb::get && request.method() != http::verb::head) {
       return send(request, http::status::method_not_allowed, "Only GET is possible.\n");
     }
-    if (shared_.files.empty() && path == "/") {
+    if (shared_.files.empty()) {
+      make_page(shared_);
+      // A browser asks again after a second.
       return send(request, http::status::service_unavailable,
                   "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
                   "<meta http-equiv=\"refresh\" content=\"1\"><title>Vinerow live</title></head>"
-                  "<body><p>The run is being built.</p></body></html>\n",
+                  "<body><p>The page is being made.</p></body></html>\n",
                   "text/html; charset=utf-8");
     }
     const auto file = shared_.files.find(path);
@@ -299,11 +329,8 @@ struct WebServer::Impl {
           "--live-host = '{}', must be an address of this machine: 127.0.0.1, or 0.0.0.0 for all",
           options.host));
     }
-    if (!address.is_loopback() && options.token.empty()) {
-      throw ConfigError(fmt::format(
-          "--live-host = '{}' is open to other machines, so it needs a token", options.host));
-    }
     is_local = address.is_loopback();
+    if (!is_local && shared.token.empty()) shared.token = make_token();
     const tcp::endpoint endpoint(address, options.port);
     acceptor.open(endpoint.protocol(), error);
     if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
@@ -390,6 +417,7 @@ WebServer::~WebServer() {
   }
   impl.io.stop();
   impl.thread.join();
+  if (impl.shared.page_thread.joinable()) impl.shared.page_thread.join();
   // Connections refer to the shared state.
   for (const auto& [id, connection] : std::exchange(impl.shared.clients, {})) {
     connection->client().leave();
@@ -412,13 +440,9 @@ int WebServer::clients() const {
   return impl_->shared.client_count;
 }
 
-void WebServer::set_files(std::vector<WebFile> files) {
-  asio::post(impl_->io, [impl = impl_.get(), files = std::move(files)]() mutable {
-    impl->shared.files.clear();
-    for (WebFile& file : files) {
-      std::string path = file.path;
-      impl->shared.files.emplace(std::move(path), std::make_shared<const WebFile>(std::move(file)));
-    }
+void WebServer::set_page(std::function<std::vector<WebFile>()> make) {
+  asio::post(impl_->io, [impl = impl_.get(), make = std::move(make)]() mutable {
+    impl->shared.make_page = std::move(make);
   });
 }
 
@@ -436,16 +460,6 @@ void WebServer::on_status(RunControl::Level level, const std::string& sentence) 
   asio::post(impl_->io, [impl = impl_.get(), level, sentence] {
     impl->for_each_client([&](FoxgloveClient& client) { client.send_status(level, sentence); });
   });
-}
-
-std::string make_token() {
-  std::array<unsigned char, 16> bytes{};
-  if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) {
-    throw ConfigError("the system gives no random numbers for a token");
-  }
-  std::string token;
-  for (const unsigned char byte : bytes) token += fmt::format("{:02x}", byte);
-  return token;
 }
 
 }  // namespace vinerow::live

@@ -4,6 +4,7 @@
 /// It has one thread, never waits for the run, and the run never waits for it.
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,15 +24,15 @@ struct WebFile {
 struct ServerOptions {
   std::string host = "127.0.0.1";  ///< address to listen on
   std::uint16_t port = 8765;       ///< 0 = any free one
-  /// Clients must give it (?token=...). Needed unless the address is of this machine alone.
+  /// Clients must give it (?token=...). If it is empty and other machines can reach the address,
+  /// the server makes one.
   std::string token;
 };
 
 class WebServer final : public RunListener {
  public:
   /// Listens from now on. @param run  outlives this object
-  /// @throws ConfigError if the address is not valid or not of this machine, if the port is in use,
-  ///   or if a token is missing
+  /// @throws ConfigError if the address is not valid or not of this machine, or the port is in use
   WebServer(LiveRun& run, const ServerOptions& options);
   /// Sends what waits for at most a second, and closes all connections.
   ~WebServer() override;
@@ -42,8 +43,9 @@ class WebServer final : public RunListener {
   /// Connected clients.
   int clients() const;
 
-  /// From any thread.
-  void set_files(std::vector<WebFile> files);
+  /// @param make  makes the files of the page when the first browser asks for one, in a thread of
+  ///   its own while the run goes on; once. From any thread
+  void set_page(std::function<std::vector<WebFile>()> make);
 
   void on_begin(Simulation& simulation) override;
   void on_end() override;
@@ -53,8 +55,5 @@ class WebServer final : public RunListener {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-
-/// 128 random bits of the system as text.
-std::string make_token();
 
 }  // namespace vinerow::live

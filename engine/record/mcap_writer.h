@@ -17,11 +17,10 @@
 #include "engine/record/byte_buffer.h"
 #include "engine/record/compression.h"
 #include "engine/record/mcap_format.h"
-#include "engine/record/message_sink.h"
 
 namespace vinerow::record {
 
-class McapWriter final : public MessageSink {
+class McapWriter {
  public:
   /// @throws ConfigError, WriteError when the file cannot be created or the compression is unknown
   McapWriter(const std::filesystem::path& file, const std::string& compression,
@@ -30,17 +29,20 @@ class McapWriter final : public MessageSink {
   McapWriter& operator=(const McapWriter&) = delete;
 
   void add_metadata(const std::string& name, const TextMap& values);
+  /// @returns id >= 1
   std::uint16_t add_schema(const std::string& name, const std::string& encoding,
-                           const std::string& data) override;
+                           const std::string& data);
+  /// @returns id >= 1
   std::uint16_t add_channel(std::uint16_t schema, const std::string& topic,
-                            const std::string& encoding, const TextMap& metadata) override;
+                            const std::string& encoding, const TextMap& metadata);
   /// Closes the open chunk first, so that the file's order is the order of the calls.
   void add_attachment(const std::string& name, const std::string& media_type,
                       std::string_view content);
 
+  /// Starts a message; add its bytes to the returned buffer, then call end_message().
   ByteBuffer& start_message(std::uint16_t channel, std::uint64_t log_time,
-                            std::uint64_t publish_time) override;
-  void end_message() override;
+                            std::uint64_t publish_time);
+  void end_message();
 
   /// Bytes in the open chunk, before compression.
   std::size_t open_bytes() const { return chunk_.size(); }

@@ -9,15 +9,19 @@
 
 namespace vinerow::record {
 
+/// A channel of CDR-encoded ROS 2 messages.
+struct ChannelSpec {
+  std::string topic;       ///< "/rover/gps"
+  std::string type;        ///< "sensor_msgs/msg/NavSatFix"
+  std::string definition;  ///< text in the encoding "ros2msg"
+  TextMap metadata;        ///< as in ChannelInfo (log_reader.h)
+};
+
 class MessageSink {
  public:
   virtual ~MessageSink() = default;
   /// @returns id >= 1
-  virtual std::uint16_t add_schema(const std::string& name, const std::string& encoding,
-                                   const std::string& data) = 0;
-  /// @returns id >= 1
-  virtual std::uint16_t add_channel(std::uint16_t schema, const std::string& topic,
-                                    const std::string& encoding, const TextMap& metadata) = 0;
+  virtual std::uint16_t add_channel(const ChannelSpec& channel) = 0;
   /// False if nobody would receive a message of this channel now: it is then not encoded.
   virtual bool wants(std::uint16_t /*channel*/) const { return true; }
   /// Starts a message; add its bytes to the returned buffer, then call end_message().

@@ -2,6 +2,7 @@
 
 #include <vinerow/version.h>
 #include <chrono>
+#include <map>
 #include <utility>
 
 #include "engine/core/error.h"
@@ -11,6 +12,28 @@ namespace vinerow::record {
 
 using WallClock = std::chrono::steady_clock;
 
+/// Channels and messages as MCAP has them: a channel refers to a schema.
+class McapSink final : public MessageSink {
+ public:
+  explicit McapSink(McapWriter& writer) : writer_(writer) {}
+
+  std::uint16_t add_channel(const ChannelSpec& channel) override {
+    // Two plug-ins may use one name for different definitions.
+    std::uint16_t& schema = schemas_[{channel.type, channel.definition}];
+    if (schema == 0) schema = writer_.add_schema(channel.type, "ros2msg", channel.definition);
+    return writer_.add_channel(schema, channel.topic, "cdr", channel.metadata);
+  }
+  ByteBuffer& start_message(std::uint16_t channel, std::uint64_t log_time,
+                            std::uint64_t publish_time) override {
+    return writer_.start_message(channel, log_time, publish_time);
+  }
+  void end_message() override { writer_.end_message(); }
+
+ private:
+  McapWriter& writer_;
+  std::map<std::pair<std::string, std::string>, std::uint16_t> schemas_;  ///< type, definition
+};
+
 struct Recorder::Impl {
   Impl(const std::filesystem::path& file, const RecorderOptions& options)
       : path(file),
@@ -19,7 +42,8 @@ struct Recorder::Impl {
             std::chrono::duration<double>(options.flush_wall_s))),
         writer(file, options.compression, options.chunk_bytes, "ros2",
                "vinerow " VINEROW_VERSION_STRING),
-        channels(writer, options.compact_poses) {}
+        sink(writer),
+        channels(sink, options.compact_poses) {}
 
   void throw_on_failure(Time now) {
     if (failed || writer.failure().empty()) return;
@@ -32,6 +56,7 @@ struct Recorder::Impl {
   std::size_t chunk_bytes;
   WallClock::duration flush_period;
   McapWriter writer;
+  McapSink sink;
   SignalChannels channels;
   WallClock::time_point last_flush = WallClock::now();
   Time last_now;

@@ -1,6 +1,5 @@
 #include "engine/record/signal_channels.h"
 
-#include <map>
 #include <utility>
 
 #include "engine/api/messages.h"
@@ -82,22 +81,11 @@ constexpr const char* kLatchedQos =
 }  // namespace
 
 struct SignalChannels::Impl {
-  std::uint16_t schema_id(const std::string& type, const std::string& definition) {
-    // Two plug-ins may use one name for different definitions.
-    const std::pair key(type, definition);
-    const auto found = schema_ids.find(key);
-    if (found != schema_ids.end()) return found->second;
-    const std::uint16_t id = sink.add_schema(type, "ros2msg", definition);
-    schema_ids.emplace(key, id);
-    return id;
-  }
-
   /// Adds a channel with one message at time 0.
   template <class F>
   void add_once(const std::string& topic, const std::string& type, const F& write) {
-    const std::uint16_t channel =
-        sink.add_channel(schema_id(type, full_ros_definition(type)), topic, "cdr",
-                         {{"offered_qos_profiles", kLatchedQos}});
+    const std::uint16_t channel = sink.add_channel(
+        {topic, type, full_ros_definition(type), {{"offered_qos_profiles", kLatchedQos}}});
     CdrWriter out(sink.start_message(channel, 0, 0));
     write(out);
     sink.end_message();
@@ -115,8 +103,8 @@ struct SignalChannels::Impl {
     } else {
       metadata["exact_of"] = "/" + signal.name();
     }
-    return sink.add_channel(schema_id(type, definition), "/" + signal.name() + std::string(suffix),
-                            "cdr", metadata);
+    return sink.add_channel(
+        {"/" + signal.name() + std::string(suffix), type, definition, std::move(metadata)});
   }
 
   template <class T>
@@ -160,12 +148,11 @@ struct SignalChannels::Impl {
 
   MessageSink& sink;
   bool compact_poses = true;
-  std::map<std::pair<std::string, std::string>, std::uint16_t> schema_ids;  ///< type, definition
   std::vector<RecordedSignal> entries;
 };
 
 SignalChannels::SignalChannels(MessageSink& sink, bool compact_poses)
-    : impl_(new Impl{sink, compact_poses, {}, {}}) {}
+    : impl_(new Impl{sink, compact_poses, {}}) {}
 
 SignalChannels::~SignalChannels() = default;
 

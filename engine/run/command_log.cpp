@@ -77,13 +77,14 @@ void CommandReplay::begin(Session& session) {
   std::ranges::sort(own);
   std::ranges::sort(logged);
   if (own == logged) return;
-  const auto named = [](const std::vector<std::string>& names) {
-    return names.empty() ? std::string("none") : join(names);
+  const auto taken = [](const std::vector<std::string>& names) {
+    return names.empty() ? std::string("no commands from outside")
+                         : fmt::format("commands for {}", join(names));
   };
   throw ConfigError(fmt::format(
-      "{}: its run had the signals {} from outside, this scenario has {}: replay the commands with "
-      "the scenario that the log contains",
-      log_.file.string(), named(logged), named(own)));
+      "{}: its run took {}, this scenario takes {}: replay the commands with the scenario that the "
+      "log contains",
+      log_.file.string(), taken(logged), taken(own)));
 }
 
 RunDriver::Next CommandReplay::next(Session& session, Time slice_end) {

@@ -33,7 +33,7 @@ class LivePage : public ::testing::Test {
 
   std::map<std::string, live::WebFile> files_of(const Simulation& simulation) const {
     std::map<std::string, live::WebFile> files;
-    for (live::WebFile& file : live_page_files(simulation, registry_)) {
+    for (live::WebFile& file : live_page(simulation, registry_)()) {
       const std::string path = file.path;
       EXPECT_TRUE(files.emplace(path, std::move(file)).second) << path << " is there twice";
     }

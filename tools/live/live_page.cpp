@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "engine/core/error.h"
 #include "engine/playback/run_frames.h"
 #include "engine/sim/simulation.h"
 #include "engine/sim/vehicle_runtime.h"
@@ -73,23 +74,31 @@ playback::LogTrace present_poses(const Simulation& simulation) {
   return trace;
 }
 
+/// What the page needs of a run, independent of it.
+struct PageInput {
+  scenario::Scenario scenario;
+  std::shared_ptr<const WorldModel> world;
+  playback::LogTrace trace;  ///< poses when the run begins
+};
+
 /// Vehicles of the index: of a track only what does not change with time.
-json live_vehicles(const Simulation& simulation, json tracks) {
+json live_vehicles(const PageInput& run,
+                   const std::vector<std::unique_ptr<Vehicle>>& vehicles_of_run, json tracks) {
   json vehicles = json::array();
   for (const json& track : tracks) {
-    const auto& runtime = simulation.vehicles().at(track.at("index").get<std::size_t>());
+    const auto index = track.at("index").get<std::size_t>();
+    const Pose& X_WB =
+        run.trace.vehicles.at(run.scenario.vehicles.at(index).name).truth.values.front().X_WB;
     json& vehicle = vehicles.emplace_back();
     for (const char* key :
          {"name", "type", "index", "colour", "flies", "foot_m", "size_m", "top_m"}) {
       vehicle[key] = track.at(key);
     }
-    Odometry truth;
-    runtime->vehicle().read_truth(truth);
-    const Eigen::Vector3d& p = truth.X_WB.p;
-    const Eigen::Quaterniond& q = truth.X_WB.q;
+    const Eigen::Vector3d& p = X_WB.p;
+    const Eigen::Quaterniond& q = X_WB.q;
     vehicle["pose"] = {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()};
-    if (const auto& most = runtime->vehicle().description().max_speed_mps) {
-      vehicle["max_speed_mps"] = *most;
+    if (const auto& limit = vehicles_of_run.at(index)->description().max_speed_mps) {
+      vehicle["max_speed_mps"] = *limit;
     }
     for (const json& link : track.at("links")) {
       vehicle["links"].push_back({{"name", link.at("name")}, {"pose", link.at("pose")}});
@@ -103,26 +112,25 @@ live::WebFile file_of(std::string path, const char* media_type, std::string_view
   return {std::move(path), media_type, std::string(bytes)};
 }
 
-}  // namespace
+/// A page without picture.
+std::vector<live::WebFile> absent_page(const std::string& reason) {
+  return {file_of(
+      "/", kHtml,
+      page_head("Vinerow live", "") +
+          fmt::format("<p>There is no page: {}.</p>\n</body>\n</html>\n", escaped(reason)))};
+}
 
-std::vector<live::WebFile> live_page_files(const Simulation& simulation, const Registry& registry) {
-  if (!has_replay()) {
-    return {file_of("/", kHtml,
-                    page_head("Vinerow live", "") + fmt::format("<p>There is no page: {}.</p>\n"
-                                                                "</body>\n</html>\n",
-                                                                escaped(replay_absence())))};
-  }
+std::vector<live::WebFile> page_files(const PageInput& run, const Registry& registry) {
   const std::vector<std::unique_ptr<Vehicle>> vehicles =
-      playback::vehicles_of_scenario(simulation.scenario(), registry);
-  const playback::LogTrace trace = present_poses(simulation);
-  const ReplayInput input{&simulation.scenario(), &simulation.world(), &vehicles, &trace, {}};
+      playback::vehicles_of_scenario(run.scenario, registry);
+  const ReplayInput input{&run.scenario, run.world.get(), &vehicles, &run.trace, {}};
   const ReplayLimits limits;
   ReplayScene scene = make_replay_scene(input, limits);
   ReplayTracks tracks = make_replay_tracks(input, limits);
-  ReplayTextures textures = make_replay_textures(simulation.world().daylight);
+  ReplayTextures textures = make_replay_textures(run.world->daylight);
 
-  json index = replay_index(simulation.scenario().name, simulation.world(), textures);
-  index["vehicles"] = live_vehicles(simulation, std::move(tracks.index["vehicles"]));
+  json index = replay_index(run.scenario.name, *run.world, textures);
+  index["vehicles"] = live_vehicles(run, vehicles, std::move(tracks.index["vehicles"]));
   index["notes"] = scene.notes;
 
   std::vector<live::WebFile> files = {
@@ -142,6 +150,23 @@ std::vector<live::WebFile> live_page_files(const Simulation& simulation, const R
   files.push_back({"/scene.glb", "model/gltf-binary", std::move(scene.glb)});
   files.push_back({"/textures.bin", "application/octet-stream", std::move(textures.bytes)});
   return files;
+}
+
+}  // namespace
+
+std::function<std::vector<live::WebFile>()> live_page(const Simulation& simulation,
+                                                      const Registry& registry) {
+  auto run = std::make_shared<const PageInput>(
+      PageInput{simulation.scenario(), simulation.built_world().model, present_poses(simulation)});
+  return [run, &registry] {
+    if (!has_replay()) return absent_page(replay_absence());
+    try {
+      return page_files(*run, registry);
+    } catch (const ConfigError& error) {
+      // A file of a vehicle may have changed since the run began, which must not end the run.
+      return absent_page(error.what());
+    }
+  };
 }
 
 }  // namespace vinerow::tools

@@ -3,14 +3,13 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/api/registry.h"
-#include "engine/live/ros2_bridge.h"
 #include "engine/run/run.h"
 #include "engine/scenario/scenario.h"
+#include "tools/vinerow/run_peers.h"
 
 namespace vinerow::tools {
 
@@ -47,26 +46,11 @@ struct ScenarioArguments {
 void add_scenario_arguments(CLI::App& command, ScenarioArguments& arguments,
                             const std::string& set_example);
 
-/// Peers and speed of a run.
-struct LiveChoice {
-  bool serve = false;  ///< a server for browsers and Foxglove
-  std::string host = "127.0.0.1";
-  int port = 8765;
-  std::string token;
-  bool ros2 = false;
-  live::Ros2Options ros2_options;
-  bool paused = false;
-  std::optional<double> speed;  ///< simulated seconds per second; 0 = as fast as possible
-
-  bool is_wanted() const { return serve || ros2 || paused || speed.has_value(); }
-};
-
 /// Selection of the output of `vinerow run`.
 struct RunChoice {
   std::filesystem::path out;  ///< empty: runs/<scenario name>
   bool no_log = false, no_pictures = false, no_report = false, quiet = false;
-  std::filesystem::path replay_commands;  ///< log whose commands are repeated; empty: none
-  LiveChoice live;
+  PeerChoice peers;
 };
 /// Runs a scenario like `vinerow run`: progress, verdict, pictures, report. @returns the exit
 /// status

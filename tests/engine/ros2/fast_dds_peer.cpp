@@ -8,10 +8,11 @@
 /// fast_dds_peer DOMAIN latched      reads rt/map reliably and transient local, prints "map ..."
 /// fast_dds_peer DOMAIN call         calls rq/rover/enableRequest (SetBool) as a client of
 ///                                   rmw_cyclonedds_cpp does, prints "reply <client> <count> ..."
+/// fast_dds_peer DOMAIN state        calls rq/vinerow/get_simulation_stateRequest likewise, prints
+///                                   "state <state> <result>"
 /// fast_dds_peer DOMAIN drive <us>   drives straight on in lock-step at 20 Hz: answers each
-/// Odometry
-///                                   on rt/rover/truth with the command for 50 ms later, after a
-///                                   delay; prints "drove <commands>" every 100 commands
+///                                   Odometry on rt/rover/truth with the command for 50 ms later,
+///                                   after a delay; prints "drove <commands>" every 100 commands
 /// All print discovered writers ("writer <topic> <type> <user data>") and nodes ("node <full name>
 /// <readers> <writers>"). They end when standard input does.
 
@@ -305,6 +306,33 @@ void call(Peer& peer) {
   }
 }
 
+/// As call(), of a service without fields in its request.
+void ask_state(Peer& peer) {
+  constexpr const char* kClient = "clientid=1.2.4;";
+  static std::atomic<bool> answered = false;
+  dds::DataWriter* const requests =
+      peer.write("rq/vinerow/get_simulation_stateRequest",
+                 "simulation_interfaces::srv::dds_::GetSimulationState_Request_", kClient);
+  peer.read(
+      "rr/vinerow/get_simulation_stateReply",
+      "simulation_interfaces::srv::dds_::GetSimulationState_Response_", {true, false},
+      [](Bytes& reply) {
+        std::uint64_t client = 0;
+        std::int64_t count = 0;
+        std::uint8_t state = 0, result = 0;
+        read_into(reply, client, count, state, result);
+        if (answered.exchange(true)) return;
+        std::printf("state %d %d\n", state, result);
+        std::fflush(stdout);
+      },
+      kClient);
+  Bytes request = Message().add(std::uint64_t{7}).add(std::int64_t{1}).add(std::uint8_t{0}).bytes();
+  while (!answered) {
+    requests->write(&request);
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -332,6 +360,8 @@ int main(int argc, char** argv) {
     drive(peer, argc > 3 ? std::atoi(argv[3]) : 0);
   } else if (mode == "call") {
     call(peer);
+  } else if (mode == "state") {
+    ask_state(peer);
   }
   for (std::string line; std::getline(std::cin, line);) {
   }

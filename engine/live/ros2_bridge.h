@@ -1,6 +1,7 @@
 #pragma once
 /// A live run as a ROS 2 node: topics, commands and services (engine/ros2).
 
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -14,6 +15,7 @@ struct Ros2Options {
   std::string distribution = "jazzy";  ///< "humble" | "jazzy": forms of messages that differ
   bool is_lockstep = false;  ///< commands carry a stamp: cmd_vel is TwistStamped, otherwise Twist
   bool holds_start = false;  ///< wait at time 0 until a node commands and reads a topic
+  std::filesystem::path out = {};  ///< of the run's files, for meshes; empty: none are written
 };
 
 /// Whether this program was built with Cyclone DDS.

@@ -1,16 +1,29 @@
 #include "engine/live/ros2_topics.h"
 
 #include <string_view>
+#include <utility>
 
+#include "engine/live/robot_description.h"
 #include "engine/record/ros_definitions.h"
 #include "engine/record/ros_fields.h"
 #include "engine/ros2/type_hash.h"
 #include "engine/run/run_channels.h"
+#include "engine/sim/simulation.h"
+#include "engine/sim/vehicle_runtime.h"
 
 namespace vinerow::live {
 namespace {
 
 constexpr std::string_view kRange = "sensor_msgs/msg/Range";
+
+/// Topic of a channel of the log.
+std::string topic_of_channel(const record::ChannelSpec& spec) {
+  // Listeners of tf take the links of all vehicles from one topic.
+  if (spec.type == "tf2_msgs/msg/TFMessage" && spec.topic != "/tf_static") return "/tf";
+  // Nav2 and RViz look for the map there.
+  if (spec.topic == "/run/map") return "/map";
+  return spec.topic;
+}
 
 /// As other drivers and simulators publish it.
 ros2::Qos qos_of(const std::string& topic, std::string_view type) {
@@ -31,7 +44,8 @@ std::string with_variance(std::string definition) {
 
 }  // namespace
 
-Ros2Topics::Ros2Topics(ros2::Node& node, bool is_humble) : node_(node), is_humble_(is_humble) {
+Ros2Topics::Ros2Topics(ros2::Node& node, bool is_humble, std::filesystem::path out)
+    : node_(node), is_humble_(is_humble), out_(std::move(out)) {
   const std::string type = "rosgraph_msgs/msg/Clock";
   clock_ = topic_of("/clock", type, ros2::kClockQos, record::full_ros_definition(type));
 }
@@ -53,6 +67,19 @@ void Ros2Topics::begin(const Simulation& simulation) {
   // Not make_unique: the base is private.
   signals_.reset(new record::SignalChannels(*this, true));
   run::add_run_channels(simulation, *signals_);
+  publish_descriptions(simulation);
+}
+
+void Ros2Topics::publish_descriptions(const Simulation& simulation) {
+  for (const auto& vehicle : simulation.vehicles()) {
+    Topic* topic = topic_of("/" + vehicle->name() + "/robot_description", "std_msgs/msg/String",
+                            ros2::kLatchedQos, "string data\n");
+    const std::string text = describe_robot(vehicle->name(), vehicle->vehicle(), out_);
+    buffer_.clear();
+    record::CdrWriter out(buffer_);
+    out.add(std::string_view(text));
+    topic->publisher->publish(buffer_.view());
+  }
 }
 
 std::uint16_t Ros2Topics::add_channel(const record::ChannelSpec& spec) {
@@ -60,9 +87,7 @@ std::uint16_t Ros2Topics::add_channel(const record::ChannelSpec& spec) {
   // Exact values are for logs; commands would come back as those of another peer.
   const bool is_command = spec.metadata.contains("writer");
   if (!spec.topic.ends_with("/exact") && !is_command) {
-    // Listeners of tf take the links of all vehicles from one topic.
-    const bool is_tree = spec.type == "tf2_msgs/msg/TFMessage" && spec.topic != "/tf_static";
-    const std::string name = is_tree ? "/tf" : spec.topic;
+    const std::string name = topic_of_channel(spec);
     channel.has_variance = spec.type == kRange && !is_humble_;
     channel.topic =
         topic_of(name, spec.type, qos_of(name, spec.type),

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
@@ -19,14 +20,16 @@ class Simulation;
 
 namespace vinerow::live {
 
-/// Publishes what the log of the run would contain, but no commands; and /clock and /tf. Publishers
-/// stay over restarts.
+/// Publishes what the log of the run would contain, but no commands; and /clock, /tf and the
+/// descriptions of the vehicles. Publishers stay over restarts.
 class Ros2Topics final : public RunObserver, private record::MessageSink {
  public:
   /// @param node  outlives this object
-  Ros2Topics(ros2::Node& node, bool is_humble);
+  /// @param out  as describe_robot()
+  Ros2Topics(ros2::Node& node, bool is_humble, std::filesystem::path out);
 
   /// Another run begins. From the run's thread, like the functions of the observer.
+  /// @throws as describe_robot()
   void begin(const Simulation& simulation);
   void on_instant(Time now) override;
   void on_event(Time now, const Event& event) override;
@@ -56,9 +59,11 @@ class Ros2Topics final : public RunObserver, private record::MessageSink {
                                     std::uint64_t publish_time) override;
   void end_message() override;
   void publish_clock(Time now);
+  void publish_descriptions(const Simulation& simulation);
 
   ros2::Node& node_;
   const bool is_humble_;
+  const std::filesystem::path out_;
   std::vector<ChannelTopic> channels_;  ///< by channel id - 1
   std::map<std::string, std::unique_ptr<Topic>> topics_;
   std::unique_ptr<record::SignalChannels> signals_;

@@ -103,7 +103,7 @@ void clear_earlier_run(const std::filesystem::path& folder) {
   std::error_code ignored;
   std::vector<std::filesystem::path> earlier;
   for (const char* name : {"log.mcap", "report.html", "replay.html", "frames", "canopy",
-                           "summary.json", "junit.xml"}) {
+                           "robot_description", "summary.json", "junit.xml"}) {
     earlier.push_back(folder / name);
   }
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {

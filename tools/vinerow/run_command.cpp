@@ -108,7 +108,7 @@ run::RunStatus run_and_report(const scenario::Scenario& scenario, const Registry
   options.log = !choice.no_log;
   options.pictures = !choice.no_pictures;
   ProgressLine line(choice.quiet);
-  RunPeers peers(scenario, registry, choice.peers, line);
+  RunPeers peers(scenario, registry, choice.peers, options.out, line);
   options.driver = peers.driver();
   watch_for_interrupt();
   const bool with_log = options.log && scenario.record.enabled;

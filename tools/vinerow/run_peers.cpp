@@ -119,19 +119,20 @@ void complete_peer_options(PeerChoice& choice) {
 }
 
 RunPeers::RunPeers(const scenario::Scenario& scenario, const Registry& registry,
-                   const PeerChoice& choice, ProgressLine& line) {
+                   const PeerChoice& choice, const std::filesystem::path& out, ProgressLine& line) {
   check_lockstep(scenario, choice);
   if (choice.replays()) {
     replay_ = std::make_shared<run::CommandReplay>(run::read_command_log(choice.replay_commands));
   } else if (choice.has_peers() || choice.speed) {
-    start(scenario, registry, choice, line);
+    start(scenario, registry, choice, out, line);
   }
 }
 
 RunPeers::~RunPeers() = default;
 
 void RunPeers::start(const scenario::Scenario& scenario, const Registry& registry,
-                     const PeerChoice& choice, ProgressLine& line) {
+                     const PeerChoice& choice, const std::filesystem::path& out,
+                     ProgressLine& line) {
   const bool is_lockstep = !scenario.lockstep.signal.empty();
   live::ControlOptions control;
   if (is_lockstep) control.lockstep = scenario.lockstep;
@@ -146,6 +147,7 @@ void RunPeers::start(const scenario::Scenario& scenario, const Registry& registr
   if (choice.ros2) {
     live::Ros2Options options = choice.ros2_node;
     options.is_lockstep = is_lockstep;
+    options.out = out;
     // With a browser, a person decides when the run begins.
     options.holds_start = is_lockstep && !choice.live;
     ros2_ = live::make_ros2_bridge(*run_, options);

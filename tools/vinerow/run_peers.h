@@ -39,10 +39,11 @@ void complete_peer_options(PeerChoice& choice);
 /// What accompanies a run.
 class RunPeers {
  public:
-  /// Starts servers and prints their addresses. @param line  outlives this object
+  /// Starts servers and prints their addresses.
+  /// @param out  folder of the run's files  @param line  outlives this object
   /// @throws ConfigError if the scenario needs a peer and there is none, or a server does not start
   RunPeers(const scenario::Scenario& scenario, const Registry& registry, const PeerChoice& choice,
-           ProgressLine& line);
+           const std::filesystem::path& out, ProgressLine& line);
   ~RunPeers();
 
   /// May be null.
@@ -54,7 +55,7 @@ class RunPeers {
 
  private:
   void start(const scenario::Scenario& scenario, const Registry& registry, const PeerChoice& choice,
-             ProgressLine& line);
+             const std::filesystem::path& out, ProgressLine& line);
 
   std::shared_ptr<run::CommandReplay> replay_;
   // Servers refer to the run, so they are destroyed first.

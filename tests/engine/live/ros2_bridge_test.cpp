@@ -6,8 +6,10 @@
 
 #include <limits>
 
+#include "engine/api/map.h"
 #include "engine/live/ros2_bridge.h"
 #include "engine/run/command_log.h"
+#include "engine/sim/simulation.h"
 #include "tests/engine/live/live_support.h"
 #include "tests/engine/ros2/peer_process.h"
 #include "tests/engine/ros2/test_messages.h"
@@ -116,6 +118,80 @@ TEST(Ros2Bridge, PublishesTheClockAndWhatALateNodeNeeds) {
     return imu->take(message);
   });
   EXPECT_EQ(echo->publisher_count(), 0) << "commands are not published again";
+}
+
+/// What a nav_msgs/msg/OccupancyGrid has of a point of its frame, by the definition of the message:
+/// row after row, cells of a row along x, from the origin on.
+struct RosGrid {
+  explicit RosGrid(const std::vector<std::uint8_t>& cdr) {
+    record::CdrReader in(cdr);
+    for (int i = 0; i < 2; ++i) in.read<std::uint32_t>();
+    frame = in.read_text();
+    for (int i = 0; i < 2; ++i) in.read<std::uint32_t>();
+    resolution = in.read<float>();
+    width = in.read<std::uint32_t>();
+    height = in.read<std::uint32_t>();
+    in.read_doubles(origin, 7);
+    data.resize(in.read_count(1));
+    in.read_octets(data.data(), data.size());
+    is_sound = in.ok() && data.size() == std::size_t{width} * height;
+  }
+  int at(double x_m, double y_m) const {
+    const auto i = static_cast<std::size_t>((x_m - origin[0]) / resolution);
+    const auto j = static_cast<std::size_t>((y_m - origin[1]) / resolution);
+    return data.at(i + j * width);
+  }
+
+  std::string frame;
+  double resolution = 0.0;
+  double origin[7] = {};
+  std::uint32_t width = 0, height = 0;
+  std::vector<std::uint8_t> data;
+  bool is_sound = false;
+};
+
+TEST(Ros2Bridge, ALateNodeReceivesMapAndDescription) {
+  const test::ScratchFolder out("ros2_description");
+  test::BackgroundRun run(test::remote_rover(), {.speed = 0.0, .paused = true}, out.path(),
+                          [&](LiveRun& live) -> std::shared_ptr<void> {
+                            return make_ros2_bridge(
+                                live, {.domain = ros2::test_domain(), .out = out.path()});
+                          });
+  run.await_state(RunState::kPaused);
+  EXPECT_EQ(test::answer_of([&](Answer answer) { run.control().step(20, answer); }), "");
+
+  ros2::Node node(peer_options());
+  const auto text = node.create_subscription("/rover/robot_description", "std_msgs/msg/String",
+                                             ros2::kLatchedQos, "");
+  const auto map =
+      node.create_subscription("/map", "nav_msgs/msg/OccupancyGrid", ros2::kLatchedQos, "");
+  const auto logged =
+      node.create_subscription("/run/map", "nav_msgs/msg/OccupancyGrid", ros2::kLatchedQos, "");
+  ros2::Message message;
+  run.await([&] { return text->take(message); });
+  record::CdrReader in(message.cdr);
+  const std::string urdf(in.read_text());
+  EXPECT_TRUE(in.ok());
+  EXPECT_LT(in.remaining(), 4u) << "DDS pads";
+  EXPECT_EQ(urdf, test::read_text(out.path() / "robot_description" / "rover.urdf"));
+  EXPECT_THAT(urdf, HasSubstr("<link name=\"base_link\"/>"));
+  EXPECT_THAT(urdf, HasSubstr("robot_description/rover/wheel_fl.dae\""));
+
+  run.await([&] { return map->take(message); });
+  EXPECT_EQ(logged->publisher_count(), 0);
+  const RosGrid grid(message.cdr);
+  ASSERT_TRUE(grid.is_sound);
+  EXPECT_EQ(grid.frame, "map");
+  // Rows are occupied, the alley between them is free.
+  const std::shared_ptr<const Registry> registry(std::shared_ptr<void>(), &test::all_parts());
+  const Session session(test::remote_rover(), registry);
+  const std::vector<PlantRow>& rows = session.simulation().world().rows->rows;
+  ASSERT_EQ(rows.size(), 2u);
+  const Eigen::Vector3d a = 0.5 * (rows[0].line_W.front() + rows[0].line_W.back());
+  const Eigen::Vector3d b = 0.5 * (rows[1].line_W.front() + rows[1].line_W.back());
+  EXPECT_EQ(grid.at(a.x(), a.y()), 100);
+  EXPECT_EQ(grid.at(b.x(), b.y()), 100);
+  EXPECT_EQ(grid.at(0.5 * (a + b).x(), 0.5 * (a + b).y()), 0);
 }
 
 TEST(Ros2Bridge, SaysOnceWhatIsWrongWithACommand) {

@@ -1,7 +1,8 @@
 // node check_scenario.mjs COMMAND SCENARIO.yaml FOLDER [--set KEY=VALUE]... [--layout FILE] [--shots]
 // Runs a shipped scenario and checks its log with the official readers: every message by the
 // definitions inside the log, every frame reached from "map". --layout: a Foxglove layout whose
-// topics and fields must be in the log; --shots: pictures of the ground must be in it.
+// panels Foxglove must have, and whose topics and fields must be in the log; --shots: pictures of
+// the ground must be in it.
 // Exit status 77 (skipped) where `npm ci` has not been run here.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
@@ -50,12 +51,28 @@ if (options.includes("--shots")) {
 /** Value at "a.b.c" of a message; undefined where it has none. */
 const at = (message, path) => path.split(".").reduce((value, name) => value?.[name], message);
 
+// Panels of Foxglove that need neither an extension nor a subscription (the list of Foxglove Studio 1.87).
+const panelTypes = new Set(
+  ("3D CallService DiagnosticStatusPanel DiagnosticSummary Gauge GlobalVariableSliderPanel Image Indicator NodePlayground " +
+    "Parameters Plot Publish RawMessages RosOut SourceInfo StateTransitions Tab Table Teleop TopicGraph map").split(" "),
+);
+/** Names of the panels in a tree of splits. */
+const placed = (node) => (typeof node === "string" ? [node] : [...placed(node.first), ...placed(node.second)]);
+
 if (layoutAt >= 0) {
-  const { configById } = JSON.parse(readFileSync(options[layoutAt + 1], "utf8"));
+  const { configById, layout } = JSON.parse(readFileSync(options[layoutAt + 1], "utf8"));
+  assert.deepEqual(placed(layout).sort(), Object.keys(configById).sort(), "panels with a place and with settings");
   const wanted = [];
-  for (const panel of Object.values(configById)) {
+  for (const [name, panel] of Object.entries(configById)) {
+    const [type] = name.split("!");
+    assert.ok(panelTypes.has(type), `Foxglove has no panel ${type}`);
     wanted.push(...Object.keys(panel.topics ?? {}), ...(panel.paths ?? []).map(({ value }) => value));
     if (panel.topicToRender) wanted.push(panel.topicToRender);
+    // Panels that send: topics of commands are channels of the log too, services have JSON requests.
+    if (type === "Teleop" || type === "Publish") {
+      assert.match(log.types[panel.topic ?? panel.topicName] ?? "absent", /^geometry_msgs\/msg\/Twist(Stamped)?$/, name);
+    }
+    if (type === "CallService") assert.equal(typeof JSON.parse(panel.requestPayload), "object", name);
   }
   assert.ok(wanted.length > 10);
   for (const path of wanted) {

@@ -20,6 +20,7 @@ constexpr std::uint8_t kClientMessage = 1, kServiceRequest = 2;
 // What one client may ask of the server.
 constexpr std::size_t kMostSubscriptions = 10'000;
 constexpr std::size_t kMostChannels = 100;
+constexpr std::size_t kLongestName = 1000;  // names are kept, frames are not
 
 /// Appends a little-endian number.
 template <class T>
@@ -181,7 +182,7 @@ void FoxgloveClient::tick() {
 
 void FoxgloveClient::on_text(std::string_view text) {
   try {
-    const json message = json::parse(text, nullptr, false);
+    const json message = parse_json(text);
     if (!message.is_object()) throw ConfigError("a text message is no JSON object");
     handle(message);
   } catch (const ConfigError& error) {
@@ -261,6 +262,11 @@ void FoxgloveClient::advertise(const json& message) {
   for (const json& each : message.at("channels")) {
     const auto id = each.at("id").get<std::uint32_t>();
     ClientChannel channel{each.at("topic"), each.at("encoding"), each.at("schemaName"), ""};
+    for (const std::string& name : {channel.topic, channel.encoding, channel.type}) {
+      if (name.size() <= kLongestName) continue;
+      throw ConfigError(fmt::format("channel {} has a name of {} bytes, must be at most {}", id,
+                                    name.size(), kLongestName));
+    }
     if (channels_.size() >= kMostChannels) {
       throw ConfigError(fmt::format("more than {} channels of one client", kMostChannels));
     }
@@ -318,7 +324,7 @@ void FoxgloveClient::subscribe_parameters(const json& message, bool on) {
   const json all = run_.parameters();
   for (const json& each : names) {
     const std::string name = each;
-    if (on && watched_.size() < kMostSubscriptions) watched_.insert(name);
+    if (on && all.contains(name)) watched_.insert(name);
     if (!on) watched_.erase(name);
     if (all.contains(name)) values[name] = all[name];
   }
@@ -387,7 +393,7 @@ void FoxgloveClient::call_service(std::span<const std::uint8_t> bytes) {
   try {
     if (encoding == "json") {
       const auto rest = in.rest();
-      const json request = json::parse(rest.begin(), rest.end(), nullptr, false);
+      const json request = parse_json({reinterpret_cast<const char*>(rest.data()), rest.size()});
       if (request.is_discarded()) return fail("the request is no JSON");
       run_.services().call(service - 1, request,
                            [respond](const json& response) { respond(text_of(response)); });

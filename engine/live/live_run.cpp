@@ -168,7 +168,7 @@ std::string LiveRun::publish(const std::string& topic, const std::string& ros_ty
     std::vector<std::uint8_t> encoded;
     if (encoding == "json") {
       const std::string type = check_command_type(port.signal, port.message_type, ros_type);
-      const json value = json::parse(bytes.begin(), bytes.end(), nullptr, false);
+      const json value = parse_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
       if (value.is_discarded()) return fmt::format("topic '{}': the bytes are no JSON", topic);
       encoded = cdr_from_json(
           value, record::RosSchema::parse(type, command_definition(port.message_type, type)));
@@ -209,12 +209,16 @@ void LiveRun::begin(Session& session) {
 
   {
     const std::lock_guard lock(mutex_);
-    hub_ = std::move(hub);
     ports_ = std::move(ports);
     fixed_ = std::make_shared<const json>(std::move(fixed));
   }
   if (built_) std::exchange(built_, nullptr)(simulation);
   control_.begin(session);
+  {
+    // A client that sees the channels may send commands at once, so the control comes first.
+    const std::lock_guard lock(mutex_);
+    hub_ = std::move(hub);
+  }
   for (RunListener* listener : listeners()) listener->on_begin(simulation);
 }
 

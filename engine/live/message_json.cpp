@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
@@ -15,6 +16,10 @@ namespace vinerow::live {
 namespace {
 
 using nlohmann::json;
+
+// Copying, printing and encoding a value recur into it: without a limit, 100 kB of "[" would
+// overflow the stack of the server's thread.
+constexpr int kDeepestNesting = 64;
 using record::CdrReader;
 using record::CdrWriter;
 using record::RosField;
@@ -135,15 +140,28 @@ class JsonToCdr {
     if (value.is_null()) return T{};
     if (!value.is_number()) fail(path, value, "a number");
     if constexpr (std::is_floating_point_v<T>) {
-      return static_cast<T>(value.get<double>());
-    } else {
-      // 2^64 and 2^63 are exact in double, so the comparison is safe.
       const double number = value.get<double>();
-      const bool fits = number == std::floor(number) &&
-                        number >= static_cast<double>(std::numeric_limits<T>::lowest()) &&
-                        number < std::ldexp(1.0, std::numeric_limits<T>::digits);
+      // In single precision, a larger number would become infinite.
+      if (std::isfinite(number) &&
+          std::abs(number) > static_cast<double>(std::numeric_limits<T>::max())) {
+        fail(path, value, "in the range of its type");
+      }
+      return static_cast<T>(number);
+    } else {
+      bool fits = false;
+      if (value.is_number_unsigned()) {
+        fits = std::in_range<T>(value.get<std::uint64_t>());
+      } else if (value.is_number_integer()) {
+        fits = std::in_range<T>(value.get<std::int64_t>());
+      } else {
+        // 2^64 and 2^63 are exact in double, so the comparison is safe.
+        const double number = value.get<double>();
+        fits = number == std::floor(number) &&
+               number >= static_cast<double>(std::numeric_limits<T>::lowest()) &&
+               number < std::ldexp(1.0, std::numeric_limits<T>::digits);
+      }
       if (!fits) fail(path, value, "a whole number in the range of its type");
-      return value.is_number_float() ? static_cast<T>(number) : value.get<T>();
+      return value.get<T>();
     }
   }
 
@@ -194,6 +212,19 @@ class CdrToJson {
 };
 
 }  // namespace
+
+json parse_json(std::string_view text) {
+  using Event = json::parse_event_t;
+  const auto check_depth = [](int depth, Event event, json&) {
+    const bool opens = event == Event::object_start || event == Event::array_start;
+    if (opens && depth >= kDeepestNesting) {
+      throw ConfigError(
+          fmt::format("the JSON text is nested deeper than {} levels", kDeepestNesting));
+    }
+    return true;
+  };
+  return json::parse(text, check_depth, false);
+}
 
 std::vector<std::uint8_t> cdr_from_json(const json& value, const RosSchema& schema) {
   record::ByteBuffer buffer;

@@ -5,11 +5,16 @@
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/record/ros_schema.h"
 
 namespace vinerow::live {
+
+/// Parses a text of a peer. @returns a discarded value if it is no JSON
+/// @throws ConfigError if it is nested deeper than 64 levels
+nlohmann::json parse_json(std::string_view text);
 
 /// Encodes a JSON object as a CDR message. Absent fields are zero; of `stamp` fields, rosbridge's
 /// spelling {"secs", "nsecs"} is also read.

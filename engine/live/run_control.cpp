@@ -232,8 +232,8 @@ run::RunDriver::Next RunControl::next(Session& session, Time slice_end) {
   }
   Time until = session.now() + plan.slice;
   if (paused_) {
-    const Duration left = session.step() * static_cast<std::int64_t>(steps_left_ - 1);
-    until = steps_left_ - 1 < kManySteps ? std::min(until, session.now() + left) : until;
+    const std::uint64_t more = std::min(steps_left_ - 1, kManySteps);
+    until = std::min(until, session.now() + session.step() * static_cast<std::int64_t>(more));
   }
   std::vector<PeerCommand> commands;
   const bool may_go = !lockstep_ || await_lockstep(lock, session, until, commands);

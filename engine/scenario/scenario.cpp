@@ -264,8 +264,8 @@ class ScenarioReader {
 
   const io::YamlNode& root_;
   io::SourceMark file_;
-  ReadContext context_;
   Scenario scenario_;
+  ReadContext context_;  ///< refers to the warnings of scenario_
   io::YamlNode resolved_ = io::yaml_mapping();
   std::vector<std::string> vehicle_names_;
 };

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "engine/core/random.h"
+#include "tests/fuzz/changed_bytes.h"
 #include "tests/fuzz/cloud_seeds.h"
 #include "tests/support/folder_test.h"
 
@@ -15,9 +15,6 @@ class FuzzCorpus : public test::FolderTest {
   static std::string read(CloudKind kind, const std::string& bytes) {
     return read_cloud_bytes(kind,
                             {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
-  }
-  static std::size_t below(RandomStream& random, std::size_t count) {
-    return static_cast<std::size_t>(random.next_u64() % count);
   }
 };
 
@@ -65,32 +62,11 @@ TEST_F(FuzzCorpus, SeveralChangesAtOnce) {
   constexpr int kRounds = 300;
   RandomStream random(2, "", "changes");
   const std::vector<CloudSeed> seeds = cloud_seeds(folder_);
+  std::vector<std::string> inputs;
+  for (const CloudSeed& seed : seeds) inputs.push_back(seed.bytes);
   for (const CloudSeed& seed : seeds) {
     for (int round = 0; round < kRounds; ++round) {
-      std::string bytes = seed.bytes;
-      const std::size_t changes = 1 + below(random, 6);
-      for (std::size_t k = 0; k < changes && !bytes.empty(); ++k) {
-        const std::size_t at = below(random, bytes.size());
-        const std::size_t length = 1 + below(random, 16);
-        const std::string& other = seeds[below(random, seeds.size())].bytes;
-        switch (below(random, 5)) {
-          case 0:
-            bytes[at] = static_cast<char>(below(random, 256));
-            break;
-          case 1:
-            bytes.erase(at, length);
-            break;
-          case 2:
-            bytes.insert(at, bytes.substr(below(random, bytes.size()), length));
-            break;
-          case 3:
-            bytes.insert(at, other.substr(below(random, other.size()), length));
-            break;
-          default:
-            bytes.replace(at, length, std::string(length, '9'));
-        }
-      }
-      read(round % 4 == 0 ? CloudKind::kAny : seed.kind, bytes);
+      read(round % 4 == 0 ? CloudKind::kAny : seed.kind, changed(seed.bytes, inputs, random));
     }
   }
 }

@@ -1,10 +1,10 @@
 // node check_live.mjs COMMAND SCENARIO.yaml FOLDER
 // Runs a scenario live and uses its server as Foxglove does, with the official client: the same channels, schemas and bytes as
-// in the log; services, parameters, commands. Then a run with 20 clients, some of which stall, leave or send garbage.
+// in the log; services, parameters, commands. Then a run with 20 clients, some of which stall, leave or send garbage, and its memory.
 // Exit status 77 (skipped) where `npm ci` has not been run here.
 import assert from "node:assert/strict";
 import { spawn, spawnSync } from "node:child_process";
-import { existsSync, mkdirSync, rmSync } from "node:fs";
+import { existsSync, mkdirSync, readdirSync, readFileSync, rmSync } from "node:fs";
 import net from "node:net";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -121,8 +121,9 @@ async function sameAsTheLog() {
   assert.equal((await step()).result.result, 1);
   const entity = await client.call("/run/get_entity_state", { entity: "rover" });
   assert.deepEqual(entity.state.header.stamp, { sec: 0, nsec: 999_000_000 });
-  const page = await fetch(run.address);
-  assert.equal(page.status, 200);
+  // The page is made when it is asked for.
+  while ((await fetch(run.address)).status === 503) await pause(20);
+  assert.equal((await fetch(run.address)).status, 200);
   for (const file of ["live.js", "index.json", "scene.glb", "textures.bin"]) assert.equal((await fetch(run.address + file)).status, 200, file);
   assert.equal((await fetch(run.address + "absent")).status, 404);
   assert.equal((await fetch(run.address, { method: "POST" })).status, 405);
@@ -152,24 +153,21 @@ async function sameAsTheLog() {
   console.log(`${client.messages.length} messages on ${log.channels.length} channels are those of the log`);
 }
 
-async function crowd() {
-  const settings = ["--set", "duration_s=150"];
-  const alone = spawnSync(command, ["run", scenario, ...settings, "--out", join(folder, "alone"), "--no-pictures", "--no-report", "--quiet"], { encoding: "utf8" });
-  const run = await start("crowd", "--live", "--live-port", "0", "--paused", "--speed", "10", ...settings);
-  const clients = Array.from({ length: 20 }, (_, i) => new Client(run.port, i % 2 ? "foxglove.sdk.v1" : undefined));
-  await Promise.all(clients.map((client) => client.begun()));
-  // As many messages as this script can read in time.
-  clients.forEach((client, i) => client.subscribeAll(i < 10 ? undefined : ["/rover/truth", "/rover/links"]));
-  // Five read nothing any more.
-  for (const client of clients.slice(0, 5)) client.socket._socket.pause();
-  await clients[19].call("/run/set_simulation_state", { state: { state: 1 } });
+// A leak of 2 kB for each of 900 connections would be seen.
+const MOST_GROWTH_MB = 2;
+// 8 MB of messages wait for a client at most; the run itself needs some as well.
+const MOST_OF_STALLED_MB = 8 + 4;
+const residentMB = (run) => Number(readFileSync(`/proc/${run.process.pid}/status`, "utf8").match(/VmRSS:\s+(\d+) kB/)[1]) / 1024;
+const descriptors = (run) => readdirSync(`/proc/${run.process.pid}/fd`).length;
 
-  // 1,000 connections that leave in different states, and bytes that are no HTTP.
-  let seed = 1;
-  const random = () => (seed = (seed * 1103515245 + 12345) % 2147483648) / 2147483648;
-  for (let i = 0; i < 1000; i += 50) {
+let seed = 1;
+const random = () => (seed = (seed * 1103515245 + 12345) % 2147483648) / 2147483648;
+
+/** Connections that leave in different states, 50 at a time: silent, no HTTP, half a request, a WebSocket with garbage. */
+async function connections(port, count) {
+  for (let i = 0; i < count; i += 50) {
     await Promise.all(Array.from({ length: 50 }, () => new Promise((resolve) => {
-      const socket = net.connect(run.port, "localhost", () => {
+      const socket = net.connect(port, "localhost", () => {
         const kind = Math.floor(random() * 4);
         if (kind === 1) socket.write(Buffer.from(Array.from({ length: 200 }, () => Math.floor(random() * 256))));
         if (kind === 2) socket.write("GET / HTTP/1.1\r\nHost: x\r\nUpgrade: websocket\r\n");
@@ -179,6 +177,44 @@ async function crowd() {
       socket.on("error", resolve);
     })));
   }
+}
+
+/** Memory of a paused run after 100 and after 1,000 connections, and its file descriptors. */
+async function connectionsLeaveNothing(run) {
+  const before = descriptors(run);
+  const awaitDescriptors = async () => {
+    for (let i = 0; i < 200 && descriptors(run) > before; ++i) await pause(50);
+    assert.equal(descriptors(run), before, "file descriptors");
+  };
+  await connections(run.port, 100);
+  await awaitDescriptors();
+  const early = residentMB(run);
+  await connections(run.port, 900);
+  await awaitDescriptors();
+  const late = residentMB(run);
+  console.log(`resident memory: ${early.toFixed(1)} MB after 100 connections, ${late.toFixed(1)} MB after 1000; ${before} file descriptors before and after`);
+  assert.ok(late - early < MOST_GROWTH_MB, "memory grows with connections");
+}
+
+async function crowd() {
+  const settings = ["--set", "duration_s=150"];
+  const alone = spawnSync(command, ["run", scenario, ...settings, "--out", join(folder, "alone"), "--no-pictures", "--no-report", "--quiet"], { encoding: "utf8" });
+  const run = await start("crowd", "--live", "--live-port", "0", "--paused", "--speed", "10", ...settings);
+  const clients = Array.from({ length: 20 }, (_, i) => new Client(run.port, i % 2 ? "foxglove.sdk.v1" : undefined));
+  await Promise.all(clients.map((client) => client.begun()));
+  // As many messages as this script can read in time.
+  clients.forEach((client, i) => client.subscribeAll(i < 10 ? undefined : ["/rover/truth", "/rover/links"]));
+  await connectionsLeaveNothing(run);
+  // Five read nothing any more.
+  for (const client of clients.slice(0, 5)) client.socket._socket.pause();
+  const baseline = residentMB(run);
+  let highest = baseline;
+  const watch = setInterval(() => {
+    try { highest = Math.max(highest, residentMB(run)); } catch { clearInterval(watch); } // the run has ended
+  }, 100);
+  await clients[19].call("/run/set_simulation_state", { state: { state: 1 } });
+  // While the run goes on, too.
+  await connections(run.port, 200);
   // Damaged frames of a client that is greeted.
   const odd = new Client(run.port);
   await odd.begun();
@@ -187,10 +223,13 @@ async function crowd() {
     odd.socket.send(i % 2 ? bytes : `{"op": ${bytes.toString("base64").slice(0, 9)}`, { binary: i % 2 === 1 });
   }
   const { status, output } = await run.ended;
+  clearInterval(watch);
   assert.equal(status, 0, output);
   assert.equal(digestOf(output), digestOf(alone.stdout), "nobody has commanded");
+  console.log(`resident memory: ${baseline.toFixed(1)} MB before the run, at most ${highest.toFixed(1)} MB with 5 stalled clients`);
+  assert.ok(highest < baseline + 5 * MOST_OF_STALLED_MB, "memory grows with stalled clients");
   const received = clients.slice(5).map((client) => client.messages.length);
-  console.log(`20 clients, 5 of them stalled, 1000 connections: the same digest; the others received ${Math.min(...received)} to ${Math.max(...received)} messages`);
+  console.log(`20 clients, 5 of them stalled, 1200 connections: the same digest; the others received ${Math.min(...received)} to ${Math.max(...received)} messages`);
   for (const client of clients) client.socket.terminate();
 }
 

@@ -5,7 +5,6 @@
 
 #include <cstring>
 #include <nlohmann/json.hpp>
-#include <random>
 
 #include "engine/live/foxglove_client.h"
 #include "tests/engine/live/live_support.h"
@@ -286,49 +285,58 @@ TEST_F(FoxgloveClientTest, NamesWhatIsWrong) {
   EXPECT_EQ(take().last("status")["message"], "channel 44 of this client is not advertised");
 }
 
-TEST_F(FoxgloveClientTest, SurvivesDamagedFrames) {
+// Damaged frames: tests/fuzz.
+
+/// A recursion over the levels would overflow the stack of the server's thread.
+TEST_F(FoxgloveClientTest, RefusesJsonThatIsNestedDeeply) {
   client_->greet();
-  const std::vector<std::string> texts = {
-      R"({"op": "subscribe", "subscriptions": [{"id": 1, "channelId": 3}, {"id": 2, "channelId": 4}]})",
-      R"({"op": "unsubscribe", "subscriptionIds": [1, 2]})",
-      R"({"op": "advertise", "channels": [{"id": 1, "topic": "/rover/cmd_vel", "encoding": "cdr", "schemaName": "geometry_msgs/msg/Twist"}]})",
-      R"({"op": "getParameters", "parameterNames": ["speed"], "id": "x"})",
-      R"({"op": "setParameters", "parameters": [{"name": "speed", "value": 2}], "id": "x"})",
-      R"({"op": "subscribeParameterUpdates", "parameterNames": ["speed"]})"};
-  const std::string twist = std::string("\x01\x01\0\0\0\0\x01\0\0", 9) + std::string(48, '\1');
-  const std::string call = std::string("\x02\x06\0\0\0\x09\0\0\0\x04\0\0\0json", 17) +
-                           R"({"filters": {"filter": "r.*"}})";
-  std::mt19937 random(7);
-  const auto damage = [&](std::string bytes) {
-    const std::size_t count = 1 + random() % 3;
-    for (std::size_t i = 0; i < count && !bytes.empty(); ++i) {
-      const std::size_t at = random() % bytes.size();
-      switch (random() % 4) {
-        case 0:
-          bytes[at] = static_cast<char>(random());
-          break;
-        case 1:
-          bytes.erase(at, 1 + random() % 5);
-          break;
-        case 2:
-          bytes.insert(at, bytes.substr(0, random() % bytes.size()));
-          break;
-        default:
-          bytes.resize(at);
-      }
-    }
-    return bytes;
+  const auto nested = [](std::size_t levels) {
+    return std::string(levels, '[') + std::string(levels, ']');
   };
-  for (int i = 0; i < 20'000; ++i) {
-    client_->on_text(damage(texts[random() % texts.size()]));
-    const std::string bytes = damage(random() % 2 ? twist : call);
-    client_->on_binary({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
-    if (i % 50 == 0) client_->tick();
-    while (client_->outbox().take()) {
-    }
-  }
+  const std::string sentence = "the JSON text is nested deeper than 64 levels";
+  EXPECT_EQ(status_of(R"({"op": "setParameters", "parameters": [{"name": "speed", "value": )" +
+                      nested(1'000'000) + "}]}"),
+            sentence);
+  send_binary(2, {3, 1, 4}, "json" + nested(1'000'000));
+  EXPECT_EQ(take().last("serviceCallFailure")["message"], sentence);
+  send({{"op", "advertise"},
+        {"channels",
+         {{{"id", 5},
+           {"topic", "/rover/cmd_vel"},
+           {"encoding", "json"},
+           {"schemaName", "geometry_msgs/msg/Twist"}}}}});
+  take();
+  send_binary(1, {5}, nested(1'000'000));
+  EXPECT_EQ(take().last("status")["message"], "topic '/rover/cmd_vel': " + sentence);
+}
+
+TEST_F(FoxgloveClientTest, KeepsNoLongNames) {
   client_->greet();
-  EXPECT_EQ(take().texts.size(), 3) << "it still answers";
+  const std::string name(1001, 'x');
+  EXPECT_EQ(
+      status_of(
+          R"({"op": "advertise", "channels": [{"id": 5, "topic": "/rover/cmd_vel", "encoding": "cdr", "schemaName": ")" +
+          name + "\"}]}"),
+      "channel 5 has a name of 1001 bytes, must be at most 1000");
+  send_binary(1, {5}, "");
+  EXPECT_EQ(take().last("status")["message"], "channel 5 of this client is not advertised");
+}
+
+/// The usual search of the library would take hours.
+TEST_F(FoxgloveClientTest, FiltersEntitiesInBoundedTime) {
+  client_->greet();
+  EXPECT_EQ(call("get_entities", {{"filters", {{"filter", "(x*|y*){60}z"}}}})["entities"].size(),
+            0);
+  EXPECT_EQ(
+      call("get_entities", {{"filters", {{"filter", "(x*|y*){60}ro(v|w)er"}}}})["entities"].size(),
+      1);
+}
+
+/// 2^60 steps of a millisecond are no 64-bit number of nanoseconds.
+TEST_F(FoxgloveClientTest, StepsToTheEndOfTheRun) {
+  client_->greet();
+  EXPECT_EQ(call("step_simulation", {{"steps", std::uint64_t{1} << 60}})["result"]["error_message"],
+            "the run ended before the last step");
 }
 
 }  // namespace

@@ -91,6 +91,25 @@ TEST(MessageJson, NamesTheFieldThatIsWrong) {
   EXPECT_EQ(error_of("sensor_msgs/msg/JointState", {{"name", {1}}}), "name[0] = 1, must be a text");
 }
 
+TEST(MessageJson, TakesNumbersUpToTheLimitsOfTheirType) {
+  const auto there_and_back = [](const std::string& type, const json& value) {
+    const auto schema = record::RosSchema::parse("test_msgs/msg/Number", type + " x\n");
+    return json_from_cdr(cdr_from_json({{"x", value}}, schema), schema)["x"];
+  };
+  constexpr auto kLargest = std::numeric_limits<std::uint64_t>::max();
+  constexpr auto kLargestSigned = std::numeric_limits<std::int64_t>::max();
+  constexpr double kLargestSingle = std::numeric_limits<float>::max();
+  EXPECT_EQ(there_and_back("uint64", kLargest), kLargest);
+  EXPECT_EQ(there_and_back("int64", kLargestSigned), kLargestSigned);
+  EXPECT_EQ(there_and_back("int64", -kLargestSigned - 1), -kLargestSigned - 1);
+  EXPECT_EQ(there_and_back("int8", -128.0), -128);
+  EXPECT_EQ(there_and_back("float32", -kLargestSingle), -kLargestSingle);
+  EXPECT_THROW(there_and_back("int64", kLargest), ConfigError);
+  EXPECT_THROW(there_and_back("uint64", 18446744073709551616.0), ConfigError);
+  EXPECT_THROW(there_and_back("int8", 128), ConfigError);
+  EXPECT_THROW(there_and_back("float32", 1e39), ConfigError) << "it would become infinite";
+}
+
 TEST(MessageJson, RefusesBytesThatAreNoSuchMessage) {
   const std::vector<std::uint8_t> bytes = {0, 1, 0, 0, 1, 2, 3};
   EXPECT_THROW(json_from_cdr(bytes, schema_of("geometry_msgs/msg/Twist")), ConfigError);
@@ -103,6 +122,15 @@ TEST(MessageJson, NumbersThatAreNotFiniteBecomeNull) {
   for (int i = 0; i < 6; ++i) out.add(std::numeric_limits<double>::infinity());
   EXPECT_TRUE(
       json_from_cdr(buffer.view(), schema_of("geometry_msgs/msg/Twist"))["linear"]["x"].is_null());
+}
+
+TEST(MessageJson, LimitsTheDepthOfATextThatItParses) {
+  const auto nested = [](std::size_t levels) {
+    return std::string(levels, '[') + std::string(levels, ']');
+  };
+  EXPECT_EQ(parse_json(nested(64)), json::parse(nested(64)));
+  EXPECT_THROW(parse_json(nested(65)), ConfigError);
+  EXPECT_TRUE(parse_json("[1,").is_discarded());
 }
 
 }  // namespace

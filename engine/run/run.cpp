@@ -257,8 +257,18 @@ std::vector<std::string> rehearse_run(const scenario::Scenario& scenario,
   return notes;
 }
 
+void check_runs_alone(const scenario::Scenario& scenario) {
+  const scenario::LockstepConfig& lockstep = scenario.lockstep;
+  if (lockstep.signal.empty()) return;
+  throw ConfigError(
+      fmt::format("{}: lockstep.topic = '{}' waits for the commands of a program outside, and this "
+                  "run has none: remove 'lockstep', or use vinerow run with --ros2 or --live",
+                  lockstep.where.text(), lockstep.signal));
+}
+
 RunResult run_scenario(const scenario::Scenario& scenario, const Registry& registry,
                        const RunOptions& options) {
+  if (!options.driver) check_runs_alone(scenario);
   const bool writes = !options.out.empty();
   Session session =
       open_run(scenario, registry, writes ? options.out / "products" : "", options.shelf);

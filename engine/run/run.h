@@ -79,6 +79,10 @@ struct RunResult {
 /// @throws ConfigError, SimulationError as run_scenario()
 std::vector<std::string> rehearse_run(const scenario::Scenario& scenario, const Registry& registry);
 
+/// @throws ConfigError if the scenario is in lock-step: without a driver nobody would give it
+///   commands
+void check_runs_alone(const scenario::Scenario& scenario);
+
 /// Runs a scenario and, if options.out names a folder, writes its files. Each file except log and
 /// events exists completely or not at all. Verdict and summary are written before pictures are
 /// drawn, and again afterwards.

@@ -8,6 +8,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
+#include "engine/run/run.h"
 #include "engine/scenario/known_names.h"
 #include "engine/sim/plugin_loader.h"
 #include "engine/sim/run_shelf.h"
@@ -139,13 +140,16 @@ OpenStudy::OpenStudy(const std::filesystem::path& file)
 
 void check_study(const OpenStudy& open) {
   const std::vector<std::size_t> first(open.study.factors.size(), 0);
-  static_cast<void>(open.source.load(open.registry, open.design.overrides_of(first)));
+  const auto check = [&](const std::vector<std::size_t>& levels) {
+    run::check_runs_alone(open.source.load(open.registry, open.design.overrides_of(levels)));
+  };
+  check(first);
   for (std::size_t k = 0; k < first.size(); ++k) {
     for (const std::size_t level : levels_to_try(open.study.factors[k])) {
       if (level == 0) continue;
       std::vector<std::size_t> levels = first;
       levels[k] = level;
-      static_cast<void>(open.source.load(open.registry, open.design.overrides_of(levels)));
+      check(levels);
     }
   }
   check_names(open);

@@ -24,6 +24,7 @@
 #include "controllers/quadrotor_mpc/quadrotor_mpc.h"
 #include "controllers/quadrotor_pid/quadrotor_pid.h"
 #include "controllers/remote/remote_actuators.h"
+#include "controllers/remote/remote_goal.h"
 #include "controllers/remote/remote_velocity.h"
 #include "controllers/trajectory/trajectory.h"
 #include "controllers/trmpc/trmpc.h"
@@ -46,6 +47,7 @@ void register_controllers(Registry& registry) {
   registry.add_planner(survey_spec(), make_survey);
   registry.add_planner(waypoints_spec(), make_waypoints);
   registry.add_guidance(dwa_spec(), make_dwa);
+  registry.add_guidance(remote_goal_spec(), make_remote_goal);
   registry.add_guidance(trajectory_spec(), make_trajectory);
   registry.add_guidance(waypoint_guidance_spec(), make_waypoint_guidance);
   registry.add_controller(pure_pursuit_spec(), make_pure_pursuit);

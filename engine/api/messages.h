@@ -32,6 +32,7 @@ void for_each_message_type(F&& f) {
   f(static_cast<MagneticSample*>(nullptr));
   f(static_cast<LaserScan*>(nullptr));
   f(static_cast<PositionEllipsoid*>(nullptr));
+  f(static_cast<PoseTarget*>(nullptr));
   f(static_cast<VelocityCommand*>(nullptr));
   f(static_cast<LocalCommand*>(nullptr));
   f(static_cast<LineList*>(nullptr));

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "engine/api/messages.h"
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
+#include "engine/record/ros_fields.h"
 #include "engine/record/ros_mapping.h"
 
 namespace vinerow::live {
@@ -16,6 +18,7 @@ namespace {
 constexpr const char* kTwist = "geometry_msgs/msg/Twist";
 constexpr const char* kTwistStamped = "geometry_msgs/msg/TwistStamped";
 constexpr const char* kJointState = "sensor_msgs/msg/JointState";
+constexpr const char* kPoseWithCovariance = "geometry_msgs/msg/PoseWithCovarianceStamped";
 
 /// "geometry_msgs/Twist" as "geometry_msgs/msg/Twist".
 std::string full_type(std::string type) {
@@ -26,12 +29,45 @@ std::string full_type(std::string type) {
   return type;
 }
 
-/// Stamp of a message that begins with a std_msgs/Header.
-Time header_stamp(std::span<const std::uint8_t> cdr) {
+struct Header {
+  Time stamp;
+  std::string frame;
+};
+
+/// Of a message that begins with a std_msgs/Header.
+Header read_header(std::span<const std::uint8_t> cdr) {
   record::CdrReader in(cdr);
   const auto sec = in.read<std::int32_t>();
   const auto nanosec = in.read<std::uint32_t>();
-  return Time{std::int64_t{sec} * record::kNsPerS + nanosec};
+  return {Time{std::int64_t{sec} * record::kNsPerS + nanosec}, std::string(in.read_text())};
+}
+
+/// Poses are in the world. A viewer whose fixed frame is another one would send them in that frame.
+void check_world_frame(const std::string& frame) {
+  const std::string& world = record::FrameNames().world;
+  if (frame.empty() || frame == world) return;
+  throw ConfigError(fmt::format("the pose is in frame '{}', must be in '{}'", frame, world));
+}
+
+/// Programs that leave the orientation unset send zeros.
+void normalise(Eigen::Quaterniond& q) {
+  constexpr double kTolerance = 1e-3;
+  if (!(std::abs(q.norm() - 1.0) < kTolerance)) {
+    throw ConfigError(
+        fmt::format("the orientation of the pose has length {:g}, must be 1", q.norm()));
+  }
+  q.normalize();
+}
+
+/// geometry_msgs/PoseWithCovarianceStamped: the fields of Odometry without the velocities.
+Odometry read_pose_with_covariance(record::CdrReader& in) {
+  record::skip_header(in);
+  Odometry pose;
+  record::read_pose(in, pose.X_WB);
+  const double yaw_variance =
+      record::read_pose_covariance(in, pose.position_variance_m2, pose.position_covariance_m2);
+  pose.yaw_std_rad = std::sqrt(std::max(yaw_variance, 0.0));
+  return pose;
 }
 
 VelocityCommand read_twist(record::CdrReader& in) {
@@ -73,6 +109,9 @@ NamedValues read_joints(record::CdrReader& in) {
 
 std::vector<std::string> command_types(const std::string& message_type) {
   if (message_type == VelocityCommand::kType) return {kTwist, kTwistStamped};
+  if (message_type == Odometry::kType) {
+    return {kPoseWithCovariance, record::RosMapping<Odometry>::type()};
+  }
   std::vector<std::string> types;
   for_each_message_type([&]<class T>(T*) {
     using Mapping = record::RosMapping<T>;
@@ -91,9 +130,13 @@ std::string check_command_type(const std::string& signal, const std::string& mes
   throw ConfigError(fmt::format("'{}' takes {}, not '{}'", signal, join(types), given_type));
 }
 
+bool has_header(const std::string& ros_type) {
+  return ros_type != kTwist;
+}
+
 std::string command_definition(const std::string& message_type, const std::string& ros_type) {
-  if (ros_type == kTwist || ros_type == kTwistStamped || ros_type == kJointState) {
-    return record::full_ros_definition(ros_type);
+  for (const char* by_hand : {kTwist, kTwistStamped, kJointState, kPoseWithCovariance}) {
+    if (ros_type == by_hand) return record::full_ros_definition(ros_type);
   }
   std::string text;
   for_each_message_type([&]<class T>(T*) {
@@ -117,19 +160,32 @@ OutsideCommand decode_command(const std::string& signal, const std::string& mess
     return command;
   };
   if (ros_type == kTwist) return checked(outside_command(signal, Time{}, read_twist(in)));
-  const Time stamp = header_stamp(cdr);
-  if (ros_type == kJointState) return checked(outside_command(signal, stamp, read_joints(in)));
+  const Header header = read_header(cdr);
+  if (ros_type == kJointState) {
+    return checked(outside_command(signal, header.stamp, read_joints(in)));
+  }
   std::optional<OutsideCommand> command;
+  const auto take = [&]<class T>(T value) {
+    // Before the orientation: zeros of a message that ends early are no orientation either.
+    if (!in.ok()) throw ConfigError(fmt::format("the bytes for '{}' hold no {}", signal, ros_type));
+    if constexpr (requires { value.X_WB.q; }) {
+      check_world_frame(header.frame);
+      if (!has_nan_field(value)) normalise(value.X_WB.q);
+    }
+    command = outside_command(signal, header.stamp, value);
+  };
+  if (ros_type == kPoseWithCovariance && message_type == Odometry::kType) {
+    take(read_pose_with_covariance(in));
+    return *std::move(command);
+  }
   for_each_message_type([&]<class T>(T*) {
     if (message_type != T::kType) return;
     T value;
-    const record::FrameNames frames = record::FrameNames::of_signal(signal);
-    if (!record::RosMapping<T>::read(in, frames, value)) {
-      throw ConfigError(fmt::format("the bytes for '{}' hold no {}", signal, ros_type));
-    }
-    command = outside_command(signal, stamp, value);
+    static_cast<void>(
+        record::RosMapping<T>::read(in, record::FrameNames::of_signal(signal), value));
+    take(std::move(value));
   });
-  return checked(*std::move(command));
+  return *std::move(command);
 }
 
 }  // namespace vinerow::live

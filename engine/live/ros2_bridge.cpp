@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdlib>
 #include <map>
@@ -89,8 +90,10 @@ class Bridge final : public Ros2Bridge, public RunListener {
   void subscribe(const CommandPort& port) {
     const std::string topic = "/" + port.signal;
     if (commands_.contains(topic)) return;
-    std::string type = port.ros_types.front();
-    if (options_.is_lockstep && port.ros_types.size() > 1) type = port.ros_types[1];
+    const auto fits = [&](const std::string& type) {
+      return !options_.is_lockstep || has_header(type);
+    };
+    const std::string type = *std::ranges::find_if(port.ros_types, fits);
     const std::string definition = command_definition(port.message_type, type);
     commands_[topic] = {topic, type,
                         node_.create_subscription(topic, type, ros2::kDefaultQos,

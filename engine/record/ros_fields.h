@@ -57,6 +57,21 @@ inline void read_pose(CdrReader& in, Pose& pose) {
   in.read_doubles(pose.q.coeffs().data(), 4);
 }
 
+// Row-major 6x6 covariance of a pose, axes x y z roll pitch yaw: x, y, z and yaw are known.
+constexpr std::size_t kCovarianceSize = 36;
+constexpr std::size_t kCovarianceYaw = 35;
+
+/// @param diagonal  of the position: xx, yy, zz  @param off_diagonal  xy, xz, yz
+/// @returns the variance of the yaw
+inline double read_pose_covariance(CdrReader& in, Eigen::Vector3d& diagonal,
+                                   Eigen::Vector3d& off_diagonal) {
+  double covariance[kCovarianceSize] = {};
+  in.read_doubles(covariance, kCovarianceSize);
+  diagonal = {covariance[0], covariance[7], covariance[14]};
+  off_diagonal = {covariance[1], covariance[2], covariance[8]};
+  return covariance[kCovarianceYaw];
+}
+
 inline double round_to_grid(double value) {
   // + 0.0 turns -0 into 0: zero then has one bit pattern.
   return std::round(value / kPoseGrid) * kPoseGrid + 0.0;

@@ -106,6 +106,7 @@ VINEROW_STANDARD_MESSAGE(PressureSample, "sensor_msgs/msg/FluidPressure")
 VINEROW_STANDARD_MESSAGE(MagneticSample, "sensor_msgs/msg/MagneticField")
 VINEROW_EXACT_MESSAGE(LaserScan, "sensor_msgs/msg/LaserScan", "vinerow_msgs/msg/LaserScan")
 VINEROW_STANDARD_MESSAGE(PositionEllipsoid, "geometry_msgs/msg/PoseWithCovarianceStamped")
+VINEROW_STANDARD_MESSAGE(PoseTarget, "geometry_msgs/msg/PoseStamped")
 VINEROW_STANDARD_MESSAGE(VelocityCommand, "geometry_msgs/msg/TwistStamped")
 VINEROW_STANDARD_MESSAGE(LineList, "visualization_msgs/msg/Marker")
 VINEROW_EXACT_MESSAGE(OccupancyGrid, "nav_msgs/msg/OccupancyGrid",

@@ -6,10 +6,6 @@
 namespace vinerow::record {
 namespace {
 
-// Row-major 6x6 covariance, axes x y z roll pitch yaw: x, y, z and yaw are known.
-constexpr std::size_t kCovarianceSize = 36;
-constexpr std::size_t kCovarianceYaw = 35;
-
 /// Fills the block of x, y, z: diagonal and off-diagonal elements (xy, xz, yz).
 void fill_position(const Eigen::Vector3d& diagonal, const Eigen::Vector3d& off_diagonal,
                    double* covariance) {
@@ -17,11 +13,6 @@ void fill_position(const Eigen::Vector3d& diagonal, const Eigen::Vector3d& off_d
   covariance[1] = covariance[6] = off_diagonal.x();
   covariance[2] = covariance[12] = off_diagonal.y();
   covariance[8] = covariance[13] = off_diagonal.z();
-}
-void take_position(const double* covariance, Eigen::Vector3d& diagonal,
-                   Eigen::Vector3d& off_diagonal) {
-  diagonal = {covariance[0], covariance[7], covariance[14]};
-  off_diagonal = {covariance[1], covariance[2], covariance[8]};
 }
 
 // Minimum bytes of one element of a sequence; bounds a damaged count.
@@ -56,10 +47,8 @@ bool RosMapping<Odometry>::read(CdrReader& in, const FrameNames&, Odometry& valu
   skip_header(in);
   in.read_text();
   read_pose(in, value.X_WB);
-  double covariance[kCovarianceSize];
-  in.read_doubles(covariance, kCovarianceSize);
-  take_position(covariance, value.position_variance_m2, value.position_covariance_m2);
-  value.yaw_std_rad = std_of_variance(covariance[kCovarianceYaw]);
+  value.yaw_std_rad = std_of_variance(
+      read_pose_covariance(in, value.position_variance_m2, value.position_covariance_m2));
   in.read(value.v_WB_B);
   in.read(value.w_WB_B);
   in.skip_doubles(kCovarianceSize);
@@ -81,9 +70,19 @@ bool RosMapping<PositionEllipsoid>::read(CdrReader& in, const FrameNames&,
   Pose pose;
   read_pose(in, pose);
   value.centre_W = pose.p;
-  double covariance[kCovarianceSize];
-  in.read_doubles(covariance, kCovarianceSize);
-  take_position(covariance, value.shape_diagonal_m2, value.shape_beside_m2);
+  read_pose_covariance(in, value.shape_diagonal_m2, value.shape_beside_m2);
+  return in.ok();
+}
+
+void RosMapping<PoseTarget>::write(CdrWriter& out, const WriteContext& to,
+                                   const PoseTarget& value) {
+  write_header(out, to.stamp, to.frames.world);
+  write_pose(out, value.X_WB);
+}
+
+bool RosMapping<PoseTarget>::read(CdrReader& in, const FrameNames&, PoseTarget& value) {
+  skip_header(in);
+  read_pose(in, value.X_WB);
   return in.ok();
 }
 

@@ -310,7 +310,7 @@ void VehicleAssembly::add_controller(bool has_plan) {
 
 void VehicleAssembly::refuse_a_missing_plan() const {
   const SignalBase* plan = run_.bus.find(config_.name + "/plan");
-  if (plan == nullptr || plan->writer() == kOutside) return;
+  if (plan == nullptr || !plan->writer().empty()) return;
   const auto refuse = [&](const scenario::PartConfig& part, const std::string& name) {
     if (plan->first_reader() != name) return;
     throw ConfigError(fmt::format("{}: {}: '{}' follows a plan, but the vehicle has no planner",

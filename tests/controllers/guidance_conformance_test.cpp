@@ -1,6 +1,6 @@
-// What every registered guidance keeps: those of ground vehicles, which write "local_command",
-// those of rotorcraft, which write a ReferenceTrajectory "reference", and those of vehicles on
-// wings, which write an AirReference there.
+// What every registered guidance keeps: those of ground vehicles, which write "local_command" or a
+// "plan", those of rotorcraft, which write a ReferenceTrajectory "reference", and those of vehicles
+// on wings, which write an AirReference there.
 
 #include <gtest/gtest.h>
 
@@ -445,6 +445,59 @@ INSTANTIATE_TEST_SUITE_P(Guidances, EveryAirGuidance,
                          ::testing::ValuesIn(guidances_that_write("reference", "AirReference")),
                          [](const auto& test) { return test.param; });
 
+/// Guidances that plan by themselves, to goals from outside the run.
+class EveryGoalGuidance : public ::testing::TestWithParam<std::string> {};
+
+/// Plans to a goal straight ahead, in three ticks. @param plans  number of plans that were written
+PlannedPath plan_to_goal(const std::string& type, std::uint64_t& plans) {
+  const VehicleDescription vehicle = make_four_wheel_rover();
+  SignalBus bus;
+  ControllerContext context;
+  context.vehicle = "rover";
+  context.part = "rover.guidance";
+  context.period = Duration{100'000'000};
+  context.vehicle_description = &vehicle;
+  context.map = &Bench::alley();
+  const auto guidance = parts().make_guidance(
+      type, make_parameters(PartKind::kGuidance, PartChoice{type, {}}), context);
+  Ports test(bus, "rover", "test"), ports(bus, "rover", "rover.guidance");
+  test.write<Odometry>("estimate").write(Time{}, Odometry{});
+  guidance->connect(ports);
+  const PoseTarget goal{{Eigen::Quaterniond::Identity(), {5.0, 0.0, 0.0}}};
+  static_cast<Signal<PoseTarget>*>(bus.find("rover/goal_pose"))->write(Time{}, goal);
+  const SignalReader<PlannedPath> plan = test.read<PlannedPath>("plan");
+  for (int i = 0; i < 3; ++i) guidance->step(Time{i * context.period.ns});
+  plans = plan.sequence();
+  return plan.value();
+}
+
+TEST_P(EveryGoalGuidance, PlansToEachGoalOnceAndTheSameTwice) {
+  std::uint64_t plans = 0;
+  const PlannedPath path = plan_to_goal(GetParam(), plans);
+  EXPECT_EQ(plans, 1u);
+  ASSERT_GT(path.points.size(), 2u);
+  EXPECT_NEAR(path.length_m, 5.0, 1e-6) << "straight on";
+  const PlannedPath again = plan_to_goal(GetParam(), plans);
+  ASSERT_EQ(again.points.size(), path.points.size());
+  for (std::size_t i = 0; i < path.points.size(); ++i) {
+    EXPECT_EQ(again.points[i].p_W, path.points[i].p_W);
+  }
+}
+
+TEST_P(EveryGoalGuidance, RefusesVehiclesThatFly) {
+  try {
+    Bench bench(GetParam(), make_quadrotor_description());
+    FAIL() << "must be refused";
+  } catch (const ConfigError& error) {
+    EXPECT_NE(std::string(error.what()).find("needs a vehicle with wheels"), std::string::npos)
+        << error.what();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Guidances, EveryGoalGuidance,
+                         ::testing::ValuesIn(guidances_that_write("plan")),
+                         [](const auto& test) { return test.param; });
+
 class EveryGuidance : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(EveryGuidance, DocumentsItsParametersAndSignals) {
@@ -460,9 +513,11 @@ TEST_P(EveryGuidance, IsOfOneOfTheKindsTestedHere) {
   const auto ground = guidances_that_write("local_command");
   const auto flight = guidances_that_write("reference", "ReferenceTrajectory");
   const auto air = guidances_that_write("reference", "AirReference");
+  const auto goals = guidances_that_write("plan");
   EXPECT_EQ(std::count(ground.begin(), ground.end(), GetParam()) +
                 std::count(flight.begin(), flight.end(), GetParam()) +
-                std::count(air.begin(), air.end(), GetParam()),
+                std::count(air.begin(), air.end(), GetParam()) +
+                std::count(goals.begin(), goals.end(), GetParam()),
             1);
 }
 

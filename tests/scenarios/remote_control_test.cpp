@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/api/map.h"
+#include "engine/api/world_model.h"
 #include "engine/core/error.h"
+#include "engine/math/angles.h"
 #include "engine/sim/vehicle_runtime.h"
 #include "tests/scenarios/session_support.h"
 #include "vinerow/testing.h"
@@ -146,6 +149,70 @@ TEST(Lockstep, NamesWhatIsWrong) {
   EXPECT_THAT(error_of(remote, "lockstep: {topic: rover/cmd_vel, on_timeout: wait}\n"),
               HasSubstr("lockstep.on_timeout = 'wait'"));
   EXPECT_EQ(error_of(remote, "lockstep: {topic: /rover/cmd_vel}\n"), "") << "a session is the peer";
+}
+
+/// A rover that drives to goals, in four rows of 20 m.
+Session open_goal_rover(const std::string& estimator = "") {
+  std::string text = test::kFreeRover;
+  text.replace(text.find("row_count: 2"), 12, "row_count: 4");
+  text.replace(text.find("duration_s: 3"), 13, "duration_s: 200");
+  return open_session_text("stop_when_finished: false\n" + text + estimator +
+                               "    guidance: {type: remote_goal}\n"
+                               "    controller: {type: path_follower}\n",
+                           ".");
+}
+
+PoseTarget goal_at(double x_m, double y_m, double yaw_rad) {
+  return {{quaternion_from_rpy({0, 0, yaw_rad}), {x_m, y_m, 0}}};
+}
+
+std::string events_of(Session& session) {
+  std::string text;
+  for (const SessionEvent& event : session.take_events()) text += event.event.text + "\n";
+  return text;
+}
+
+/// A point of an alley's middle line, and its direction.
+PoseTarget goal_in_alley(const Session& session, std::size_t alley, double share) {
+  const auto& line = session.simulation().world().rows->alleys[alley].line_W;
+  const Eigen::Vector2d along = (line.back() - line.front()).head<2>();
+  const Eigen::Vector2d p = line.front().head<2>() + share * along;
+  return goal_at(p.x(), p.y(), std::atan2(along.y(), along.x()));
+}
+
+TEST(RemoteGoal, DrivesToOneGoalAfterAnother) {
+  Session session = open_goal_rover();
+  const auto truth = session.signal<Odometry>("rover/truth");
+  session.advance(Time{1000 * kMs});
+  EXPECT_LT(truth.value().v_WB_B.norm(), 0.01) << "without a goal it stands";
+  // The second goal is behind a row: the way leads around it.
+  for (const PoseTarget& goal : {goal_in_alley(session, 0, 0.7), goal_in_alley(session, 1, 0.5)}) {
+    session.command("rover/goal_pose", session.now(), goal);
+    session.advance(session.now() + Duration{90'000 * kMs});
+    const Pose& pose = truth.value().X_WB;
+    EXPECT_LT((pose.p - goal.X_WB.p).head<2>().norm(), 0.3);
+    const double error_rad =
+        wrap_angle(yaw_from_quaternion(pose.q) - yaw_from_quaternion(goal.X_WB.q));
+    EXPECT_LT(std::abs(error_rad), 0.15);
+    EXPECT_LT(truth.value().v_WB_B.norm(), 0.01) << "and stands there";
+  }
+  EXPECT_EQ(session.metrics().at("rover").at("contact_count"), 0.0);
+}
+
+TEST(RemoteGoal, RefusesAGoalInARowAndKeepsItsPlan) {
+  Session session = open_goal_rover();
+  const auto plan = session.signal<PlannedPath>("rover/plan");
+  session.command("rover/goal_pose", Time{}, goal_in_alley(session, 0, 0.7));
+  session.advance(Time{1000 * kMs});
+  EXPECT_THAT(events_of(session), HasSubstr("planned 14.00 m with"));
+  const std::uint64_t plans = plan.sequence();
+  EXPECT_EQ(plans, 1);
+  const auto& row = session.simulation().world().rows->rows[1].line_W;
+  const Eigen::Vector2d middle = 0.5 * (row.front() + row.back()).head<2>();
+  session.command("rover/goal_pose", session.now(), goal_at(middle.x(), middle.y(), 0.0));
+  session.advance(Time{2000 * kMs});
+  EXPECT_THAT(warnings_of(session), HasSubstr("the vehicle keeps its plan"));
+  EXPECT_EQ(plan.sequence(), plans);
 }
 
 }  // namespace

@@ -18,6 +18,7 @@ class ErrorStateEstimator final : public Estimator {
         filter_(filter_params(options_, context)),
         start_covariance_(start_covariance(options_)),
         random_(context.random("start")),
+        initial_pose_(options_.initial_pose),
         X_BI_(mounting_of(context, options_.imu)),
         sources_(options_, context, X_BI_.p, filter_) {
     sources_.name_report(report_.names);
@@ -30,6 +31,7 @@ class ErrorStateEstimator final : public Estimator {
   void connect(Ports& ports) override {
     imu_ = ports.read<ImuSample>(options_.imu);
     sources_.connect(ports);
+    initial_pose_.connect(ports);
     if (!options_.starts_level) truth_ = ports.read<Odometry>("truth");
     estimate_ = ports.write<Odometry>("estimate");
     state_ = ports.write<NamedValues>("estimator_state");
@@ -40,6 +42,11 @@ class ErrorStateEstimator final : public Estimator {
     events_.write(now);
     if (!filter_.started() && !try_to_start(now)) return;
     predict(now);
+    if (const auto pose = initial_pose_.take()) {
+      const NavStart moved = moved_start(filter_.state(), filter_.covariance(), *pose, X_BI_.p);
+      filter_.start(filter_.time(), moved.state, moved.covariance);
+      events_.report_event(Event::Level::kInfo, InitialPose::describe(*pose));
+    }
     sources_.correct(!is_silent_);
     write_estimate(now);
     write_report(now);
@@ -148,6 +155,7 @@ class ErrorStateEstimator final : public Estimator {
   ErrorStateKalman filter_;
   ErrorCovariance start_covariance_;
   RandomStream random_;
+  InitialPose initial_pose_;
   Pose X_BI_;
   ErrorStateSources sources_;
   Duration lag_;
@@ -180,7 +188,8 @@ PartSpec error_state_kalman_spec() {
                 "<magnetometer> (optional)",
                 "<wheels> (optional)",
                 "<heading> (optional)",
-                "truth (start: drawn)"};
+                "truth (start: drawn)",
+                "initialpose (from outside)"};
   spec.writes = {"estimate", "estimator_state", "estimator_event"};
   return spec;
 }

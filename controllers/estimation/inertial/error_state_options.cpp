@@ -96,6 +96,7 @@ const ParameterTable<ErrorStateOptions>& error_state_table() {
                   "quiet time before the vehicle counts as stationary")
           .number("standing_std_mps", "m/s", &P::standing_std_mps, kPositive,
                   "1 sigma of a stationary vehicle's speed")
+          .include(&P::initial_pose, initial_pose_table())
           .rule([](const P& p) -> std::string {
             return p.stationary == P::Standing::kWheels && p.wheels.empty()
                        ? "zero_velocity = wheels, but no signal is named in 'wheels'"

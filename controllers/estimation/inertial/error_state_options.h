@@ -4,6 +4,7 @@
 #include <string>
 
 #include "controllers/estimation/inertial/error_state_kalman.h"
+#include "controllers/estimation/parts/initial_pose.h"
 #include "engine/api/part.h"
 #include "engine/math/angles.h"
 
@@ -44,6 +45,7 @@ struct ErrorStateOptions {
   enum class Standing { kOff, kWheels, kImu } stationary = Standing::kOff;
   double standing_s = 0.5;
   double standing_std_mps = 0.01;
+  InitialPoseParams initial_pose;
 
   /// @throws ConfigError if zero_velocity is wheels and no wheels are named
   static ErrorStateOptions read(const ParameterSet& parameters, const std::string& who);

@@ -34,6 +34,24 @@ NavState draw_start(const Odometry& truth, const Eigen::Vector3d& p_BI,
   return state.plus(dx);
 }
 
+NavStart moved_start(const NavState& present, const ErrorCovariance& covariance,
+                     const InitialPose::Value& pose, const Eigen::Vector3d& p_BI) {
+  const double turn_rad = pose.yaw_rad - yaw_from_quaternion(present.q_WB);
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitZ()));
+  NavStart start{present, ErrorCovariance::Zero()};
+  start.state.q_WB = (turn * present.q_WB).normalized();
+  start.state.v_WI = turn * present.v_WI;
+  const double height_m = present.p_WI.z();
+  start.state.p_WI.head<2>() = pose.p_W + (start.state.q_WB * p_BI).head<2>();
+  start.state.p_WI.z() = height_m;
+  // Correlations with the old place mean nothing at the new one.
+  start.covariance.diagonal() = covariance.diagonal();
+  start.covariance.diagonal().segment<2>(ErrorIndex::kPosition) = pose.std_m.cwiseAbs2();
+  start.covariance(ErrorIndex::kAttitude + 2, ErrorIndex::kAttitude + 2) =
+      pose.yaw_std_rad * pose.yaw_std_rad;
+  return start;
+}
+
 Eigen::Quaterniond level_attitude(const Eigen::Vector3d& f_B, double yaw_rad) {
   const double roll = std::atan2(f_B.y(), f_B.z());
   const double pitch = std::atan2(-f_B.x(), std::hypot(f_B.y(), f_B.z()));

@@ -15,6 +15,17 @@ ErrorCovariance start_covariance(const ErrorStateOptions& options);
 NavState draw_start(const Odometry& truth, const Eigen::Vector3d& p_BI,
                     const ErrorCovariance& covariance, RandomStream& random);
 
+/// A state and its diagonal covariance.
+struct NavStart {
+  NavState state;
+  ErrorCovariance covariance;
+};
+/// The present state moved to another place and heading, as if the vehicle had been carried there
+/// in motion: height, tilt, speed along the body's axes and biases stay, with their variances.
+/// @param p_BI  the inertial unit in B
+NavStart moved_start(const NavState& present, const ErrorCovariance& covariance,
+                     const InitialPose::Value& pose, const Eigen::Vector3d& p_BI);
+
 /// Attitude of a body at rest with the specific force f_B, which gives roll and pitch; the heading
 /// is given.
 /// @pre f_B is not zero and not along body x

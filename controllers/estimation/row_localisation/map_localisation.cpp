@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "controllers/estimation/parts/estimator_events.h"
+#include "controllers/estimation/parts/initial_pose.h"
 #include "controllers/estimation/row_localisation/ground_reference.h"
 #include "controllers/estimation/row_localisation/map_localisation_law.h"
 #include "controllers/estimation/row_localisation/map_watch.h"
@@ -30,6 +31,7 @@ struct MapEstimatorParams {
   bool on_map = true;
   MapLocalisationParams law;
   GroundParams ground;
+  InitialPoseParams initial_pose;
 };
 
 const ParameterTable<MapEstimatorParams>& map_localisation_table() {
@@ -96,7 +98,8 @@ const ParameterTable<MapEstimatorParams>& map_localisation_table() {
                    "maximum number of filters, one for each possible alley")
           .number("bank_std_m", "m", law(&Law::bank_std_m), kPositive,
                   "deviation of the start above which there is one filter for each alley")
-          .include(&P::ground, ground_table());
+          .include(&P::ground, ground_table())
+          .include(&P::initial_pose, initial_pose_table());
   return table;
 }
 
@@ -145,6 +148,7 @@ class MapLocalisation final : public Estimator {
         index_(map_),
         law_(params.law, map_, index_, sensors_),
         random_(context.random("start")),
+        initial_pose_(params.initial_pose),
         p_BA_(params.p_BA) {}
 
   void connect(Ports& ports) override {
@@ -155,6 +159,7 @@ class MapLocalisation final : public Estimator {
       ranges_.push_back({ports.read<RangeSample>(sensor.name), 0, Time{}});
     }
     ground_.connect(ports);
+    initial_pose_.connect(ports);
     estimate_ = ports.write<Odometry>("estimate");
     state_writer_ = ports.write<NamedValues>("estimator_state");
     events_.connect(ports);
@@ -175,6 +180,7 @@ class MapLocalisation final : public Estimator {
       law_.start(now, truth_.value().X_WB.p + start_std_m_ * Eigen::Vector3d(x, y, z),
                  start_std_m_ * start_std_m_ * Eigen::Matrix3d::Identity());
     }
+    if (const auto pose = initial_pose_.take()) restart_at(now, *pose);
     const Odometry& motion = ins_.value();
     law_.predict(now, motion.X_WB.q * motion.v_WB_B, motion.X_WB.q);
     if (!gps_name_.empty() && gps_.is_newer_than(seen_fix_)) {
@@ -202,6 +208,15 @@ class MapLocalisation final : public Estimator {
     std::uint64_t seen;
     Time last;
   };
+
+  /// The heading stays that of the inertial unit; the height stays.
+  void restart_at(Time now, const InitialPose::Value& pose) {
+    const Eigen::Vector3d p_W(pose.p_W.x(), pose.p_W.y(), law_.state().p_W().z());
+    Eigen::Vector3d variance_m2 = law_.state().covariance().diagonal().head<3>();
+    variance_m2.head<2>() = pose.std_m.cwiseAbs2();
+    law_.start(now, p_W, variance_m2.asDiagonal());
+    events_.report_event(Event::Level::kInfo, InitialPose::describe(pose));
+  }
 
   void take_range(int i) {
     Range& range = ranges_[i];
@@ -286,6 +301,7 @@ class MapLocalisation final : public Estimator {
   RowMeshIndex index_;
   MapLocalisationLaw law_;
   RandomStream random_;
+  InitialPose initial_pose_;
   Eigen::Vector3d p_BA_;
   SignalReader<Odometry> truth_, ins_;
   SignalReader<GnssFix> gps_;
@@ -311,7 +327,7 @@ PartSpec map_localisation_spec() {
       "extended Kalman filters on the echoes themselves, one for each possible alley.";
   spec.parameters = map_localisation_table().specs();
   spec.default_rate_Hz = 100.0;
-  spec.reads = {"truth", "<ins>", "<gps>", "<ranges>", "<down>"};
+  spec.reads = {"truth", "<ins>", "<gps>", "<ranges>", "<down>", "initialpose (from outside)"};
   spec.writes = {"estimate", "estimator_state", "estimator_event"};
   return spec;
 }

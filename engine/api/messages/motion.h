@@ -55,6 +55,18 @@ struct Odometry {
   }
 };
 
+/// Pose that a body should reach: a goal. ROS 2: geometry_msgs/msg/PoseStamped.
+struct PoseTarget {
+  static constexpr const char* kType = "PoseTarget";
+  static constexpr MessageFrame kFrame = MessageFrame::kWorld;
+  Pose X_WB;
+
+  template <class Self, class F>
+  static void fields(Self& self, F&& f) {
+    f({"pose", "", "of the body"}, self.X_WB);
+  }
+};
+
 /// Ellipsoid that should contain the true position: (p - c)' P^-1 (p - c) <= 1. ROS 2:
 /// geometry_msgs/msg/PoseWithCovarianceStamped.
 struct PositionEllipsoid {

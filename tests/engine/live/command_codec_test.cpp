@@ -77,6 +77,58 @@ TEST(CommandCodec, TakesOfAJointTheValueThatItsUnitAsksFor) {
   EXPECT_THAT(value_of<NamedValues>(command).values, ElementsAre(0.1, 4.0));
 }
 
+/// A pose as RViz sends it; the covariance is that of its "2D Pose Estimate".
+std::vector<std::uint8_t> pose_message(const std::string& frame, double qw, bool with_covariance) {
+  record::ByteBuffer buffer;
+  record::CdrWriter out(buffer);
+  record::write_header(out, Time{1'000'000'000}, frame);
+  for (const double value : {3.0, -2.0, 0.0, 0.0, 0.0, 0.6, qw}) out.add(value);
+  for (int i = 0; with_covariance && i < 36; ++i) {
+    out.add(i == 0 || i == 7 ? 0.25 : i == 35 ? 0.0685 : 0.0);
+  }
+  return bytes_of(buffer);
+}
+
+TEST(CommandCodec, ReadsGoalsAndInitialPosesInTheWorld) {
+  const OutsideCommand goal =
+      decode_command("rover/goal_pose", "PoseTarget", "geometry_msgs/msg/PoseStamped",
+                     pose_message("map", 0.8, false));
+  EXPECT_EQ(value_of<PoseTarget>(goal).X_WB.p, Eigen::Vector3d(3, -2, 0));
+  // tan(yaw / 2) = 0.6 / 0.8
+  EXPECT_NEAR(yaw_from_quaternion(value_of<PoseTarget>(goal).X_WB.q), 2 * std::atan(0.75), 1e-12);
+  EXPECT_EQ(goal.stamp.ns, 1'000'000'000);
+
+  EXPECT_EQ(command_types("Odometry").front(), "geometry_msgs/msg/PoseWithCovarianceStamped");
+  const OutsideCommand pose =
+      decode_command("rover/initialpose", "Odometry", "geometry_msgs/msg/PoseWithCovarianceStamped",
+                     pose_message("", 0.8, true));
+  const Odometry& estimate = value_of<Odometry>(pose);
+  EXPECT_EQ(estimate.position_variance_m2, Eigen::Vector3d(0.25, 0.25, 0.0));
+  EXPECT_NEAR(estimate.yaw_std_rad, std::sqrt(0.0685), 1e-15);
+}
+
+TEST(CommandCodec, RefusesPosesElsewhereOrWithoutOrientation) {
+  const auto error = [](const std::vector<std::uint8_t>& bytes) {
+    return error_of("PoseTarget", "geometry_msgs/msg/PoseStamped", bytes);
+  };
+  EXPECT_EQ(error(pose_message("rover/base_link", 0.8, false)),
+            "the pose is in frame 'rover/base_link', must be in 'map'");
+  EXPECT_EQ(error(pose_message("map", 0.0, false)),
+            "the orientation of the pose has length 0.6, must be 1");
+  std::vector<std::uint8_t> cut = pose_message("map", 0.8, false);
+  cut.resize(cut.size() - 8);
+  EXPECT_EQ(error(cut), "the bytes for 'rover/x' hold no geometry_msgs/msg/PoseStamped");
+}
+
+TEST(CommandCodec, KnowsWhichTypesLockStepCanUse) {
+  EXPECT_FALSE(has_header("geometry_msgs/msg/Twist"));
+  for (const char* type : {"geometry_msgs/msg/TwistStamped", "sensor_msgs/msg/JointState"}) {
+    EXPECT_TRUE(has_header(type)) << type;
+    const std::string message = type[0] == 'g' ? "VelocityCommand" : "NamedValues";
+    EXPECT_THAT(command_definition(message, type), ::testing::StartsWith("std_msgs/Header header"));
+  }
+}
+
 TEST(CommandCodec, ReadsAnyBuiltInMessageAsTheLogHasIt) {
   for_each_message_type([]<class T>(T*) {
     using Mapping = record::RosMapping<T>;

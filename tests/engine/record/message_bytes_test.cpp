@@ -39,6 +39,8 @@ const std::map<std::string, Digests> kDigests = {
      {"ac9ee19863a37d86c05c93ca87149f4b", "5f9ca171cd65973a6dfce8eb15a9bc31"}},
     {"GnssHeading",
      {"2ce143f7cbd9e45596c64400b050af28", "b338dca0b6906339e69e486f17ee15c8"}},
+    {"PoseTarget",
+     {"0c7e2daf109b51116f7c70cca009325e", "95fa831cf734308248511ec88da88434"}},
     {"VelocityCommand",
      {"e1796e7c9165b49ecef26d85c548884a", "fb181c93ded5c2813bda04995dd70d1a"}},
     {"LocalCommand",

@@ -144,6 +144,10 @@ class Bench {
     if (at == values.names.end()) ADD_FAILURE() << "no value " << name;
     return at == values.names.end() ? kNaN : values.values[at - values.names.begin()];
   }
+  /// As a program outside the run.
+  void give_pose(const Odometry& pose) {
+    static_cast<Signal<Odometry>*>(bus_.find("rover/initialpose"))->write(now(), pose);
+  }
   void write_wheels(double rim_mps) {
     speeds_.values.assign(speeds_.names.size(), rim_mps / description_.wheeled->wheel_radius_m);
     wheels.write(now(), speeds_);
@@ -211,6 +215,34 @@ TEST(ErrorStateEstimator, TakesFixesAsOldAsTheirStampSays) {
   bench.run(60.0);
   EXPECT_LT(bench.error_m(), 0.03);
   EXPECT_EQ(bench.value("rejected_gnss_position"), 0);
+}
+
+TEST(ErrorStateEstimator, TakesAPoseFromOutside) {
+  Bench bench(straight(), {{"initial_pose_from_outside", true}});
+  bench.run(5.0);
+  bench.gps_on = false;
+  const double z_m = bench.estimate.value().X_WB.p.z();
+  Odometry pose;
+  pose.X_WB = {quaternion_from_rpy({0, 0, 0.4}), {5.0, -3.0, 77.0}};
+  pose.position_variance_m2 = {0.25, 0.09, 0.0};
+  pose.yaw_std_rad = 0.1;
+  bench.give_pose(pose);
+  bench.tick();
+  const Odometry moved = bench.estimate.value();
+  EXPECT_LT((moved.X_WB.p.head<2>() - Eigen::Vector2d(5, -3)).norm(), 1e-9);
+  EXPECT_NEAR(moved.X_WB.p.z(), z_m, 1e-3) << "a viewer does not know the height";
+  EXPECT_NEAR(yaw_from_quaternion(moved.X_WB.q), 0.4, 1e-9);
+  EXPECT_NEAR(moved.v_WB_B.x(), 1.0, 0.02) << "it goes on in its own direction";
+  // The unit's lever arm adds the little that the heading's error moves the body.
+  EXPECT_NEAR(moved.position_variance_m2.x(), 0.25, 1e-3);
+  EXPECT_NEAR(moved.position_variance_m2.y(), 0.09, 1e-3);
+  EXPECT_NEAR(moved.yaw_std_rad, 0.1, 1e-9);
+  bench.run(1.0);
+  const Eigen::Vector2d ahead(std::cos(0.4), std::sin(0.4));
+  EXPECT_LT((bench.estimate.value().X_WB.p.head<2>() - Eigen::Vector2d(5, -3) - ahead).norm(),
+            0.05);
+  EXPECT_EQ(bench.event.value().text,
+            "the pose (5.00, -3.00), 22.9 deg from outside replaces the estimate");
 }
 
 TEST(ErrorStateEstimator, StartsAboutTheTruthByItsStatedSpread) {

@@ -8,7 +8,9 @@
 #include <optional>
 
 #include "engine/math/angles.h"
+#include "tests/controllers/estimation/row_localisation/localisation_bench.h"
 #include "tests/controllers/estimation/row_localisation/map_localisation_lab.h"
+#include "tests/controllers/support/row_mesh_map.h"
 #include "tests/support/no_alloc.h"
 
 namespace vinerow::test::map_localisation_test {
@@ -302,6 +304,34 @@ TEST(MapLocalisationLaw, ATickDoesNotAllocate) {
     stationary.law->correct_fix(stationary.now, stationary.true_p_W, {1, 1, 1}, {0, 0, 0});
   }
   EXPECT_EQ(counter.count(), 0u);
+}
+
+TEST(MapLocalisation, TakesAPoseFromOutside) {
+  const RowMap map = make_row_mesh_map({.rows = 4, .length_m = 40.0}, RandomStream(1, "", "map"));
+  LocalisationBench bench("map_localisation", {{"initial_pose_from_outside", true}}, &map, {});
+  const auto pose_out = static_cast<Signal<Odometry>*>(bench.bus.find("robot/initialpose"));
+  Odometry truth;
+  truth.X_WB.p = {10.0, 1.0, 0.5};
+  const auto run = [&](int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      bench.write_motion(truth, truth);
+      bench.step();
+    }
+  };
+  run(100);
+  const double z_m = bench.p_W().z();
+  Odometry pose;
+  pose.X_WB.p = {14.0, -1.5, 0.0};
+  pose.position_variance_m2 = {0.01, 0.0, 0.0};  // a program that leaves the second one unset
+  pose_out->write(bench.now, pose);
+  run(1);
+  EXPECT_LT((bench.p_W() - Eigen::Vector3d(14.0, -1.5, z_m)).norm(), 1e-9);
+  EXPECT_EQ(bench.events_with("the pose (14.00, -1.50)").size(), 1u);
+  run(1);
+  EXPECT_LT((bench.p_W().head<2>() - Eigen::Vector2d(14.0, -1.5)).norm(), 0.01) << "taken once";
+  const Eigen::Vector3d variance_m2 = bench.estimate.value().position_variance_m2;
+  EXPECT_GT(variance_m2.x(), 0.0099);
+  EXPECT_GT(variance_m2.x(), variance_m2.y());
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ std::string describe_robot(const std::string& name, const Vehicle& vehicle,
   for (std::size_t i = 0; i < links.size(); ++i) {
     drawn.push_back({links[i].name, truth.X_WB.inverse() * X_WL[i], ""});
     if (folder.empty() || !links[i].mesh || links[i].mesh->triangles.empty()) continue;
-    // The name of a link may have characters that are none of a file's name.
+    // The name of a link may have characters that a file's name cannot have.
     const std::filesystem::path file = folder / (percent_encoded(links[i].name) + ".dae");
     io::write_collada(*links[i].mesh, links[i].material, file);
     drawn.back().mesh_url = file_url(file);

@@ -10,10 +10,11 @@
 #include <string>
 #include <thread>
 
+#include "engine/api/messages/commands.h"
+#include "engine/api/outside.h"
 #include "engine/live/live_run.h"
 #include "engine/run/run.h"
 #include "engine/scenario/scenario.h"
-#include "engine/sim/session.h"
 #include "tools/parts/register_all.h"
 
 namespace vinerow::test {

@@ -9,6 +9,7 @@
 #include "engine/api/map.h"
 #include "engine/live/ros2_bridge.h"
 #include "engine/run/command_log.h"
+#include "engine/sim/session.h"
 #include "engine/sim/simulation.h"
 #include "tests/engine/live/live_support.h"
 #include "tests/engine/ros2/peer_process.h"

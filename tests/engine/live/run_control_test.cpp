@@ -6,7 +6,7 @@
 
 #include <limits>
 
-#include "engine/api/messages.h"
+#include "engine/api/messages/commands.h"
 #include "engine/run/command_log.h"
 #include "tests/engine/live/live_support.h"
 #include "tests/scenarios/command.h"

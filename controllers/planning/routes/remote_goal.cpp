@@ -1,4 +1,4 @@
-#include "controllers/remote/remote_goal.h"
+#include "controllers/planning/routes/remote_goal.h"
 
 #include <fmt/format.h>
 

@@ -13,6 +13,7 @@
 #include "engine/api/map.h"
 #include "engine/api/vehicle.h"
 #include "engine/api/world_model.h"
+#include "engine/math/srgb.h"
 #include "engine/sim/vehicle_runtime.h"
 
 namespace vinerow::playback {
@@ -222,8 +223,7 @@ SceneTriangles solids_of(const WorldModel& world, const SolidClass& kind) {
 
 /// sRGB value of a linear intensity.
 double srgb_of(double linear) {
-  linear = std::clamp(linear, 0.0, 1.0);
-  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+  return srgb_from_linear(std::clamp(linear, 0.0, 1.0));
 }
 
 std::array<double, 4> colour_of(const VehicleLink& link) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/math/angles.h"
+#include "engine/math/srgb.h"
 
 namespace vinerow::vehicles {
 
@@ -14,10 +15,8 @@ using Eigen::Vector3f;
 
 namespace {
 
-float linear_from_srgb(unsigned byte) {
-  const double value = byte / 255.0;
-  return static_cast<float>(value <= 0.04045 ? value / 12.92
-                                             : std::pow((value + 0.055) / 1.055, 2.4));
+float linear_from_byte(unsigned byte) {
+  return static_cast<float>(linear_from_srgb(byte / 255.0));
 }
 
 /// Point of a ring about y at an angle from x towards z.
@@ -44,8 +43,8 @@ std::vector<Vector2d> inset(std::span<const Vector2d> outline, double distance_m
 }  // namespace
 
 Vector3f colour_from_srgb(unsigned hex) {
-  return {linear_from_srgb((hex >> 16) & 0xff), linear_from_srgb((hex >> 8) & 0xff),
-          linear_from_srgb(hex & 0xff)};
+  return {linear_from_byte((hex >> 16) & 0xff), linear_from_byte((hex >> 8) & 0xff),
+          linear_from_byte(hex & 0xff)};
 }
 
 MeshBuilder& MeshBuilder::place(const Pose& X_MF) {

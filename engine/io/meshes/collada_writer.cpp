@@ -14,6 +14,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/whole_file.h"
+#include "engine/math/srgb.h"
 
 namespace vinerow::io {
 namespace {
@@ -27,10 +28,7 @@ using TrianglesByColour = std::map<Rgb8, std::vector<std::array<std::uint32_t, 3
 constexpr std::size_t kMaxColours = 256;
 
 int byte_from_linear(double linear) {
-  linear = std::clamp(linear, 0.0, 1.0);
-  const double srgb =
-      linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-  return static_cast<int>(std::lround(255.0 * srgb));
+  return static_cast<int>(std::lround(255.0 * srgb_from_linear(std::clamp(linear, 0.0, 1.0))));
 }
 
 TrianglesByColour split_by_colour(const TriangleMesh& mesh, const Material& material) {

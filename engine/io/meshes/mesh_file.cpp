@@ -16,6 +16,7 @@
 #include "engine/io/meshes/collada_check.h"
 #include "engine/io/meshes/mesh_ply.h"
 #include "engine/io/meshes/mesh_references.h"
+#include "engine/math/srgb.h"
 
 namespace vinerow::io {
 namespace {
@@ -58,10 +59,6 @@ Eigen::Matrix3d calc_file_to_metres(const std::filesystem::path& file, const std
 
   const double unit = options.unit_m > 0.0 ? options.unit_m / file_unit_m : 1.0;
   return options.scale.asDiagonal() * (unit * R);
-}
-
-double linear_from_srgb(double value) {
-  return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
 }
 
 /// glTF's factors are linear; the other formats store sRGB.

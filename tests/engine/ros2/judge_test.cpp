@@ -44,7 +44,7 @@ Spread spread_of(std::vector<double> values) {
 // `ros2 node list` and `ros2 topic info -v` read this.
 TEST(Judge, SeesNodeTypesAndHashes) {
   NodeOptions options = test_options("simulator");
-  options.name_space = "/farm";
+  options.name_space = "/estate";
   Node node(options);
   const auto imu = node.create_publisher("/rover/imu", kImuType, kSensorDataQos, kImuHash);
   const auto command = node.create_subscription("/rover/cmd_vel", kTwistType, kDefaultQos, "");
@@ -62,9 +62,9 @@ TEST(Judge, SeesNodeTypesAndHashes) {
   EXPECT_EQ(writers["writer ros_discovery_info"],
             "writer ros_discovery_info rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_ "
             "typehash=RIHS01_91a0593bacdcc50ea9bdcf849a938b128412cc1ea821245c663bcd26f83c295e;");
-  EXPECT_EQ(peer.wait_for("node "), "node /farm/simulator 1 1");
+  EXPECT_EQ(peer.wait_for("node "), "node /estate/simulator 1 1");
   const auto second = node.create_publisher("/rover/imu2", kImuType, kSensorDataQos, kImuHash);
-  EXPECT_EQ(peer.wait_for("node "), "node /farm/simulator 1 2");
+  EXPECT_EQ(peer.wait_for("node "), "node /estate/simulator 1 2");
 }
 
 TEST(Judge, RemovesEndpointsFromTheNode) {

@@ -8,10 +8,10 @@ namespace vinerow::ros2::names_test {
 namespace {
 
 TEST(Names, ResolvesRelativeNames) {
-  EXPECT_EQ(resolve_name("/rover/imu", "/farm", "node"), "/rover/imu");
-  EXPECT_EQ(resolve_name("imu", "/farm", "node"), "/farm/imu");
+  EXPECT_EQ(resolve_name("/rover/imu", "/estate", "node"), "/rover/imu");
+  EXPECT_EQ(resolve_name("imu", "/estate", "node"), "/estate/imu");
   EXPECT_EQ(resolve_name("rover/imu", "/", "node"), "/rover/imu");
-  EXPECT_EQ(resolve_name("~/imu", "/farm", "node"), "/farm/node/imu");
+  EXPECT_EQ(resolve_name("~/imu", "/estate", "node"), "/estate/node/imu");
   EXPECT_EQ(resolve_name("~/imu", "/", "node"), "/node/imu");
 }
 
@@ -31,8 +31,8 @@ TEST(Names, RefusesInvalidNodes) {
     EXPECT_THROW(check_node_name(name), ConfigError) << name;
   }
   EXPECT_NO_THROW(check_name_space("/"));
-  EXPECT_NO_THROW(check_name_space("/farm/north"));
-  for (const char* name : {"", "farm", "/farm/", "//"}) {
+  EXPECT_NO_THROW(check_name_space("/estate/north"));
+  for (const char* name : {"", "estate", "/estate/", "//"}) {
     EXPECT_THROW(check_name_space(name), ConfigError) << name;
   }
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine/math/srgb.h"
 #include "tools/pictures/colour_scale.h"
 #include "tools/study/plots/frame.h"
 #include "tools/study/plots/text_fit.h"
@@ -40,9 +41,7 @@ bool is_dark(double value, const Range& range) {
   constexpr std::array<double, 3> kWeights = {0.2126, 0.7152, 0.0722};
   double luminance = 0.0;
   for (std::size_t c = 0; c < 3; ++c) {
-    const double part = rgb[c] / 255.0;
-    luminance +=
-        kWeights[c] * (part <= 0.04045 ? part / 12.92 : std::pow((part + 0.055) / 1.055, 2.4));
+    luminance += kWeights[c] * linear_from_srgb(rgb[c] / 255.0);
   }
   // Contrast is (lighter + 0.05) / (darker + 0.05); white has luminance 1, black 0.
   return 1.05 / (luminance + 0.05) > (luminance + 0.05) / 0.05;

@@ -5,6 +5,7 @@
 
 #include "engine/api/mesh.h"
 #include "engine/api/world_model.h"
+#include "engine/math/srgb.h"
 
 namespace vinerow::mapping {
 namespace {
@@ -12,10 +13,6 @@ namespace {
 const Eigen::Vector3f kGrass(0.075f, 0.12f, 0.03f);
 const Eigen::Vector3f kSoil(0.19f, 0.125f, 0.075f);
 const Eigen::Vector3f kWeed(0.06f, 0.16f, 0.03f);
-
-double srgb(double linear) {
-  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-}
 
 /// In [0, 1), the same for the same cell of the lattice.
 double lattice_value(std::int64_t i, std::int64_t j) {
@@ -60,7 +57,7 @@ PointColour::PointColour(const WorldModel& world) {
                std::sin(elevation)};
   constexpr int kSteps = 4096;
   for (int k = 0; k < kSteps; ++k) {
-    const double value = srgb(k / (kSteps - 1.0));
+    const double value = srgb_from_linear(k / (kSteps - 1.0));
     encoded_.push_back(static_cast<std::uint8_t>(std::lround(255.0 * value)));
   }
 }

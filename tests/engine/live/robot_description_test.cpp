@@ -18,24 +18,16 @@
 #include "engine/scenario/scenario.h"
 #include "engine/sim/simulation.h"
 #include "engine/sim/vehicle_runtime.h"
+#include "tests/engine/live/live_support.h"
 #include "tests/scenarios/command.h"
 #include "tests/support/paths.h"
-#include "tools/parts/register_all.h"
 
 namespace vinerow::live::robot_description_test {
 namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-const Registry& all_parts() {
-  static const Registry registry = [] {
-    Registry parts;
-    register_all(parts);
-    return parts;
-  }();
-  return registry;
-}
+using test::all_parts;
 
 /// A run with one vehicle of a type, named "rover".
 std::unique_ptr<Simulation> run_with(const std::string& type) {

@@ -2,7 +2,7 @@
 """Compares what a shipped scenario gives with golden.json: digest, metrics, phases and exit status.
 
 usage: golden.py check  VINEROW SCENARIO... [--plain]     against the file; exit status 1: prints what differs
-       golden.py start  VINEROW SCENARIO... [--under EMULATOR]  the digest of the first seconds alone
+       golden.py start  VINEROW SCENARIO... [--plain] [--under EMULATOR]  the digest of the first seconds alone
        golden.py record VINEROW [SCENARIO...]             writes the file again (all of them, or those named)
 
 --plain   hides AVX, AVX2, FMA and AVX-512 from the C library (Embree asks the processor itself: for that, --under)
@@ -87,11 +87,11 @@ def check(vinerow, names, plain):
     sys.exit(1 if failed else 0)
 
 
-def check_start(vinerow, names, under):
+def check_start(vinerow, names, plain, under):
     failed = False
     for name in names:
         expected = golden_of(name)["start_digest"]
-        found = run(vinerow, name, START, under=under)["digest"]
+        found = run(vinerow, name, START, under=under, plain=plain)["digest"]
         print(f"{name}: {found}" + ("" if found == expected else f", expected {expected}"), flush=True)
         failed = failed or found != expected
     sys.exit(1 if failed else 0)
@@ -122,7 +122,7 @@ def main():
     if given.work == "record":
         record(given.vinerow, given.scenarios)
     elif given.work == "start" and given.scenarios:
-        check_start(given.vinerow, given.scenarios, given.under)
+        check_start(given.vinerow, given.scenarios, given.plain, given.under)
     elif given.work == "check" and given.scenarios:
         check(given.vinerow, given.scenarios, given.plain)
     else:

@@ -12,7 +12,7 @@ BASE = [CORE, MATH, API]
 PHYSICS, IO, SCENARIO, SENSORS = "engine/physics", "engine/io", "engine/scenario", "engine/sensors"
 RENDER, RECORD, METRICS = "engine/render", "engine/record", "engine/metrics"
 SIM, PLAYBACK, RUN = "engine/sim", "engine/playback", "engine/run"
-ROS2, LIVE = "engine/ros2", "engine/live"
+ROS2, LIVE, MAVLINK = "engine/ros2", "engine/live", "engine/mavlink"
 FILES, GEO, CLOUDS = "engine/io/files", "engine/io/geo", "engine/io/clouds"
 VEHICLE_PARTS, WORLD_PARTS = "vehicles/parts", "worlds/parts"
 SOLVERS, PATHS = "controllers/parts/solvers", "controllers/parts/paths"
@@ -46,6 +46,7 @@ ALLOWED = {
     PLAYBACK: BASE + [PHYSICS, IO, SCENARIO, RENDER, RECORD, METRICS, SIM],
     RUN: BASE + [IO, SCENARIO, RECORD, SIM, PLAYBACK],
     ROS2: BASE + [RECORD],
+    MAVLINK: [CORE],
     LIVE: BASE + [IO, SCENARIO, RECORD, SIM, RUN, ROS2],
     # One folder for each vehicle, which knows the shared parts and no other vehicle.
     "vehicles": BASE + [PHYSICS, IO, VEHICLE_PARTS],

@@ -67,6 +67,9 @@ ALLOWED = {
     f"{MAPPING}/jobs": BASE + [MAPPING],
     # One folder for each controller.
     "controllers": BASE + CONTROLLER_PARTS,
+    "controllers/autopilot/link": [CORE],
+    "controllers/autopilot/outputs": BASE + ["controllers/parts/ground_drive"],
+    "controllers/autopilot/ardupilot": BASE + ["controllers/autopilot/link"],
     SOLVERS: [CORE, MATH],
     PATHS: BASE,
     "controllers/parts/ground_drive": BASE + [PATHS],

@@ -1,0 +1,90 @@
+#include "controllers/autopilot/ardupilot/lockstep_link.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace vinerow::controllers {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// Between two looks at whether the autopilot still runs.
+constexpr milliseconds kLook{100};
+/// A repeated packet that arrives earlier after an answer has crossed it on the way: ArduPilot
+/// repeats after 1 s.
+constexpr milliseconds kCrossing{500};
+
+std::string seconds(milliseconds time) {
+  return fmt::format("{:g} s", std::chrono::duration<double>(time).count());
+}
+
+}  // namespace
+
+void LockstepLink::send(std::string_view line) {
+  socket_.send({reinterpret_cast<const std::uint8_t*>(line.data()), line.size()}, *peer_);
+}
+
+std::optional<Result<ServoPacket>> LockstepLink::next_packet(milliseconds limit) {
+  const auto datagram = socket_.receive(limit);
+  if (!datagram) return std::nullopt;
+  if (peer_ && datagram->from != *peer_) {
+    return Result<ServoPacket>(Failure{fmt::format(
+        "is not alone: programs at the ports {} and {} send servo outputs to port {}; each "
+        "autopilot needs an `instance` of its own",
+        peer_->port, datagram->from.port, socket_.port())});
+  }
+  Result<ServoPacket> packet = parse_servo_packet(datagram->bytes);
+  if (packet) peer_ = datagram->from;
+  return packet;
+}
+
+Result<ServoPacket> LockstepLink::wait_for_first(milliseconds limit, const GaveUp& gave_up) {
+  const auto begin = Clock::now();
+  while (Clock::now() - begin < limit) {
+    const auto packet = next_packet(kLook);
+    if (packet) {
+      // Packets that were repeated before we listened are in the queue with the same number.
+      if (*packet) frame_ = packet->value().frame;
+      return *packet;
+    }
+    if (const std::string reason = gave_up(); !reason.empty()) return Failure{reason};
+  }
+  return Failure{fmt::format("sent nothing to UDP port {} for {}", socket_.port(), seconds(limit))};
+}
+
+Result<ServoPacket> LockstepLink::exchange(std::string_view line, milliseconds limit,
+                                           const GaveUp& gave_up) {
+  // What came while the physics worked are repetitions, and this answer is for all of them.
+  while (const auto packet = next_packet(milliseconds(0))) {
+    if (!*packet) return *packet;
+  }
+  send(line);
+  const auto begin = Clock::now();
+  auto sent = begin;
+  for (auto now = begin; now - begin < limit; now = Clock::now()) {
+    const auto packet = next_packet(kLook);
+    if (!packet) {
+      if (const std::string reason = gave_up(); !reason.empty()) return Failure{reason};
+      continue;
+    }
+    if (!*packet) return *packet;
+    const std::uint32_t frame = packet->value().frame;
+    if (frame == frame_ + 1) {
+      frame_ = frame;
+      return *packet;
+    }
+    if (frame == frame_) {
+      if (Clock::now() - sent < kCrossing) continue;
+      send(line);
+      sent = Clock::now();
+    } else if (frame == 0) {
+      return Failure{fmt::format("has restarted after packet {}", frame_)};
+    } else {
+      return Failure{fmt::format("sent packet {} after packet {}", frame, frame_)};
+    }
+  }
+  return Failure{fmt::format("sent nothing for {} (packet {})", seconds(limit), frame_)};
+}
+
+}  // namespace vinerow::controllers

@@ -1,0 +1,51 @@
+#pragma once
+/// Lock-step with ArduPilot: one answer for each packet of servo outputs.
+///
+/// ArduPilot sends packet n and waits for the state of the physics, which moves its clock; then it
+/// sends packet n + 1. After a second without an answer it repeats the packet. A second answer to
+/// one packet would be taken for the next one, and everything would be a step late from then on.
+
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "controllers/autopilot/ardupilot/servo_packet.h"
+#include "controllers/autopilot/link/udp_socket.h"
+
+namespace vinerow::controllers {
+
+class LockstepLink {
+ public:
+  /// @returns why it makes no sense to wait longer ("ended with status 1"); empty: wait
+  using GaveUp = std::function<std::string()>;
+
+  /// @param own  where the autopilot sends its packets  @param who  for errors
+  /// @throws ConfigError if the port is taken
+  LockstepLink(UdpAddress own, const std::string& who) : socket_(own, who) {}
+
+  std::uint16_t port() const { return socket_.port(); }
+
+  /// Waits for the first packet. @returns it, or one sentence without subject about the failure:
+  /// "sent nothing for 60 s"
+  Result<ServoPacket> wait_for_first(std::chrono::milliseconds limit, const GaveUp& gave_up);
+
+  /// Answers the last packet and waits for the next one. Wall time decides only when an answer is
+  /// sent again and when to give up.
+  /// @returns as wait_for_first()
+  Result<ServoPacket> exchange(std::string_view line, std::chrono::milliseconds limit,
+                               const GaveUp& gave_up);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  /// @returns the next packet of the peer, or a failure; nullopt if none arrived within `limit`
+  std::optional<Result<ServoPacket>> next_packet(std::chrono::milliseconds limit);
+  void send(std::string_view line);
+
+  UdpSocket socket_;
+  std::optional<UdpAddress> peer_;
+  std::uint32_t frame_ = 0;
+};
+
+}  // namespace vinerow::controllers

@@ -10,6 +10,7 @@
 #include "engine/sim/judge.h"
 #include "engine/sim/simulation.h"
 #include "tests/scenarios/command.h"
+#include "tests/scenarios/seeds.h"
 #include "tests/support/data.h"
 #include "tests/support/paths.h"
 #include "vinerow/testing.h"
@@ -72,9 +73,9 @@ const std::map<std::string, double> kTracking = {{"height_error_rms_m", 0.7},
 class FixedWingMissionSeeds : public ::testing::TestWithParam<int> {};
 
 TEST_P(FixedWingMissionSeeds, SurveyInWindLeavesNoLimit) {
-  constexpr int kSeeds = 10;
+  const int seeds = test::seeds_of_group(10);
   std::map<std::string, double> squares, worst;
-  for (int seed = GetParam(); seed < GetParam() + kSeeds; ++seed) {
+  for (int seed = GetParam(); seed < GetParam() + seeds; ++seed) {
     SCOPED_TRACE(seed);
     TestRun run = survey("survey_turbulence",
                          {"seed=" + std::to_string(seed),
@@ -100,10 +101,10 @@ TEST_P(FixedWingMissionSeeds, SurveyInWindLeavesNoLimit) {
                 run.metric("plane", "limit_share_max"));
   }
   for (const auto& [name, sum] : squares) {
-    const double rms = std::sqrt(sum / kSeeds);
+    const double rms = std::sqrt(sum / seeds);
     RecordProperty(name, std::to_string(rms));
     RecordProperty("worst_" + name, std::to_string(worst[name]));
-    std::printf("%s: %.3f of ten seeds, worst %.3f\n", name.c_str(), rms, worst[name]);
+    std::printf("%s: %.3f of %d seeds, worst %.3f\n", name.c_str(), rms, seeds, worst[name]);
   }
 }
 INSTANTIATE_TEST_SUITE_P(Fifty, FixedWingMissionSeeds, ::testing::Values(1, 11, 21, 31, 41));

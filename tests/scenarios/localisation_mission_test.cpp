@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "tests/scenarios/command.h"
+#include "tests/scenarios/seeds.h"
 #include "vinerow/testing.h"
 
 namespace vinerow::localisation_mission_test {
@@ -93,7 +94,7 @@ TEST(LocalisationMission, AMapBesideTheTruthIsToldOrSeen) {
 class ClosedLoopSeeds : public ::testing::TestWithParam<int> {};
 
 TEST_P(ClosedLoopSeeds, QuadrotorAndRoverWorkOnTheirEstimates) {
-  for (int seed = GetParam(); seed < GetParam() + 5; ++seed) {
+  for (int seed = GetParam(); seed < GetParam() + test::seeds_of_group(5); ++seed) {
     SCOPED_TRACE(seed);
     TestRun run = fly("localisation_closed_loop", seed);
     std::printf(

@@ -8,6 +8,7 @@
 #include "engine/math/angles.h"
 #include "engine/sim/simulation.h"
 #include "tests/scenarios/command.h"
+#include "tests/scenarios/seeds.h"
 #include "vinerow/testing.h"
 
 namespace vinerow::quadrotor_mission_test {
@@ -43,7 +44,7 @@ void expect_mission_within_limits(TestRun& run, double alleys) {
 class QuadrotorMissionSeeds : public ::testing::TestWithParam<int> {};
 
 TEST_P(QuadrotorMissionSeeds, TwoRowsInWindWithinTheLimits) {
-  for (int i = 0; i < 5; ++i) {
+  for (int i = 0; i < test::seeds_of_group(5); ++i) {
     const int seed = GetParam() + i;
     SCOPED_TRACE(seed);
     TestRun run = TestRun::from_file(scenario_file(kTwoRows), {"seed=" + std::to_string(seed)});

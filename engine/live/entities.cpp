@@ -1,5 +1,7 @@
 #include "engine/live/entities.h"
 
+#include <algorithm>
+
 #include "engine/sim/simulation.h"
 #include "engine/sim/vehicle_runtime.h"
 
@@ -9,18 +11,16 @@ void Entities::watch(const Simulation& simulation) {
   const std::lock_guard lock(mutex_);
   simulation_ = &simulation;
   names_.clear();
-  states_.clear();
+  truths_.clear();
   for (const auto& vehicle : simulation.vehicles()) names_.push_back(vehicle->name());
 }
 
 void Entities::on_instant(Time now) {
-  // Uncontended, this costs some 20 ns.
+  // Only copies: this is part of every step, while questions are rare.
   const std::lock_guard lock(mutex_);
-  for (const auto& vehicle : simulation_->vehicles()) {
-    const Odometry& truth = vehicle->truth();
-    states_[vehicle->name()] = {now, truth.X_WB, truth.X_WB.q * truth.v_WB_B,
-                                truth.X_WB.q * truth.w_WB_B};
-  }
+  stamp_ = now;
+  truths_.resize(names_.size());
+  for (std::size_t i = 0; i < truths_.size(); ++i) truths_[i] = simulation_->vehicles()[i]->truth();
 }
 
 std::vector<std::string> Entities::names() const {
@@ -30,9 +30,10 @@ std::vector<std::string> Entities::names() const {
 
 std::optional<Entities::State> Entities::state(const std::string& name) const {
   const std::lock_guard lock(mutex_);
-  const auto found = states_.find(name);
-  if (found == states_.end()) return std::nullopt;
-  return found->second;
+  const auto found = std::find(names_.begin(), names_.end(), name);
+  if (found == names_.end() || truths_.empty()) return std::nullopt;
+  const Odometry& truth = truths_[static_cast<std::size_t>(found - names_.begin())];
+  return State{stamp_, truth.X_WB, truth.X_WB.q * truth.v_WB_B, truth.X_WB.q * truth.w_WB_B};
 }
 
 }  // namespace vinerow::live

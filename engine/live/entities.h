@@ -1,7 +1,6 @@
 #pragma once
 /// Vehicles of a run as other threads see them.
 
-#include <map>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -39,7 +38,8 @@ class Entities final : public RunObserver {
   const Simulation* simulation_ = nullptr;
   mutable std::mutex mutex_;
   std::vector<std::string> names_;
-  std::map<std::string, State> states_;
+  Time stamp_;
+  std::vector<Odometry> truths_;  ///< of `names_`; empty before the first instant
 };
 
 }  // namespace vinerow::live

@@ -14,7 +14,6 @@ struct RecordedSignal {
   const Signal<Odometry>* truth = nullptr;  ///< of the same vehicle
   std::uint16_t channel = 0;                ///< 0: only the exact channel
   std::uint16_t exact_channel = 0;          ///< 0: none
-  std::uint64_t seen = 0;
   bool recorded = false;
   Time last_stamp;
   void (*write)(MessageSink&, const RecordedSignal&, Time now) = nullptr;
@@ -148,11 +147,17 @@ struct SignalChannels::Impl {
 
   MessageSink& sink;
   bool compact_poses = true;
+  /// What every step reads, close together.
+  struct Watched {
+    const SignalBase* signal;
+    std::uint64_t seen;
+  };
   std::vector<RecordedSignal> entries;
+  std::vector<Watched> watched;  ///< of each entry
 };
 
 SignalChannels::SignalChannels(MessageSink& sink, bool compact_poses)
-    : impl_(new Impl{sink, compact_poses, {}}) {}
+    : impl_(new Impl{sink, compact_poses, {}, {}}) {}
 
 SignalChannels::~SignalChannels() = default;
 
@@ -178,13 +183,16 @@ void SignalChannels::add_signal(const SignalBase& signal, Duration min_period,
   for_each_message_type([&]<class T>(T*) { impl_->set_type<T>(entry, exact_alone); });
   if (entry.write == nullptr) impl_->set_described_type(entry);
   impl_->entries.push_back(std::move(entry));
+  impl_->watched.push_back({&signal, 0});
   if (impl_->compact_poses) impl_->connect_truth();
 }
 
 void SignalChannels::write_new(Time now) {
-  for (RecordedSignal& entry : impl_->entries) {
-    if (entry.signal->sequence() == entry.seen) continue;
-    entry.seen = entry.signal->sequence();
+  RecordedSignal* next = impl_->entries.data();
+  for (Impl::Watched& watched : impl_->watched) {
+    RecordedSignal& entry = *next++;
+    if (watched.signal->sequence() == watched.seen) continue;
+    watched.seen = watched.signal->sequence();
     const Time stamp = entry.signal->stamp();
     const bool thinned = entry.min_period.ns > 0 && entry.recorded;
     if (thinned && stamp - entry.last_stamp < entry.min_period) continue;

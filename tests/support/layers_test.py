@@ -68,6 +68,7 @@ ALLOWED = {
     # One folder for each controller.
     "controllers": BASE + CONTROLLER_PARTS,
     "controllers/autopilot/link": [CORE],
+    "controllers/autopilot/mavlink": [CORE, MAVLINK],
     "controllers/autopilot/outputs": BASE + ["controllers/parts/ground_drive"],
     "controllers/autopilot/ardupilot": BASE + ["controllers/autopilot/link"],
     SOLVERS: [CORE, MATH],

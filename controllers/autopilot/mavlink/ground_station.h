@@ -1,0 +1,92 @@
+#pragma once
+/// What a ground station does with an autopilot: waits until it is ready, uploads a mission, arms,
+/// starts the mission and watches it. All waiting is in simulated time, and everything is sent
+/// between two steps, so a run repeats.
+///
+/// Sources: MAVLink's guide, "Mission protocol" and "Command protocol"; ArduPilot 4.6.3.
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/core/time.h"
+#include "engine/mavlink/frame.h"
+#include "engine/mavlink/messages.h"
+
+namespace vinerow::controllers {
+
+struct GroundStationOptions {
+  /// Items with their numbers; empty: nothing is uploaded or started.
+  std::vector<mavlink::MissionItemInt> mission;
+  double report_rate_Hz = 10.0;    ///< of attitude and position
+  double ready_timeout_s = 120.0;  ///< until its own checks let it be armed
+  double answer_timeout_s = 10.0;  ///< of each request, which is repeated every second
+};
+
+/// The firmware's own estimate.
+struct FirmwareEstimate {
+  Time time;
+  mavlink::LocalPositionNed position;
+  mavlink::Attitude attitude;
+};
+
+class GroundStation {
+ public:
+  using Send = std::function<void(std::span<const std::uint8_t>)>;
+
+  /// @param send  sends a frame to the autopilot
+  GroundStation(GroundStationOptions options, Send send);
+
+  /// A frame of the autopilot.
+  void take(Time now, const mavlink::Frame& frame);
+  /// Sends what is due.
+  void step(Time now);
+
+  /// The last item of the mission was reached, or the vehicle was disarmed after its flight.
+  bool finished() const { return stage_ == Stage::kDone; }
+  /// Why the mission cannot be flown, one sentence without subject; empty: no reason.
+  const std::string& failure() const { return failure_; }
+  /// The latest estimate, if attitude and position have come.
+  const std::optional<FirmwareEstimate>& estimate() const { return estimate_; }
+  /// Sentences of the autopilot since the last call.
+  std::vector<mavlink::StatusText> take_texts();
+  /// Number of items that were reached.
+  int items_reached() const { return items_reached_; }
+
+ private:
+  enum class Stage { kListen, kReady, kUpload, kMode, kArm, kStart, kFlight, kDone, kFailed };
+
+  void enter(Time now, Stage stage);
+  void fail(const std::string& reason);
+  /// True once per second of a stage: the request is sent (again).
+  bool is_due(Time now);
+  void request(const mavlink::CommandLong& command);
+  /// Attitude, position and status, at their rates.
+  void request_streams();
+  void send_item(Time now, int number);
+  void take_heartbeat(Time now, const mavlink::Frame& frame);
+  void take_ack(Time now, const mavlink::CommandAck& ack);
+  void take_mission_ack(Time now, const mavlink::MissionAck& ack);
+  /// What the autopilot said last, for reasons: " (PreArm: ...)".
+  std::string last_complaint() const;
+  std::optional<std::uint32_t> auto_mode() const;
+
+  GroundStationOptions options_;
+  Send send_;
+  mavlink::FrameWriter writer_{mavlink::Sender{255, 190}};  // as ground stations have
+  Stage stage_ = Stage::kListen;
+  Time stage_begin_, last_request_;
+  bool has_requested_ = false;
+  std::string failure_, complaint_;
+  mavlink::Sender vehicle_;
+  mavlink::Heartbeat heartbeat_;
+  bool was_armed_ = false;
+  int items_reached_ = 0;
+  std::optional<mavlink::Attitude> attitude_;
+  std::optional<FirmwareEstimate> estimate_;
+  std::vector<mavlink::StatusText> texts_;
+};
+
+}  // namespace vinerow::controllers

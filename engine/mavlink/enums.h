@@ -7,32 +7,22 @@
 namespace vinerow::mavlink {
 
 // MAV_TYPE
-inline constexpr std::uint8_t kTypeFixedWing = 1, kTypeQuadrotor = 2, kTypeGroundStation = 6,
-                              kTypeGroundRover = 10;
-// MAV_AUTOPILOT
-inline constexpr std::uint8_t kAutopilotGeneric = 0, kAutopilotArdupilot = 3, kAutopilotInvalid = 8,
-                              kAutopilotPx4 = 12;
+inline constexpr std::uint8_t kTypeFixedWing = 1, kTypeQuadrotor = 2, kTypeGroundRover = 10;
+// MAV_AUTOPILOT; invalid: a ground station, a camera
+inline constexpr std::uint8_t kAutopilotArdupilot = 3, kAutopilotInvalid = 8, kAutopilotPx4 = 12;
 // MAV_MODE_FLAG
 inline constexpr std::uint8_t kModeFlagCustom = 1, kModeFlagArmed = 128;
-// MAV_STATE
-inline constexpr std::uint8_t kStateBoot = 1, kStateStandby = 3, kStateActive = 4;
 // MAV_SYS_STATUS_SENSOR
 inline constexpr std::uint32_t kSensorPrearmCheck = 0x10000000;
-// MAV_CMD
-inline constexpr std::uint16_t kCommandWaypoint = 16, kCommandReturn = 20, kCommandLand = 21,
-                               kCommandTakeoff = 22, kCommandSetMode = 176,
-                               kCommandMissionStart = 300, kCommandArm = 400,
-                               kCommandPauseContinue = 193, kCommandGetHome = 410,
-                               kCommandSetMessageInterval = 511, kCommandRequestMessage = 512,
-                               kCommandRequestCapabilities = 520;
+// MAV_CMD of commands; those of mission items are in engine/io/missions/mav_command.h
+inline constexpr std::uint16_t kCommandSetMode = 176, kCommandMissionStart = 300, kCommandArm = 400,
+                               kCommandSetMessageInterval = 511;
 // MAV_RESULT
 inline constexpr std::uint8_t kResultAccepted = 0, kResultTemporarilyRejected = 1,
-                              kResultDenied = 2, kResultUnsupported = 3, kResultFailed = 4,
-                              kResultInProgress = 5;
+                              kResultUnsupported = 3, kResultFailed = 4, kResultInProgress = 5;
 // MAV_MISSION_RESULT
-inline constexpr std::uint8_t kMissionAccepted = 0, kMissionError = 1, kMissionNoSpace = 4,
-                              kMissionInvalid = 5, kMissionInvalidSequence = 13,
-                              kMissionDenied = 14;
+inline constexpr std::uint8_t kMissionAccepted = 0, kMissionNoSpace = 4, kMissionInvalid = 5,
+                              kMissionInvalidSequence = 13, kMissionDenied = 14;
 
 /// Words for a MAV_MISSION_RESULT.
 constexpr const char* mission_result_name(std::uint8_t result) {

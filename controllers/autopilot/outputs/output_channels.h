@@ -24,9 +24,9 @@ struct OutputChannel {
 
 const ParameterTable<OutputChannel>& output_channel_table();
 
-/// Channels of a vehicle for the parameters in docs/guides/autopilots.md: skid rovers SERVO1 and 3,
-/// quadrotors the order of their spin (X where the rotor front right turns counter-clockwise, else
-/// reversed X as of Betaflight), elevons 1 and 2 with the throttle on 3.
+/// Channels as ArduPilot and PX4 have them by default: skid rovers left on output 1, right on 3;
+/// steering on 1 (rear axle 2), throttle on 3; elevons on 1 and 2; motors in the order of an X
+/// whose rotor front right turns counter-clockwise, or of ArduPilot's reversed X (FRAME_TYPE 18).
 std::vector<OutputChannel> default_output_channels(const VehicleDescription& vehicle,
                                                    const OutputMixer& mixer);
 

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "controllers/parts/ground_drive/axle_angles.h"
 #include "controllers/parts/ground_drive/differential_drive.h"
+#include "engine/core/check.h"
 #include "engine/core/error.h"
 
 namespace vinerow::controllers {
@@ -109,18 +112,16 @@ class SteeredMixer final : public VehicleMixer {
     const double rear = steers_both ? -values[1] * actuators()[rear_actuator_].max : 0.0;
     to.values[front_actuator_] = front;
     if (steers_both) to.values[rear_actuator_] = rear;
-    // Yaw rate and lateral speed of B per forward speed (axle_angles.h). A wheel at (x, y) then
-    // moves with (1 - k y, s + k x) per forward speed of B.
-    const double base_m = front_m_ + rear_m_;
-    const double k = (std::tan(front) - std::tan(rear)) / base_m;
-    const double s = (rear_m_ * std::tan(front) + front_m_ * std::tan(rear)) / base_m;
+    // With curvature k and drift s of the axles, the wheel at (x, y) moves with (1 - k y, s + k x)
+    // per forward speed of B.
+    const AxleRoll roll = calc_axle_roll(front_m_, rear_m_, {front, rear});
     const double throttle = values.back();
     double largest = 0.0;
-    for (const Wheel& wheel : wheels_) largest = std::max(largest, rolling(wheel, k, s));
+    for (const Wheel& wheel : wheels_) largest = std::max(largest, rolling(wheel, roll));
     for (const Wheel& wheel : wheels_) {
       // The fastest wheel turns with the throttle's share of its limit.
       to.values[wheel.actuator] =
-          throttle * actuators()[wheel.actuator].max * rolling(wheel, k, s) / largest;
+          throttle * actuators()[wheel.actuator].max * rolling(wheel, roll) / largest;
     }
   }
 
@@ -135,9 +136,10 @@ class SteeredMixer final : public VehicleMixer {
     if (steers_both_axles) return {{"front_steering"}, {"rear_steering"}, {"throttle"}};
     return {{"steering"}, {"throttle"}};
   }
-  double rolling(const Wheel& wheel, double k, double s) const {
+  double rolling(const Wheel& wheel, const AxleRoll& roll) const {
     const double x = wheel.is_front ? front_m_ : -rear_m_, y = -wheel.side * half_track_m_;
-    return std::hypot(1.0 - k * y, s + k * x);
+    const double k = roll.curvature_per_m;
+    return std::hypot(1.0 - k * y, roll.drift + k * x);
   }
 
   double front_m_ = 0.5, rear_m_ = 0.5, half_track_m_ = 0.5;

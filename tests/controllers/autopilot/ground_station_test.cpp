@@ -132,7 +132,7 @@ struct FakeVehicle {
 std::vector<MissionItemInt> mission(int count) {
   std::vector<MissionItemInt> items(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
-    items[i].command = kCommandWaypoint;
+    items[i].command = 16;  // waypoint
     items[i].x = 500'000'000 + i;
   }
   return items;

@@ -14,7 +14,6 @@ namespace {
 
 /// Share of the pulse's range.
 double share_of(double pwm_us, const OutputChannel& channel, bool has_one_direction) {
-  if (pwm_us <= 0.0) return 0.0;
   if (has_one_direction) {
     return std::clamp((pwm_us - channel.min_us) / (channel.max_us - channel.min_us), 0.0, 1.0);
   }

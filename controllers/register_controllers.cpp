@@ -1,5 +1,6 @@
 #include "controllers/register_controllers.h"
 
+#include "controllers/autopilot/ardupilot/ardupilot.h"
 #include "controllers/dwa/dwa.h"
 #include "controllers/estimation/inertial/error_state_estimator.h"
 #include "controllers/estimation/odometry/gps_pose.h"
@@ -60,6 +61,8 @@ void register_controllers(Registry& registry) {
   registry.add_controller(quadrotor_mpc_spec(), make_quadrotor_mpc);
   registry.add_controller(remote_velocity_spec(), make_remote_velocity);
   registry.add_controller(remote_actuators_spec(), make_remote_actuators);
+  registry.add_autopilot(ardupilot_spec(), make_ardupilot);
+  registry.add_autopilot(autopilot_replay_spec(), make_autopilot_replay);
   registry.add_controller(mpc_nominal_spec(), make_mpc_nominal);
   registry.add_controller(trmpc_spec(), make_trmpc);
 }

@@ -25,8 +25,9 @@
   F(MovementAuthority) F(TrajectoryPoint) F(ReferenceTrajectory) F(AirReference) F(AirData)      \
   F(CameraShot) F(BatteryState) F(Event) F(Pose) F(Signal<Odometry>) F(SignalBus) F(Ports)       \
   F(ParameterSpec) F(ParameterSet) F(PartSpec) F(PartContext) F(SensorContext) F(MapContext)     \
-  F(EstimatorContext) F(PlannerContext) F(ControllerContext) F(MetricContext) F(PayloadContext)  \
-  F(JobContext) F(JobOutcome) F(PlanReport) F(SensorMounting) F(Product) F(PictureSet)           \
+  F(EstimatorContext) F(PlannerContext) F(ControllerContext) F(AutopilotContext)                 \
+  F(MetricContext) F(PayloadContext) F(JobContext) F(JobOutcome) F(PlanReport) F(SensorMounting) \
+  F(Product) F(PictureSet)                                                                       \
   F(VehicleDescription) F(VehicleLink) F(MeshInstance) F(TriangleMesh) F(HeightField) F(RowMap)  \
   F(RowMesh) F(PlantRow) F(Alley) F(WorldModel) F(CanopyCoverage) F(CanopyPatch) F(AirPoint)     \
   F(AirLoad) F(RayHit) F(Registry)

@@ -28,6 +28,8 @@ const char* to_string(PartKind kind) {
       return "guidance";
     case PartKind::kController:
       return "controller";
+    case PartKind::kAutopilot:
+      return "autopilot";
     case PartKind::kPayload:
       return "payload";
     case PartKind::kMetric:
@@ -69,6 +71,8 @@ auto Registry::visit(PartKind kind, Visitor&& visitor) const {
       return visitor(guidances_);
     case PartKind::kController:
       return visitor(controllers_);
+    case PartKind::kAutopilot:
+      return visitor(autopilots_);
     case PartKind::kPayload:
       return visitor(payloads_);
     case PartKind::kJob:
@@ -113,6 +117,9 @@ void Registry::add_guidance(PartSpec spec, PartFactory<Guidance, ControllerConte
 }
 void Registry::add_controller(PartSpec spec, PartFactory<Controller, ControllerContext> make) {
   add(PartKind::kController, controllers_, std::move(spec), std::move(make));
+}
+void Registry::add_autopilot(PartSpec spec, PartFactory<Autopilot, AutopilotContext> make) {
+  add(PartKind::kAutopilot, autopilots_, std::move(spec), std::move(make));
 }
 void Registry::add_payload(PartSpec spec, PartFactory<Payload, PayloadContext> make) {
   add(PartKind::kPayload, payloads_, std::move(spec), std::move(make));
@@ -179,6 +186,11 @@ std::unique_ptr<Controller> Registry::make_controller(const std::string& name,
                                                       const ParameterSet& parameters,
                                                       const ControllerContext& context) const {
   return find(PartKind::kController, controllers_, name).make(parameters, context);
+}
+std::unique_ptr<Autopilot> Registry::make_autopilot(const std::string& name,
+                                                    const ParameterSet& parameters,
+                                                    const AutopilotContext& context) const {
+  return find(PartKind::kAutopilot, autopilots_, name).make(parameters, context);
 }
 std::unique_ptr<Payload> Registry::make_payload(const std::string& name,
                                                 const ParameterSet& parameters,

@@ -24,6 +24,7 @@ enum class PartKind {
   kPlanner,
   kGuidance,
   kController,
+  kAutopilot,
   kPayload,
   kMetric,
   kJob
@@ -31,7 +32,7 @@ enum class PartKind {
 constexpr PartKind kAllPartKinds[] = {
     PartKind::kWorld,     PartKind::kVehicle, PartKind::kMap,      PartKind::kSensor,
     PartKind::kEstimator, PartKind::kPlanner, PartKind::kGuidance, PartKind::kController,
-    PartKind::kPayload,   PartKind::kMetric,  PartKind::kJob};
+    PartKind::kAutopilot, PartKind::kPayload, PartKind::kMetric,   PartKind::kJob};
 const char* to_string(PartKind kind);
 
 template <class Product, class Context>
@@ -51,6 +52,7 @@ class Registry {
   void add_planner(PartSpec spec, PartFactory<Planner, PlannerContext> make);
   void add_guidance(PartSpec spec, PartFactory<Guidance, ControllerContext> make);
   void add_controller(PartSpec spec, PartFactory<Controller, ControllerContext> make);
+  void add_autopilot(PartSpec spec, PartFactory<Autopilot, AutopilotContext> make);
   void add_payload(PartSpec spec, PartFactory<Payload, PayloadContext> make);
   void add_metric(PartSpec spec, PartFactory<Metric, MetricContext> make);
   /// @pre spec.gives is set
@@ -81,6 +83,8 @@ class Registry {
                                           const ControllerContext&) const;
   std::unique_ptr<Controller> make_controller(const std::string& name, const ParameterSet&,
                                               const ControllerContext&) const;
+  std::unique_ptr<Autopilot> make_autopilot(const std::string& name, const ParameterSet&,
+                                            const AutopilotContext&) const;
   std::unique_ptr<Payload> make_payload(const std::string& name, const ParameterSet&,
                                         const PayloadContext&) const;
   std::unique_ptr<Metric> make_metric(const std::string& name, const ParameterSet&,
@@ -118,6 +122,7 @@ class Registry {
   Table<Planner, PlannerContext> planners_;
   Table<Guidance, ControllerContext> guidances_;
   Table<Controller, ControllerContext> controllers_;
+  Table<Autopilot, AutopilotContext> autopilots_;
   Table<Payload, PayloadContext> payloads_;
   Table<Metric, MetricContext> metrics_;
   Table<Job, JobContext> jobs_;

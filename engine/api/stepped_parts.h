@@ -10,6 +10,7 @@
 /// vehicles). To report what happened, a part writes an Event to its own "<part>_event"; the kernel
 /// forwards it to "run/events".
 
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -118,6 +119,22 @@ struct ControllerContext : PartContext {
   const VehicleDescription* vehicle_description = nullptr;
   const RowMap* map = nullptr;
   std::vector<SensorMounting> sensors;  ///< those with a mounting, in the file's order
+};
+
+/// Autopilot: firmware outside the run that drives or flies a vehicle, in place of estimator,
+/// guidance and controller. Reads sensors and the vehicle's state, writes "actuators"; writes
+/// "estimate" if the firmware reports its own. Its first step waits for the firmware; a step that
+/// waits in vain throws SimulationError.
+class Autopilot : public Controller {};
+
+struct AutopilotContext : PartContext {
+  const VehicleDescription* vehicle_description = nullptr;
+  const Vehicle* vehicle_truth = nullptr;  ///< for what its inertial sensors measure
+  const RowMap* map = nullptr;
+  std::vector<SensorMounting> sensors;  ///< those with a mounting, in the file's order
+  GeoOrigin origin;                     ///< of W
+  /// Of this run: where the firmware works and recordings go. It may not exist yet.
+  std::filesystem::path folder;
 };
 
 /// Metric. Judges a run. Reads signals (truth and plan), never writes any.

@@ -16,7 +16,9 @@ inline constexpr std::uint8_t kModeFlagCustom = 1, kModeFlagArmed = 128;
 inline constexpr std::uint32_t kSensorPrearmCheck = 0x10000000;
 // MAV_CMD of commands; those of mission items are in engine/io/missions/mav_command.h
 inline constexpr std::uint16_t kCommandSetMode = 176, kCommandMissionStart = 300, kCommandArm = 400,
-                               kCommandSetMessageInterval = 511;
+                               kCommandSetMessageInterval = 511, kCommandRequestMessage = 512;
+// MAV_PARAM_TYPE
+inline constexpr std::uint8_t kParameterReal32 = 9;
 // MAV_RESULT
 inline constexpr std::uint8_t kResultAccepted = 0, kResultTemporarilyRejected = 1,
                               kResultUnsupported = 3, kResultFailed = 4, kResultInProgress = 5;

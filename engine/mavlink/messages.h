@@ -14,11 +14,11 @@ struct MessageList {};
 using AllMessages =
     MessageList<Heartbeat, SysStatus, SystemTime, SetMode, ParamRequestRead, ParamRequestList,
                 ParamValue, ParamSet, GpsRawInt, Attitude, LocalPositionNed, GlobalPositionInt,
-                MissionRequest, MissionSetCurrent, MissionCurrent, MissionRequestList, MissionCount,
-                MissionClearAll, MissionItemReached, MissionAck, MissionRequestInt,
-                RequestDataStream, MissionItemInt, VfrHud, CommandInt, CommandLong, CommandAck,
-                SetPositionTargetLocalNed, HilActuatorControls, HilSensor, HilGps,
-                HilStateQuaternion, DistanceSensor, BatteryStatus, AutopilotVersion, GpsInput,
-                HomePosition, StatusText>;
+                GpsGlobalOrigin, MissionRequest, MissionSetCurrent, MissionCurrent,
+                MissionRequestList, MissionCount, MissionClearAll, MissionItemReached, MissionAck,
+                MissionRequestInt, RequestDataStream, MissionItemInt, VfrHud, CommandInt,
+                CommandLong, CommandAck, SetPositionTargetLocalNed, HilActuatorControls, HilSensor,
+                HilGps, HilStateQuaternion, DistanceSensor, BatteryStatus, AutopilotVersion,
+                GpsInput, HomePosition, StatusText>;
 
 }  // namespace vinerow::mavlink

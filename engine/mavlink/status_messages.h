@@ -200,6 +200,24 @@ struct GlobalPositionInt {
 };
 
 /// What a pilot's display shows.
+/// Where the local coordinates of a vehicle's estimate begin.
+struct GpsGlobalOrigin {
+  static constexpr std::uint32_t kId = 49;
+  static constexpr const char* kName = "GPS_GLOBAL_ORIGIN";
+  std::int32_t latitude = 0;    ///< 1e-7 deg
+  std::int32_t longitude = 0;   ///< 1e-7 deg
+  std::int32_t altitude = 0;    ///< mm above sea level
+  std::uint64_t time_usec = 0;  ///< us
+
+  template <class Self, class F>
+  static constexpr void fields(Self& self, F&& f) {
+    f(Field{"latitude"}, self.latitude);
+    f(Field{"longitude"}, self.longitude);
+    f(Field{"altitude"}, self.altitude);
+    f(Field{"time_usec", true}, self.time_usec);
+  }
+};
+
 struct VfrHud {
   static constexpr std::uint32_t kId = 74;
   static constexpr const char* kName = "VFR_HUD";

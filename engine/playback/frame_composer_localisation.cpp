@@ -90,7 +90,8 @@ void FrameComposer::add_estimates(const scenario::CameraConfig& camera, Time t,
       look.marker_m = std::max(look.marker_m, kMarkerShare * frame.camera.ortho_height_m);
     }
     // Without an estimator the estimate is the truth.
-    if (config.estimator) shown.push_back({config.name, "estimate", look});
+    if (config.estimator || !config.estimate_is_truth())
+      shown.push_back({config.name, "estimate", look});
     for (const scenario::NamedPart& observer : config.observers) {
       shown.push_back({config.name, observer.name, look});
     }

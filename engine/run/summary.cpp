@@ -84,9 +84,9 @@ ordered_json estimation_json(const scenario::Scenario& scenario) {
   ordered_json list = ordered_json::object();
   for (const scenario::VehicleConfig& vehicle : scenario.vehicles) {
     ordered_json of_truth = ordered_json::array();
-    if (!vehicle.estimator || vehicle.estimator->type == "truth") {
+    if (vehicle.estimate_is_truth()) {
       of_truth.push_back("state");
-    } else {
+    } else if (vehicle.estimator) {
       const ParameterSet& parameters = vehicle.estimator->parameters;
       for (const ParameterSpec& spec : parameters.specs()) {
         if (spec.kind != ParameterKind::kText || spec.choices.empty()) continue;
@@ -94,9 +94,9 @@ ordered_json estimation_json(const scenario::Scenario& scenario) {
         if (value && std::get<std::string>(*value) == "truth") of_truth.push_back(spec.name);
       }
     }
-    list[vehicle.name] = {
-        {"estimator", vehicle.estimator ? ordered_json(vehicle.estimator->type) : ordered_json()},
-        {"truth", std::move(of_truth)}};
+    const auto& source = vehicle.autopilot ? vehicle.autopilot : vehicle.estimator;
+    list[vehicle.name] = {{"estimator", source ? ordered_json(source->type) : ordered_json()},
+                          {"truth", std::move(of_truth)}};
   }
   return list;
 }

@@ -373,4 +373,13 @@ Scenario parse_scenario(io::YamlNode tree, const fs::path& folder, const Registr
   return scenario_of_tree(std::move(tree), {}, base, registry, overrides);
 }
 
+bool VehicleConfig::estimate_is_truth() const {
+  if (autopilot) {
+    // Firmware reports its estimate by MAVLink.
+    const ParameterSet::Value* listens = autopilot->parameters.find("mavlink");
+    return listens != nullptr && !std::get<bool>(*listens);
+  }
+  return !estimator || estimator->type == "truth";
+}
+
 }  // namespace vinerow::scenario

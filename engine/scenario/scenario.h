@@ -64,8 +64,13 @@ struct VehicleConfig {
   std::optional<PartConfig> planner;
   std::optional<PartConfig> guidance;
   std::optional<PartConfig> controller;
+  std::optional<PartConfig> autopilot;  ///< in place of estimator, guidance and controller
   std::vector<NamedPart> payloads;  ///< in file order
   io::SourceMark where;
+
+  /// Its estimate is the truth: it has neither an estimator of its own nor firmware that reports
+  /// one.
+  bool estimate_is_truth() const;
 };
 
 enum class CameraKind { kFixed, kChase, kTop, kOnBoard, kShots };

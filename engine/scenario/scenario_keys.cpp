@@ -196,6 +196,8 @@ const std::vector<StructuralKey>& vehicle_keys() {
       part("planner", KeyShape::kPart, PartKind::kPlanner, true, "computes the path from the map"),
       part("guidance", KeyShape::kPart, PartKind::kGuidance, true, "local planning"),
       part("controller", KeyShape::kPart, PartKind::kController, true, "commands the actuators"),
+      part("autopilot", KeyShape::kPart, PartKind::kAutopilot, true,
+           "firmware outside the run, in place of estimator, guidance and controller"),
       part("payloads", KeyShape::kNamedParts, PartKind::kPayload, true,
            "payloads by name: sprayers, scouting cameras")};
   return keys;
@@ -470,7 +472,8 @@ CameraConfig read_camera_fields(const std::string& kind, const ParameterSet& val
 
 bool has_rate(PartKind kind) {
   return kind == PartKind::kSensor || kind == PartKind::kEstimator || kind == PartKind::kGuidance ||
-         kind == PartKind::kController || kind == PartKind::kPayload || kind == PartKind::kMetric;
+         kind == PartKind::kController || kind == PartKind::kAutopilot ||
+         kind == PartKind::kPayload || kind == PartKind::kMetric;
 }
 
 bool follows_controller(PartKind kind) {

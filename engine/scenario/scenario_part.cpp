@@ -98,6 +98,8 @@ std::optional<PartConfig>& slot_of(VehicleConfig& vehicle, PartKind kind) {
       return vehicle.planner;
     case PartKind::kGuidance:
       return vehicle.guidance;
+    case PartKind::kAutopilot:
+      return vehicle.autopilot;
     default:
       return vehicle.controller;
   }
@@ -190,6 +192,7 @@ void check_part_signals(const VehicleConfig& vehicle, const std::string& path,
   if (vehicle.planner) add(PartKind::kPlanner, *vehicle.planner);
   if (vehicle.guidance) add(PartKind::kGuidance, *vehicle.guidance);
   if (vehicle.controller) add(PartKind::kController, *vehicle.controller);
+  if (vehicle.autopilot) add(PartKind::kAutopilot, *vehicle.autopilot);
   const auto check = [&](const std::string& signal, const NamedPart& part, const char* group,
                          const char* what) {
     const auto found = writers.find(signal);
@@ -211,6 +214,22 @@ void check_part_signals(const VehicleConfig& vehicle, const std::string& path,
     for (const auto& [local, signal] : observer_signals(observer.name)) {
       check(signal, observer, "observers", "an observer");
     }
+  }
+}
+
+/// An autopilot does what these parts do.
+void check_autopilot_is_alone(const VehicleConfig& vehicle, const std::string& path) {
+  if (!vehicle.autopilot) return;
+  const std::pair<const char*, const std::optional<PartConfig>&> others[] = {
+      {"estimator", vehicle.estimator},
+      {"guidance", vehicle.guidance},
+      {"controller", vehicle.controller}};
+  for (const auto& [name, part] : others) {
+    if (!part) continue;
+    io::fail_at(part->where,
+                fmt::format("{}.{}: the vehicle has an autopilot ('{}'), which takes the place of "
+                            "estimator, guidance and controller; remove one of both",
+                            path, name, vehicle.autopilot->type));
   }
 }
 
@@ -386,6 +405,7 @@ VehicleConfig read_vehicle(const io::YamlEntry& entry, const std::string& path,
     }
     resolved.put(key.spec.name, std::move(written));
   }
+  check_autopilot_is_alone(vehicle, path);
   check_observer_names(vehicle, path);
   check_part_signals(vehicle, path, context.registry);
   return vehicle;

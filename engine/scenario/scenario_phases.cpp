@@ -303,12 +303,12 @@ void check_vehicles_in_turn(const std::vector<PhaseConfig>& phases,
     for (const PhaseConfig& phase : phases) {
       if (holds(phase.vehicles, vehicle.name)) of_vehicle.push_back(&phase);
     }
-    if (of_vehicle.empty() && vehicle.controller) {
+    if (of_vehicle.empty() && (vehicle.controller || vehicle.autopilot)) {
       io::fail_at(
           vehicle.where,
-          fmt::format("vehicles.{}: is in no phase; add it to one, or remove its controller "
-                      "to keep it parked",
-                      vehicle.name));
+          fmt::format("vehicles.{}: is in no phase; add it to one, or remove its {} to keep "
+                      "it parked",
+                      vehicle.name, vehicle.autopilot ? "autopilot" : "controller"));
     }
     for (std::size_t i = 0; i < of_vehicle.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {

@@ -64,6 +64,12 @@ Simulation::Simulation(const scenario::Scenario& scenario, const Registry& regis
 
   events_ = bus_.advertise<Event>("run/events", "run");
   if (!world().rows->occupancy.empty()) map_ = bus_.advertise<OccupancyGrid>("run/map", "run");
+  const bool has_autopilot = std::any_of(
+      scenario_.vehicles.begin(), scenario_.vehicles.end(),
+      [](const scenario::VehicleConfig& vehicle) { return vehicle.autopilot.has_value(); });
+  if (setup.products.empty() && (has_autopilot || !scenario_.phases.empty())) {
+    setup.products = own_products_ = make_own_folder();
+  }
   const RunContext run{scenario_,
                        registry,
                        world(),
@@ -71,6 +77,7 @@ Simulation::Simulation(const scenario::Scenario& scenario, const Registry& regis
                        bus_,
                        scheduler_,
                        setup.shelf,
+                       setup.products,
                        [this](Event::Level level, const std::string& source,
                               const std::string& text) { emit(level, source, text); }};
   std::vector<StartBox> starts;
@@ -84,7 +91,6 @@ Simulation::Simulation(const scenario::Scenario& scenario, const Registry& regis
     }
   }
   if (!scenario_.phases.empty()) {
-    if (setup.products.empty()) setup.products = own_products_ = make_own_folder();
     mission_ = std::make_unique<Mission>(run, vehicles_, std::move(setup.products));
   }
   add_traffic(run);

@@ -110,12 +110,13 @@ void VehicleAssembly::build(const PhaseHandover& handover, std::optional<Time> b
     parts_.diagnostics.push_back(config_.name + "/map_edges");
   }
   add_sensors();
+  if (config_.autopilot) add_autopilot();
   add_estimator();
   add_observers();
   const bool has_plan = handover.plan != nullptr;
   add_planner(has_plan);
   add_guidance();
-  add_controller(has_plan);
+  if (!config_.autopilot) add_controller(has_plan);
   add_payloads();
   add_metrics();
 }
@@ -189,6 +190,9 @@ void VehicleAssembly::add_sensors() {
 }
 
 void VehicleAssembly::add_estimator() {
+  // An autopilot may write the estimate of its own firmware.
+  const SignalBase* estimate = run_.bus.find(config_.name + "/estimate");
+  if (estimate != nullptr && !estimate->writer().empty()) return;
   const std::string part = config_.name + ".estimator";
   const bool given = config_.estimator.has_value();
   const std::string type = given ? config_.estimator->type : "truth";
@@ -285,10 +289,31 @@ void VehicleAssembly::add_guidance() {
   parts_.diagnostics.push_back(config_.name + "/landing");
 }
 
+void VehicleAssembly::schedule_actuators(double rate_Hz) {
+  parts_.actuators = Ports(run_.bus, config_.name, config_.name).read<NamedValues>("actuators");
+  schedule(Stage::kActuate, config_.name + ".actuators", period_of_rate(rate_Hz), {},
+           std::move(ticks_.actuate));
+}
+
+void VehicleAssembly::add_autopilot() {
+  const scenario::PartConfig& config = *config_.autopilot;
+  const std::string part = config_.name + ".autopilot";
+  auto autopilot_context = context<AutopilotContext>(part, config.rate_Hz);
+  autopilot_context.vehicle_description = &vehicle_.description();
+  autopilot_context.vehicle_truth = &vehicle_;
+  autopilot_context.map = &map();
+  autopilot_context.sensors = parts_.mountings;
+  autopilot_context.origin = run_.world.origin;
+  autopilot_context.folder = run_.products / part;
+  parts_.controller = with_place(config.where, config_.name, [&] {
+    return run_.registry.make_autopilot(config.type, config.parameters, autopilot_context);
+  });
+  note_if_it_may_fail(parts_.controller.get());
+  add_stepped(Stage::kControl, part, config.type, config.rate_Hz, *parts_.controller);
+  schedule_actuators(config.rate_Hz);
+}
+
 void VehicleAssembly::add_controller(bool has_plan) {
-  // Commands from outside act at their instant, hence at the rate of the physics step.
-  Duration period = run_.scenario.physics_step;
-  Ports ports(run_.bus, config_.name, config_.name);
   if (config_.controller) {
     const std::string part = config_.name + ".controller";
     parts_.controller = with_place(config_.controller->where, config_.name, [&] {
@@ -299,13 +324,14 @@ void VehicleAssembly::add_controller(bool has_plan) {
     add_stepped(Stage::kControl, part, config_.controller->type, control_rate_Hz(),
                 *parts_.controller);
     if (!parts_.planner && !has_plan) refuse_a_missing_plan();
-    parts_.actuators = ports.read<NamedValues>("actuators");
-    period = period_of_rate(control_rate_Hz());
-  } else {
-    parts_.actuators = ports.read_optional<NamedValues>("actuators");
-    if (run_.bus.find(config_.name + "/actuators")->writer() != kOutside) return;
+    return schedule_actuators(control_rate_Hz());
   }
-  schedule(Stage::kActuate, config_.name + ".actuators", period, {}, std::move(ticks_.actuate));
+  parts_.actuators =
+      Ports(run_.bus, config_.name, config_.name).read_optional<NamedValues>("actuators");
+  if (run_.bus.find(config_.name + "/actuators")->writer() != kOutside) return;
+  // Commands from outside act at their instant, hence at the rate of the physics step.
+  schedule(Stage::kActuate, config_.name + ".actuators", run_.scenario.physics_step, {},
+           std::move(ticks_.actuate));
 }
 
 void VehicleAssembly::refuse_a_missing_plan() const {

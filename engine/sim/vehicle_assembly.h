@@ -2,6 +2,7 @@
 /// Building of the parts of one vehicle from its scenario: map, sensors, estimator, observers,
 /// planner, guidance, controller, payloads and metrics, connected in this order and scheduled.
 
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -33,6 +34,8 @@ struct RunContext {
   SignalBus& bus;
   Scheduler& scheduler;
   FileShelf* shelf;  ///< null: none
+  /// Of the run: files of jobs and autopilots. Empty if it has neither.
+  std::filesystem::path products;
   std::function<void(Event::Level, const std::string& source, const std::string& text)> emit;
 };
 
@@ -59,8 +62,8 @@ struct VehicleParts {
   std::vector<std::unique_ptr<Estimator>> observers;
   std::unique_ptr<Planner> planner;
   std::unique_ptr<Guidance> guidance;
-  std::unique_ptr<Controller> controller;
-  std::vector<const MayFail*> may_fail;  ///< guidance and controller, if they can fail
+  std::unique_ptr<Controller> controller;  ///< or autopilot
+  std::vector<const MayFail*> may_fail;    ///< guidance and controller, if they can fail
   std::vector<std::pair<std::string, std::unique_ptr<Payload>>> payloads;
   std::vector<std::unique_ptr<Metric>> metrics;
 
@@ -113,6 +116,9 @@ class VehicleAssembly {
   void add_planner(bool has_plan);
   void add_guidance();
   void add_controller(bool has_plan);
+  void add_autopilot();
+  /// What the controller or autopilot writes is applied after it.
+  void schedule_actuators(double rate_Hz);
   void add_payloads();
   void add_metrics();
   /// @throws ConfigError with the part that reads a plan, if no planner writes one

@@ -223,6 +223,10 @@ void VehicleRuntime::check_command(const SignalBase& value) const {
   }
 }
 
+std::string VehicleRuntime::driver() const {
+  return config_.name + (config_.autopilot ? ".autopilot" : ".controller");
+}
+
 void VehicleRuntime::actuate(Time now) {
   if (parts_->controller && !crash() && !finished()) {
     watch_.check_progress(now, truth_.X_WB.p, actuator_values_);
@@ -230,7 +234,8 @@ void VehicleRuntime::actuate(Time now) {
   if (crash() && crash()->kind == EndKind::kStuck) return actuate_zero();
   if (!has_reported_finished_ && parts_->controller && finished()) {
     has_reported_finished_ = true;
-    run_.emit(Event::Level::kInfo, config_.name + ".controller", "finished its path");
+    run_.emit(Event::Level::kInfo, driver(),
+              config_.autopilot ? "finished its mission" : "finished its path");
   }
   const auto& actuators = parts_->actuators;
   if (!actuators.has_value() || !actuators.is_newer_than(actuators_seen_)) return;
@@ -243,11 +248,11 @@ void VehicleRuntime::take_actuators(Time now, const NamedValues& wanted) {
     actuator_names_ = wanted.names;
     actuator_index_.clear();
     for (const std::string& actuator : wanted.names) {
-      actuator_index_.push_back(description.actuator_index(actuator, config_.name + ".controller"));
+      actuator_index_.push_back(description.actuator_index(actuator, driver()));
     }
   }
   if (wanted.values.size() != wanted.names.size()) {
-    throw SimulationError(config_.name + ".controller", now,
+    throw SimulationError(driver(), now,
                           fmt::format("wrote {} actuator values for {} names", wanted.values.size(),
                                       wanted.names.size()));
   }

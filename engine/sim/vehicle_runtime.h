@@ -104,6 +104,8 @@ class VehicleRuntime {
   void actuate_zero();
   /// @param wanted  as the controller or a program outside wrote it
   /// @throws SimulationError, ConfigError if it does not fit the actuators
+  /// Name of the part that commands the actuators.
+  std::string driver() const;
   void take_actuators(Time now, const NamedValues& wanted);
 
   scenario::VehicleConfig config_;

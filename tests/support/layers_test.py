@@ -17,6 +17,7 @@ FILES, GEO, CLOUDS = "engine/io/files", "engine/io/geo", "engine/io/clouds"
 VEHICLE_PARTS, WORLD_PARTS = "vehicles/parts", "worlds/parts"
 SOLVERS, PATHS = "controllers/parts/solvers", "controllers/parts/paths"
 CONTROLLER_PARTS = ["controllers/parts"]
+AUTOPILOT_PARTS = [f"controllers/autopilot/{part}" for part in ("frames", "link", "mavlink", "outputs")]
 ESTIMATION_PARTS = "controllers/estimation/parts"
 SEARCH, ROUTES, SURVEY = "controllers/planning/search", "controllers/planning/routes", "controllers/planning/survey"
 MAPPING = "worlds/mapping"
@@ -68,9 +69,10 @@ ALLOWED = {
     # One folder for each controller.
     "controllers": BASE + CONTROLLER_PARTS,
     "controllers/autopilot/link": [CORE],
-    "controllers/autopilot/mavlink": [CORE, MAVLINK],
+    "controllers/autopilot/frames": BASE,
+    "controllers/autopilot/mavlink": BASE + [MAVLINK, "engine/io/missions", "controllers/autopilot/frames"],
     "controllers/autopilot/outputs": BASE + ["controllers/parts/ground_drive"],
-    "controllers/autopilot/ardupilot": BASE + ["controllers/autopilot/link"],
+    "controllers/autopilot/ardupilot": BASE + ["engine/io/missions"] + AUTOPILOT_PARTS,
     SOLVERS: [CORE, MATH],
     PATHS: BASE,
     "controllers/parts/ground_drive": BASE + [PATHS],

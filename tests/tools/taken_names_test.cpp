@@ -40,7 +40,7 @@ TEST(TakenNames, AreThoseOfTheDocs) {
   std::set<std::string> taken(scenario::reserved_signal_names().begin(),
                               scenario::reserved_signal_names().end());
   for (const PartKind kind : {PartKind::kVehicle, PartKind::kEstimator, PartKind::kPlanner,
-                              PartKind::kGuidance, PartKind::kController}) {
+                              PartKind::kGuidance, PartKind::kController, PartKind::kAutopilot}) {
     for (const std::string& type : registry.names(kind)) {
       const auto signals = scenario::fixed_signals(registry.spec(kind, type));
       taken.insert(signals.begin(), signals.end());

@@ -119,8 +119,13 @@ std::string parts_text(const scenario::VehicleConfig& vehicle, const RunFolder& 
   const double mass_kg = v < run.models.size() ? run.models[v]->description().mass_kg : 0.0;
   if (mass_kg > 0.0) out += fmt::format(", {} kg", number_text(mass_kg));
   if (vehicle.controller) out += ", controller " + type_text(vehicle.controller->type);
-  out += vehicle.estimator ? ", estimator " + type_text(vehicle.estimator->type)
-                           : ", knows its true state";
+  if (vehicle.autopilot) {
+    out += ", autopilot " + type_text(vehicle.autopilot->type);
+    if (vehicle.estimate_is_truth()) out += ", knows its true state";
+  } else {
+    out += vehicle.estimator ? ", estimator " + type_text(vehicle.estimator->type)
+                             : ", knows its true state";
+  }
   for (const scenario::NamedPart& payload : vehicle.payloads) out += ", payload " + payload.name;
   return out;
 }

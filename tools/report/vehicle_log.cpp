@@ -47,8 +47,7 @@ void read_reference(const record::LogReader& log, const std::string& topic,
 bool acts_on_truth(const RunFolder& run, const VehicleLog& vehicle) {
   if (run.scenario) {
     for (const scenario::VehicleConfig& config : run.scenario->vehicles) {
-      if (config.name == vehicle.name)
-        return !config.estimator || config.estimator->type == "truth";
+      if (config.name == vehicle.name) return config.estimate_is_truth();
     }
   }
   const playback::Trace<Odometry>& estimate = vehicle.estimates.at("estimate");

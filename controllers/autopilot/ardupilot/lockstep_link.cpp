@@ -35,6 +35,7 @@ std::optional<Result<ServoPacket>> LockstepLink::next_packet(milliseconds limit)
         peer_->port, datagram->from.port, socket_.port())});
   }
   Result<ServoPacket> packet = parse_servo_packet(datagram->bytes);
+  last_ = datagram->bytes;
   if (packet) peer_ = datagram->from;
   return packet;
 }

@@ -26,6 +26,8 @@ class LockstepLink {
   LockstepLink(UdpAddress own, const std::string& who) : socket_(own, who) {}
 
   std::uint16_t port() const { return socket_.port(); }
+  /// Bytes of the packet that was returned last.
+  std::span<const std::uint8_t> last_packet() const { return last_; }
 
   /// Waits for the first packet. @returns it, or one sentence without subject about the failure:
   /// "sent nothing for 60 s"
@@ -44,6 +46,7 @@ class LockstepLink {
   void send(std::string_view line);
 
   UdpSocket socket_;
+  std::span<const std::uint8_t> last_;  ///< in the socket's buffer
   std::optional<UdpAddress> peer_;
   std::uint32_t frame_ = 0;
 };

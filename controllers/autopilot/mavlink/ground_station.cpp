@@ -58,6 +58,52 @@ void GroundStation::request_streams() {
     command.param2 = static_cast<float>(1e6 / rate_Hz);  // microseconds
     request(command);
   }
+  CommandLong origin;
+  origin.command = kCommandRequestMessage;
+  origin.param1 = static_cast<float>(GpsGlobalOrigin::kId);
+  request(origin);
+}
+
+void GroundStation::send_parameter() {
+  const FirmwareParameter& wanted = options_.parameters[next_parameter_];
+  ParamSet set;
+  set.target_system = vehicle_.system;
+  set.target_component = vehicle_.component;
+  set_text(set.param_id, wanted.name);
+  set.param_value = static_cast<float>(wanted.value);
+  set.param_type = kParameterReal32;
+  send_(writer_.write(set));
+}
+
+void GroundStation::take_parameter(Time now, const ParamValue& value) {
+  if (stage_ != Stage::kParameters) return;
+  const FirmwareParameter& wanted = options_.parameters[next_parameter_];
+  if (text_of(value.param_id) != wanted.name) return;
+  const auto wanted_value = static_cast<float>(wanted.value);
+  // Parameters of whole numbers come back as such.
+  if (value.param_value != wanted_value) {
+    return fail(fmt::format("keeps its parameter {} at {:g} instead of {:g}", wanted.name,
+                            value.param_value, wanted_value));
+  }
+  ++next_parameter_;
+  enter(now, next_parameter_ < options_.parameters.size() ? Stage::kParameters : Stage::kReady);
+}
+
+void GroundStation::send_commands(Time now) {
+  if (stage_ == Stage::kListen) return;
+  const double time_s = (now - *begin_).s();
+  while (next_command_ < options_.commands.size() &&
+         options_.commands[next_command_].at_s <= time_s) {
+    const ScheduledCommand& wanted = options_.commands[next_command_++];
+    CommandLong command;
+    command.command = static_cast<std::uint16_t>(wanted.command);
+    float* const places[] = {&command.param1, &command.param2, &command.param3, &command.param4,
+                             &command.param5, &command.param6, &command.param7};
+    for (std::size_t i = 0; i < std::min(wanted.params.size(), std::size(places)); ++i) {
+      *places[i] = static_cast<float>(wanted.params[i]);
+    }
+    request(command);
+  }
 }
 
 std::string GroundStation::last_complaint() const {
@@ -85,7 +131,7 @@ void GroundStation::take_heartbeat(Time now, const Frame& frame) {
   const bool armed = is_armed(heartbeat_);
   if (stage_ == Stage::kListen) {
     vehicle_ = frame.sender;
-    enter(now, Stage::kReady);
+    enter(now, options_.parameters.empty() ? Stage::kReady : Stage::kParameters);
   } else if (stage_ == Stage::kMode && heartbeat_.custom_mode == auto_mode()) {
     enter(now, Stage::kArm);
   } else if (stage_ == Stage::kArm && armed) {
@@ -118,10 +164,14 @@ void GroundStation::take(Time now, const Frame& frame) {
   if (const auto attitude = read<Attitude>(frame)) {
     attitude_ = attitude;
   } else if (const auto position = read<LocalPositionNed>(frame)) {
-    if (attitude_) estimate_ = FirmwareEstimate{now, *position, *attitude_};
+    if (attitude_ && origin_) estimate_ = FirmwareEstimate{now, *position, *attitude_, *origin_};
+  } else if (const auto origin = read<GpsGlobalOrigin>(frame)) {
+    origin_ = origin;
+  } else if (const auto parameter = read<ParamValue>(frame)) {
+    take_parameter(now, *parameter);
   } else if (const auto status = read<SysStatus>(frame)) {
     const bool is_ready = (status->onboard_control_sensors_health & kSensorPrearmCheck) != 0;
-    if (stage_ == Stage::kReady && is_ready && estimate_ && !options_.mission.empty()) {
+    if (stage_ == Stage::kReady && is_ready && estimate_ && !mission_.empty()) {
       enter(now, Stage::kUpload);
     }
   } else if (const auto text = read<StatusText>(frame)) {
@@ -138,18 +188,17 @@ void GroundStation::take(Time now, const Frame& frame) {
     take_ack(now, *ack);
   } else if (const auto reached = read<MissionItemReached>(frame)) {
     items_reached_ = std::max(items_reached_, reached->seq + 1);
-    const bool is_last = reached->seq + 1 >= static_cast<int>(options_.mission.size());
+    const bool is_last = reached->seq + 1 >= static_cast<int>(mission_.size());
     if (stage_ == Stage::kFlight && is_last) enter(now, Stage::kDone);
   }
 }
 
 void GroundStation::send_item(Time now, int number) {
   if (stage_ != Stage::kUpload) return;
-  if (number >= static_cast<int>(options_.mission.size())) {
-    return fail(
-        fmt::format("asked for item {} of a mission of {}", number, options_.mission.size()));
+  if (number >= static_cast<int>(mission_.size())) {
+    return fail(fmt::format("asked for item {} of a mission of {}", number, mission_.size()));
   }
-  MissionItemInt item = options_.mission[static_cast<std::size_t>(number)];
+  MissionItemInt item = mission_[static_cast<std::size_t>(number)];
   item.target_system = vehicle_.system;
   item.target_component = vehicle_.component;
   item.seq = static_cast<std::uint16_t>(number);
@@ -159,6 +208,8 @@ void GroundStation::send_item(Time now, int number) {
 }
 
 void GroundStation::step(Time now) {
+  if (!begin_) begin_ = now;
+  send_commands(now);
   const double waited_s = (now - stage_begin_).s();
   const auto gives_up = [&](double limit_s, const char* what) {
     if (waited_s <= limit_s) return false;
@@ -168,11 +219,19 @@ void GroundStation::step(Time now) {
   switch (stage_) {
     case Stage::kListen:
     case Stage::kReady:
-      if (!options_.mission.empty() &&
+      if (options_.expects_mission &&
           gives_up(options_.ready_timeout_s, "was not ready to be armed")) {
         break;
       }
       if (stage_ == Stage::kReady && !estimate_ && is_due(now)) request_streams();
+      break;
+    case Stage::kParameters:
+      if (waited_s > options_.answer_timeout_s) {
+        return fail(fmt::format("has no parameter {}: it gave no answer for {:g} s",
+                                options_.parameters[next_parameter_].name,
+                                options_.answer_timeout_s));
+      }
+      if (is_due(now)) send_parameter();
       break;
     case Stage::kUpload:
       if (gives_up(options_.answer_timeout_s, "did not take the mission") || !is_due(now)) break;
@@ -180,7 +239,7 @@ void GroundStation::step(Time now) {
         MissionCount count;
         count.target_system = vehicle_.system;
         count.target_component = vehicle_.component;
-        count.count = static_cast<std::uint16_t>(options_.mission.size());
+        count.count = static_cast<std::uint16_t>(mission_.size());
         count.mission_type = kAllMissions;
         send_(writer_.write(count));
       }

@@ -1,7 +1,7 @@
 #pragma once
-/// What a ground station does with an autopilot: waits until it is ready, uploads a mission, arms,
-/// starts the mission and watches it. All waiting is in simulated time, and everything is sent
-/// between two steps, so a run repeats.
+/// What a ground station does with an autopilot: sets parameters, waits until it is ready, uploads
+/// a mission, arms, starts the mission and watches it. All waiting is in simulated time, and
+/// everything is sent between two steps, so a run repeats.
 ///
 /// Sources: MAVLink's guide, "Mission protocol" and "Command protocol"; ArduPilot 4.6.3.
 
@@ -11,18 +11,27 @@
 #include <string>
 #include <vector>
 
+#include "controllers/autopilot/mavlink/parameter_file.h"
 #include "engine/core/time.h"
 #include "engine/mavlink/frame.h"
 #include "engine/mavlink/messages.h"
 
 namespace vinerow::controllers {
 
+/// A command of the user's, at a time since the ground station's first step.
+struct ScheduledCommand {
+  double at_s = 0.0;
+  int command = 0;             ///< MAV_CMD
+  std::vector<double> params;  ///< at most 7; missing ones are 0
+};
+
 struct GroundStationOptions {
-  /// Items with their numbers; empty: nothing is uploaded or started.
-  std::vector<mavlink::MissionItemInt> mission;
-  double report_rate_Hz = 10.0;    ///< of attitude and position
-  double ready_timeout_s = 120.0;  ///< until its own checks let it be armed
-  double answer_timeout_s = 10.0;  ///< of each request, which is repeated every second
+  std::vector<FirmwareParameter> parameters;  ///< set one by one before anything else
+  std::vector<ScheduledCommand> commands;     ///< in order of time
+  bool expects_mission = false;               ///< fly() will be called
+  double report_rate_Hz = 10.0;               ///< of attitude and position
+  double ready_timeout_s = 120.0;             ///< until its own checks let it be armed
+  double answer_timeout_s = 10.0;             ///< of each request, which is repeated every second
 };
 
 /// The firmware's own estimate.
@@ -30,6 +39,7 @@ struct FirmwareEstimate {
   Time time;
   mavlink::LocalPositionNed position;
   mavlink::Attitude attitude;
+  mavlink::GpsGlobalOrigin origin;  ///< of the position
 };
 
 class GroundStation {
@@ -44,11 +54,14 @@ class GroundStation {
   /// Sends what is due.
   void step(Time now);
 
+  /// Items with their numbers. It uploads them as soon as the vehicle is ready, and starts them.
+  void fly(std::vector<mavlink::MissionItemInt> mission) { mission_ = std::move(mission); }
+
   /// The last item of the mission was reached, or the vehicle was disarmed after its flight.
   bool finished() const { return stage_ == Stage::kDone; }
   /// Why the mission cannot be flown, one sentence without subject; empty: no reason.
   const std::string& failure() const { return failure_; }
-  /// The latest estimate, if attitude and position have come.
+  /// The latest estimate, if attitude, position and its origin have come.
   const std::optional<FirmwareEstimate>& estimate() const { return estimate_; }
   /// Sentences of the autopilot since the last call.
   std::vector<mavlink::StatusText> take_texts();
@@ -56,7 +69,18 @@ class GroundStation {
   int items_reached() const { return items_reached_; }
 
  private:
-  enum class Stage { kListen, kReady, kUpload, kMode, kArm, kStart, kFlight, kDone, kFailed };
+  enum class Stage {
+    kListen,
+    kParameters,
+    kReady,
+    kUpload,
+    kMode,
+    kArm,
+    kStart,
+    kFlight,
+    kDone,
+    kFailed
+  };
 
   void enter(Time now, Stage stage);
   void fail(const std::string& reason);
@@ -65,7 +89,10 @@ class GroundStation {
   void request(const mavlink::CommandLong& command);
   /// Attitude, position and status, at their rates.
   void request_streams();
+  void send_parameter();
+  void send_commands(Time now);
   void send_item(Time now, int number);
+  void take_parameter(Time now, const mavlink::ParamValue& value);
   void take_heartbeat(Time now, const mavlink::Frame& frame);
   void take_ack(Time now, const mavlink::CommandAck& ack);
   void take_mission_ack(Time now, const mavlink::MissionAck& ack);
@@ -74,17 +101,21 @@ class GroundStation {
   std::optional<std::uint32_t> auto_mode() const;
 
   GroundStationOptions options_;
+  std::vector<mavlink::MissionItemInt> mission_;
   Send send_;
   mavlink::FrameWriter writer_{mavlink::Sender{255, 190}};  // as ground stations have
   Stage stage_ = Stage::kListen;
   Time stage_begin_, last_request_;
+  std::optional<Time> begin_;
   bool has_requested_ = false;
+  std::size_t next_parameter_ = 0, next_command_ = 0;
   std::string failure_, complaint_;
   mavlink::Sender vehicle_;
   mavlink::Heartbeat heartbeat_;
   bool was_armed_ = false;
   int items_reached_ = 0;
   std::optional<mavlink::Attitude> attitude_;
+  std::optional<mavlink::GpsGlobalOrigin> origin_;
   std::optional<FirmwareEstimate> estimate_;
   std::vector<mavlink::StatusText> texts_;
 };

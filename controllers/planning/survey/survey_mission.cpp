@@ -2,14 +2,13 @@
 
 #include <limits>
 
+#include "engine/io/missions/mav_command.h"
 #include "engine/math/angles.h"
 #include "engine/math/geo.h"
 
 namespace vinerow::controllers {
 namespace {
 
-constexpr int kRelativeAltitude = 3, kNoPlace = 2;  // MAV_FRAME
-constexpr int kWaypoint = 16, kReturn = 20, kTakeOff = 22, kSpeed = 178, kTriggerDistance = 206;
 constexpr double kKeep = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
@@ -26,7 +25,7 @@ io::MissionFile make_survey_mission(const SurveyPlan& plan, const GeoOrigin& ori
   };
   const auto add_place = [&](int command, double first, const Eigen::Vector3d& p_W) {
     const Geodetic place = frame.to_geodetic(p_W);
-    add(command, kRelativeAltitude,
+    add(command, io::kFrameHome,
         {first, 0, 0, kKeep, deg_from_rad(place.latitude_rad), deg_from_rad(place.longitude_rad),
          p_W.z() - home_ground_m});
   };
@@ -39,9 +38,9 @@ io::MissionFile make_survey_mission(const SurveyPlan& plan, const GeoOrigin& ori
   }
   const auto take_off = [&](double pitch_deg, const Eigen::Vector3d& p_W) {
     constexpr double kThroughAir = 0.0, kOverGround = 1.0;
-    add_place(kTakeOff, pitch_deg, p_W);
+    add_place(io::kNavTakeOff, pitch_deg, p_W);
     if (speed_mps > 0.0) {
-      add(kSpeed, kNoPlace,
+      add(io::kDoChangeSpeed, io::kFrameMission,
           {plan.rotorcraft ? kOverGround : kThroughAir, speed_mps, -1, 0, 0, 0, 0});
     }
   };
@@ -54,15 +53,15 @@ io::MissionFile make_survey_mission(const SurveyPlan& plan, const GeoOrigin& ori
     if (i == 1 && !plan.rotorcraft) {
       take_off(kPitch_deg, points[i].p_W);
     } else {
-      add_place(kWaypoint, 0.0, points[i].p_W);
+      add_place(io::kNavWaypoint, 0.0, points[i].p_W);
     }
     const bool is_lane = points[i].kind == PathKind::kLeg;
     if (is_lane == is_on) continue;
     is_on = is_lane;
-    add(kTriggerDistance, kNoPlace,
+    add(io::kDoSetCameraTriggerDistance, io::kFrameMission,
         {is_on ? plan.photo_distance_m : 0.0, 0, is_on ? 1.0 : 0.0, 0, 0, 0, 0});
   }
-  if (returns) add(kReturn, kNoPlace, {0, 0, 0, 0, 0, 0, 0});
+  if (returns) add(io::kNavReturn, io::kFrameMission, {0, 0, 0, 0, 0, 0, 0});
   return mission;
 }
 

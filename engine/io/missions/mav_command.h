@@ -7,6 +7,11 @@
 
 namespace vinerow::io {
 
+// Commands that are written, and frames (MAV_FRAME).
+inline constexpr int kNavWaypoint = 16, kNavReturn = 20, kNavLand = 21, kNavTakeOff = 22,
+                     kDoChangeSpeed = 178, kDoSetCameraTriggerDistance = 206;
+inline constexpr int kFrameMeanSeaLevel = 0, kFrameMission = 2, kFrameHome = 3, kFrameTerrain = 10;
+
 /// Effect of a mission command on the flight.
 enum class MavAction {
   kWaypoint,  ///< fly there

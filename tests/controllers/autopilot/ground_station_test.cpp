@@ -7,127 +7,15 @@
 
 #include "controllers/autopilot/mavlink/ground_station.h"
 #include "engine/mavlink/enums.h"
+#include "tests/controllers/autopilot/fake_vehicle.h"
 
 namespace vinerow::controllers::ground_station_test {
 namespace {
 
 using namespace mavlink;
+using autopilot_fake::FakeVehicle;
+using Bytes = FakeVehicle::Bytes;
 using ::testing::HasSubstr;
-using Bytes = std::vector<std::uint8_t>;
-
-/// Behaves as an ArduPilot rover does, in steps of 0.1 s.
-struct FakeVehicle {
-  std::uint8_t type = kTypeGroundRover;
-  double ready_at_s = 5.0;
-  int loses = 0;  ///< number of frames of the ground station that are lost first
-  std::uint8_t mission_result = kMissionAccepted;
-  bool refuses_to_arm = false;
-  std::string prearm;
-
-  std::vector<MissionItemInt> items;
-  std::size_t wanted = 0;
-  std::uint32_t mode = 4;  // HOLD
-  bool is_armed = false;
-  bool has_started = false;
-  int uploads = 0;
-  std::vector<std::pair<float, float>> intervals;  ///< message, microseconds
-
-  FrameWriter writer{Sender{1, 1}};
-  FrameReader reader;
-  std::vector<Bytes> to_station;
-
-  template <class M>
-  void send(const M& message) {
-    const auto frame = writer.write(message);
-    to_station.emplace_back(frame.begin(), frame.end());
-  }
-
-  void take(std::span<const std::uint8_t> bytes) {
-    if (loses > 0) {
-      --loses;
-      return;
-    }
-    reader.read(bytes, [this](const Frame& frame) { answer(frame); });
-  }
-
-  void ask_or_accept() {
-    if (wanted < items.size()) {
-      MissionRequestInt request;
-      request.target_system = 255;
-      request.seq = static_cast<std::uint16_t>(wanted);
-      return send(request);
-    }
-    MissionAck ack;
-    ack.type = mission_result;
-    send(ack);
-  }
-
-  void answer(const Frame& frame) {
-    if (const auto count = read<MissionCount>(frame)) {
-      ++uploads;
-      items.assign(count->count, {});
-      wanted = 0;
-      ask_or_accept();
-    } else if (const auto item = read<MissionItemInt>(frame)) {
-      if (item->seq != wanted) return;
-      items[wanted++] = *item;
-      ask_or_accept();
-    } else if (const auto command = read<CommandLong>(frame)) {
-      CommandAck ack;
-      ack.command = command->command;
-      switch (command->command) {
-        case kCommandSetMessageInterval:
-          intervals.emplace_back(command->param1, command->param2);
-          break;
-        case kCommandSetMode:
-          mode = static_cast<std::uint32_t>(command->param2);
-          break;
-        case kCommandArm:
-          if (refuses_to_arm) {
-            ack.result = kResultFailed;
-            StatusText text;
-            text.severity = 2;
-            set_text(text.text, "Arm: Throttle not neutral");
-            send(text);
-          } else {
-            is_armed = true;
-          }
-          break;
-        case kCommandMissionStart:
-          has_started = true;
-          break;
-        default:
-          ack.result = kResultUnsupported;
-      }
-      send(ack);
-    }
-  }
-
-  void step(double time_s) {
-    Heartbeat heartbeat;
-    heartbeat.type = type;
-    heartbeat.autopilot = kAutopilotArdupilot;
-    heartbeat.custom_mode = mode;
-    heartbeat.base_mode = is_armed ? kModeFlagArmed : 0;
-    send(heartbeat);
-    for (const auto& [message, interval_us] : intervals) {
-      if (message == Attitude::kId) send(Attitude{});
-      if (message != LocalPositionNed::kId) continue;
-      LocalPositionNed position;
-      position.x = static_cast<float>(time_s);
-      send(position);
-    }
-    SysStatus status;
-    if (time_s >= ready_at_s) status.onboard_control_sensors_health = kSensorPrearmCheck;
-    send(status);
-    if (!prearm.empty() && time_s < ready_at_s) {
-      StatusText text;
-      text.severity = 2;
-      set_text(text.text, prearm);
-      send(text);
-    }
-  }
-};
 
 std::vector<MissionItemInt> mission(int count) {
   std::vector<MissionItemInt> items(static_cast<std::size_t>(count));
@@ -140,14 +28,16 @@ std::vector<MissionItemInt> mission(int count) {
 
 struct Bench {
   explicit Bench(int items, GroundStationOptions options = {}) {
-    options.mission = mission(items);
+    options.expects_mission = items > 0;
     station.emplace(options, [this](std::span<const std::uint8_t> frame) { vehicle.take(frame); });
+    station->fly(mission(items));
   }
   /// @param each  after each step
   void run(
       double seconds, const std::function<void()>& each = [] {}) {
     for (const double end_s = time_s + seconds; time_s < end_s; time_s += 0.1) {
       const Time now{static_cast<std::int64_t>(time_s * 1e9)};
+      vehicle.position.x = static_cast<float>(time_s);
       vehicle.step(time_s);
       for (std::size_t i = 0; i < vehicle.to_station.size(); ++i) {
         const Bytes bytes = vehicle.to_station[i];  // an answer may add more
@@ -235,6 +125,46 @@ TEST(GroundStation, SaysWhyThereIsNoMission) {
   boat.vehicle.type = 11;
   boat.run(6.0);
   EXPECT_EQ(boat.station->failure(), "is a vehicle of type 11, for which no mode AUTO is known");
+}
+
+TEST(GroundStation, SetsParametersFirst) {
+  GroundStationOptions options;
+  options.parameters = {{"WP_SPEED", 1.5}, {"CRUISE_SPEED", 2.0}};
+  Bench bench(2, options);
+  bench.vehicle.parameters = {{"WP_SPEED", 5.0F}, {"CRUISE_SPEED", 5.0F}, {"OTHER", 7.0F}};
+  bench.run(9.0);
+  EXPECT_EQ(bench.station->failure(), "");
+  EXPECT_THAT(bench.vehicle.parameters,
+              ::testing::ElementsAre(std::pair("CRUISE_SPEED", 2.0F), std::pair("OTHER", 7.0F),
+                                     std::pair("WP_SPEED", 1.5F)));
+  EXPECT_TRUE(bench.vehicle.has_started);
+
+  options.parameters = {{"NO_SUCH", 1.0}};
+  Bench unknown(0, options);
+  unknown.run(11.0);
+  EXPECT_EQ(unknown.station->failure(), "has no parameter NO_SUCH: it gave no answer for 10 s");
+
+  options.parameters = {{"FIXED", 1.0}};
+  Bench fixed(0, options);
+  fixed.vehicle.parameters = {{"FIXED", 3.0F}};
+  fixed.run(3.0);
+  EXPECT_EQ(fixed.station->failure(), "keeps its parameter FIXED at 3 instead of 1");
+}
+
+TEST(GroundStation, SendsCommandsInTime) {
+  GroundStationOptions options;
+  options.commands = {{2.0, 183, {5.0, 1900.0}}, {4.0, 2500, {}}};
+  Bench bench(0, options);
+  bench.run(1.9);
+  EXPECT_TRUE(bench.vehicle.other_commands.empty());
+  bench.run(0.3);
+  ASSERT_EQ(bench.vehicle.other_commands.size(), 1u);
+  EXPECT_EQ(bench.vehicle.other_commands[0].command, 183);
+  EXPECT_EQ(bench.vehicle.other_commands[0].param1, 5.0F);
+  EXPECT_EQ(bench.vehicle.other_commands[0].param2, 1900.0F);
+  EXPECT_EQ(bench.vehicle.other_commands[0].param3, 0.0F);
+  bench.run(2.0);
+  EXPECT_EQ(bench.vehicle.other_commands.size(), 2u);
 }
 
 TEST(GroundStation, WithoutAMissionItOnlyListens) {

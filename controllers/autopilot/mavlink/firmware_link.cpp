@@ -1,0 +1,95 @@
+#include "controllers/autopilot/mavlink/firmware_link.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "controllers/autopilot/frames/body_state.h"
+#include "controllers/autopilot/mavlink/gps_input.h"
+#include "controllers/autopilot/mavlink/mission_items.h"
+#include "controllers/autopilot/mavlink/plan_mission.h"
+
+namespace vinerow::controllers {
+namespace {
+
+constexpr Time kNever{-1};
+
+Event::Level level_of(std::uint8_t severity) {
+  constexpr std::uint8_t kError = 3, kWarning = 4;  // MAV_SEVERITY
+  if (severity <= kError) return Event::Level::kError;
+  return severity == kWarning ? Event::Level::kWarning : Event::Level::kInfo;
+}
+
+Odometry odometry_of(const FirmwareEstimate& estimate, const FirmwareFrame& frame) {
+  const auto& [time, position, attitude, origin] = estimate;
+  Odometry odometry;
+  odometry.X_WB.p = frame.local_to_W({origin.latitude, origin.longitude}, 1e-3 * origin.altitude,
+                                     {position.x, position.y, position.z});
+  odometry.X_WB.q = q_WB_from_ned(attitude.roll, attitude.pitch, attitude.yaw);
+  odometry.v_WB_B =
+      odometry.X_WB.q.conjugate() * swap_ned_and_W({position.vx, position.vy, position.vz});
+  odometry.w_WB_B = swap_frd_and_B({attitude.rollspeed, attitude.pitchspeed, attitude.yawspeed});
+  return odometry;
+}
+
+}  // namespace
+
+FirmwareLink::FirmwareLink(FirmwareLinkOptions options, const GeoOrigin& origin,
+                           const VehicleDescription& vehicle, std::string part, Send send)
+    : options_(std::move(options)),
+      vehicle_(vehicle),
+      part_(std::move(part)),
+      send_(std::move(send)),
+      frame_(origin, options_.gnss.empty() ? FirmwareFrame::Receiver::kOfFirmware
+                                           : FirmwareFrame::Receiver::kOurs),
+      station_(options_.station, send_),
+      last_estimate_(kNever) {
+  if (options_.mission) begin_mission(*options_.mission);
+}
+
+void FirmwareLink::connect(Ports& ports) {
+  if (!has_mission_) plan_ = ports.read_optional<PlannedPath>("plan");
+  if (!options_.gnss.empty()) gnss_ = ports.read<GnssFix>(options_.gnss);
+  estimate_ = ports.write<Odometry>("estimate");
+}
+
+void FirmwareLink::begin_mission(const io::MissionFile& mission) {
+  has_mission_ = true;
+  station_.fly(make_mission_items(mission, frame_, options_.has_home_item));
+}
+
+void FirmwareLink::take(Time now, std::span<const std::uint8_t> bytes) {
+  has_heard_ = true;
+  reader_.read(bytes, [&](const mavlink::Frame& frame) { station_.take(now, frame); });
+  write_estimate(now);
+}
+
+void FirmwareLink::write_estimate(Time now) {
+  const auto& estimate = station_.estimate();
+  if (!estimate || estimate->time == last_estimate_) return;
+  last_estimate_ = estimate->time;
+  estimate_.write(now, odometry_of(*estimate, frame_));
+}
+
+void FirmwareLink::step(Time now) {
+  if (!has_mission_ && plan_.has_value()) {
+    begin_mission(make_plan_mission(plan_.value(), vehicle_, frame_.wgs84(), options_.tolerance_m));
+  }
+  if (!has_heard_) return;
+  if (gnss_.connected() && gnss_.is_newer_than(last_fix_)) {
+    send_(receiver_.write(make_gps_input(gnss_.value(), gnss_.stamp())));
+  }
+  station_.step(now);
+}
+
+std::vector<Event> FirmwareLink::take_events() {
+  std::vector<Event> events;
+  for (const mavlink::StatusText& text : station_.take_texts()) {
+    std::string words(mavlink::text_of(text.text));
+    std::replace_if(
+        words.begin(), words.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+    events.push_back({level_of(text.severity), part_, std::move(words)});
+  }
+  return events;
+}
+
+}  // namespace vinerow::controllers

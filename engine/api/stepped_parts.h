@@ -123,9 +123,16 @@ struct ControllerContext : PartContext {
 
 /// Autopilot: firmware outside the run that drives or flies a vehicle, in place of estimator,
 /// guidance and controller. Reads sensors and the vehicle's state, writes "actuators"; writes
-/// "estimate" if the firmware reports its own. Its first step waits for the firmware; a step that
-/// waits in vain throws SimulationError.
-class Autopilot : public Controller {};
+/// "estimate" if the firmware reports its own.
+///
+/// step() gives the firmware the state of an instant, finish_step() waits for its outputs and
+/// writes them. The kernel calls the latter after all controllers of the instant and before the
+/// actuators, so that the firmware of several vehicles computes at the same time. Waiting in vain
+/// throws SimulationError.
+class Autopilot : public Controller {
+ public:
+  virtual void finish_step(Time now) = 0;
+};
 
 struct AutopilotContext : PartContext {
   const VehicleDescription* vehicle_description = nullptr;

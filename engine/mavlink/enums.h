@@ -14,6 +14,8 @@ inline constexpr std::uint8_t kAutopilotArdupilot = 3, kAutopilotInvalid = 8, kA
 inline constexpr std::uint8_t kModeFlagCustom = 1, kModeFlagArmed = 128;
 // MAV_SYS_STATUS_SENSOR
 inline constexpr std::uint32_t kSensorPrearmCheck = 0x10000000;
+// EKF_STATUS_FLAGS: it knows where it is on Earth
+inline constexpr std::uint16_t kEkfKnowsPlace = 16;
 // MAV_CMD of commands; those of mission items are in engine/io/missions/mav_command.h
 inline constexpr std::uint16_t kCommandSetMode = 176, kCommandMissionStart = 300, kCommandArm = 400,
                                kCommandSetMessageInterval = 511, kCommandRequestMessage = 512;

@@ -14,11 +14,12 @@ struct MessageList {};
 using AllMessages =
     MessageList<Heartbeat, SysStatus, SystemTime, SetMode, ParamRequestRead, ParamRequestList,
                 ParamValue, ParamSet, GpsRawInt, Attitude, LocalPositionNed, GlobalPositionInt,
-                GpsGlobalOrigin, MissionRequest, MissionSetCurrent, MissionCurrent,
-                MissionRequestList, MissionCount, MissionClearAll, MissionItemReached, MissionAck,
-                MissionRequestInt, RequestDataStream, MissionItemInt, VfrHud, CommandInt,
-                CommandLong, CommandAck, SetPositionTargetLocalNed, HilActuatorControls, HilSensor,
-                HilGps, HilStateQuaternion, DistanceSensor, BatteryStatus, AutopilotVersion,
-                GpsInput, HomePosition, StatusText>;
+                GpsGlobalOrigin, NavControllerOutput, MissionRequest, MissionSetCurrent,
+                MissionCurrent, MissionRequestList, MissionCount, MissionClearAll,
+                MissionItemReached, MissionAck, MissionRequestInt, RequestDataStream,
+                MissionItemInt, VfrHud, CommandInt, CommandLong, CommandAck,
+                SetPositionTargetLocalNed, HilActuatorControls, HilSensor, HilGps,
+                HilStateQuaternion, DistanceSensor, BatteryStatus, AutopilotVersion,
+                EkfStatusReport, GpsInput, HomePosition, StatusText>;
 
 }  // namespace vinerow::mavlink

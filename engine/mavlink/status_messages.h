@@ -218,6 +218,32 @@ struct GpsGlobalOrigin {
   }
 };
 
+/// Where an autopilot's navigation is on its way to the next item.
+struct NavControllerOutput {
+  static constexpr std::uint32_t kId = 62;
+  static constexpr const char* kName = "NAV_CONTROLLER_OUTPUT";
+  float nav_roll = 0;               ///< deg
+  float nav_pitch = 0;              ///< deg
+  std::int16_t nav_bearing = 0;     ///< deg
+  std::int16_t target_bearing = 0;  ///< deg
+  std::uint16_t wp_dist = 0;        ///< m
+  float alt_error = 0;              ///< m
+  float aspd_error = 0;             ///< m/s
+  float xtrack_error = 0;           ///< m
+
+  template <class Self, class F>
+  static constexpr void fields(Self& self, F&& f) {
+    f(Field{"nav_roll"}, self.nav_roll);
+    f(Field{"nav_pitch"}, self.nav_pitch);
+    f(Field{"nav_bearing"}, self.nav_bearing);
+    f(Field{"target_bearing"}, self.target_bearing);
+    f(Field{"wp_dist"}, self.wp_dist);
+    f(Field{"alt_error"}, self.alt_error);
+    f(Field{"aspd_error"}, self.aspd_error);
+    f(Field{"xtrack_error"}, self.xtrack_error);
+  }
+};
+
 struct VfrHud {
   static constexpr std::uint32_t kId = 74;
   static constexpr const char* kName = "VFR_HUD";
@@ -356,6 +382,30 @@ struct HomePosition {
 };
 
 /// A sentence for people; longer ones in chunks of one id.
+/// State of ArduPilot's estimator (message set "ardupilotmega").
+struct EkfStatusReport {
+  static constexpr std::uint32_t kId = 193;
+  static constexpr const char* kName = "EKF_STATUS_REPORT";
+  std::uint16_t flags = 0;
+  float velocity_variance = 0;
+  float pos_horiz_variance = 0;
+  float pos_vert_variance = 0;
+  float compass_variance = 0;
+  float terrain_alt_variance = 0;
+  float airspeed_variance = 0;
+
+  template <class Self, class F>
+  static constexpr void fields(Self& self, F&& f) {
+    f(Field{"flags"}, self.flags);
+    f(Field{"velocity_variance"}, self.velocity_variance);
+    f(Field{"pos_horiz_variance"}, self.pos_horiz_variance);
+    f(Field{"pos_vert_variance"}, self.pos_vert_variance);
+    f(Field{"compass_variance"}, self.compass_variance);
+    f(Field{"terrain_alt_variance"}, self.terrain_alt_variance);
+    f(Field{"airspeed_variance", true}, self.airspeed_variance);
+  }
+};
+
 struct StatusText {
   static constexpr std::uint32_t kId = 253;
   static constexpr const char* kName = "STATUSTEXT";

@@ -51,7 +51,20 @@ void EstimateJudge::connect(Ports& ports) {
 void EstimateJudge::step(Time now, const Odometry& truth, double direction_rad) {
   if (estimate_.has_value() && estimate_.stamp() == now) {
     judge(truth, estimate_.value(), direction_rad);
+  } else if (has_last_ && estimate_.is_newer_than(seen_) && estimate_.stamp() > last_time_) {
+    // A firmware reports when its own clock says so: the truth of that instant lies between two
+    // samples, near enough to the straight line between them.
+    const double share = (estimate_.stamp() - last_time_).s() / (now - last_time_).s();
+    Odometry between;
+    between.X_WB.p = (1.0 - share) * last_p_W_ + share * truth.X_WB.p;
+    between.X_WB.q = last_q_WB_.slerp(share, truth.X_WB.q);
+    judge(between, estimate_.value(), direction_rad);
   }
+  if (estimate_.has_value()) estimate_.is_newer_than(seen_);
+  has_last_ = true;
+  last_time_ = now;
+  last_p_W_ = truth.X_WB.p;
+  last_q_WB_ = truth.X_WB.q;
   if (ellipsoid_.has_value() && ellipsoid_.stamp() == now) {
     contained_.add(is_inside(ellipsoid_.value(), truth.X_WB.p));
   }

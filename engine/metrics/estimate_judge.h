@@ -78,6 +78,11 @@ class EstimateJudge {
   Signals signals_;
   Prefixes prefixes_;
   double margin_;
+  std::uint64_t seen_ = 0;
+  bool has_last_ = false;
+  Time last_time_;  ///< of the last sample of the truth
+  Eigen::Vector3d last_p_W_ = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond last_q_WB_ = Eigen::Quaterniond::Identity();
   bool is_truth_ = true;
   std::int64_t equal_ = 0;  ///< number of samples so far that equalled the truth
   ErrorSpread lateral_, longitudinal_, vertical_, yaw_;

@@ -245,6 +245,12 @@ std::vector<std::string> rehearse_run(const scenario::Scenario& scenario,
   Session session = open_run(scenario, registry, {}, nullptr);
   std::vector<std::string> notes = session.simulation().world().notes;
   if (!scenario.phases.empty()) return notes;
+  for (const scenario::VehicleConfig& vehicle : scenario.vehicles) {
+    if (!vehicle.autopilot) continue;
+    notes.push_back(fmt::format(
+        "{}.autopilot: plans are not checked, because no firmware is started", vehicle.name));
+    return notes;
+  }
   while (!session.over() && session.now() <= Time{kLongest.ns} &&
          !without_plan(session.simulation()).empty()) {
     session.advance(session.now());

@@ -226,10 +226,12 @@ void check_autopilot_is_alone(const VehicleConfig& vehicle, const std::string& p
       {"controller", vehicle.controller}};
   for (const auto& [name, part] : others) {
     if (!part) continue;
-    io::fail_at(part->where,
-                fmt::format("{}.{}: the vehicle has an autopilot ('{}'), which takes the place of "
-                            "estimator, guidance and controller; remove one of both",
-                            path, name, vehicle.autopilot->type));
+    io::fail_at(
+        part->where,
+        fmt::format("{}.{}: the vehicle has an autopilot ('{}'), which takes the place of "
+                    "estimator, guidance and controller; remove one of both ('{}: null' removes an "
+                    "included one)",
+                    path, name, vehicle.autopilot->type, name));
   }
 }
 

@@ -181,7 +181,7 @@ class PhaseReader {
       seen.push_back(name);
       const auto vehicle = std::find_if(vehicles_.begin(), vehicles_.end(),
                                         [&](const auto& v) { return v.name == name; });
-      if (!vehicle->controller) {
+      if (!vehicle->controller && !vehicle->autopilot) {
         io::fail_at(
             mark, fmt::format("{}.vehicles: '{}' has no controller, so it would never finish", path,
                               name));

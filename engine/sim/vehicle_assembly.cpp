@@ -305,11 +305,17 @@ void VehicleAssembly::add_autopilot() {
   autopilot_context.sensors = parts_.mountings;
   autopilot_context.origin = run_.world.origin;
   autopilot_context.folder = run_.products / part;
-  parts_.controller = with_place(config.where, config_.name, [&] {
+  std::unique_ptr<Autopilot> autopilot = with_place(config.where, config_.name, [&] {
     return run_.registry.make_autopilot(config.type, config.parameters, autopilot_context);
   });
+  Autopilot& firmware = *autopilot;
+  parts_.controller = std::move(autopilot);
   note_if_it_may_fail(parts_.controller.get());
   add_stepped(Stage::kControl, part, config.type, config.rate_Hz, *parts_.controller);
+  const std::string answer = part + ".answer";
+  schedule(
+      Stage::kActuate, answer, period_of_rate(config.rate_Hz), {},
+      guarded(run_.bus, part, config.type, [&firmware](Time now) { firmware.finish_step(now); }));
   schedule_actuators(config.rate_Hz);
 }
 

@@ -70,7 +70,7 @@ ALLOWED = {
     "controllers": BASE + CONTROLLER_PARTS,
     "controllers/autopilot/link": [CORE],
     "controllers/autopilot/frames": BASE,
-    "controllers/autopilot/mavlink": BASE + [MAVLINK, "engine/io/missions", "controllers/autopilot/frames"],
+    "controllers/autopilot/mavlink": BASE + [MAVLINK, "engine/io/missions", "controllers/autopilot/frames", "controllers/autopilot/link"],
     "controllers/autopilot/outputs": BASE + ["controllers/parts/ground_drive"],
     "controllers/autopilot/ardupilot": BASE + ["engine/io/missions"] + AUTOPILOT_PARTS,
     SOLVERS: [CORE, MATH],

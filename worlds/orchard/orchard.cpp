@@ -20,10 +20,9 @@
 namespace vinerow::worlds {
 namespace {
 
-constexpr double kMargin_m = 10.0;  // ground beyond the field, for cameras and wide turns
-
 struct OrchardParams {
   OrchardLayout layout;
+  double surroundings_m = 10.0;
   std::optional<double> refinement_per_m2;  ///< given: the map is the paper's matrix
   double tree_spacing_m = 3.2;
   TreeParams trees;
@@ -51,6 +50,8 @@ const ParameterTable<OrchardParams>& orchard_table() {
                   "width of the field along x, L1")
           .number("field_length_m", "m", inside(&P::layout, &Layout::field_length_m), kPositive,
                   "length of the field along y, L2")
+          .number("surroundings_m", "m", &P::surroundings_m, between(10.0, 5000.0),
+                  "ground beyond the field; aircraft need room to turn")
           .number("row_start_y_m", "m", inside(&P::layout, &Layout::row_start_y_m),
                   between(0.0, 1e5), "start of the rows, Ys")
           .number("refinement_per_m2", "1/m2", &P::refinement_per_m2, kPositive,
@@ -138,9 +139,9 @@ std::unique_ptr<WorldModel> make_orchard(const ParameterSet& parameters,
   TerrainShape shape;
   shape.centre_W = 0.5 * Eigen::Vector2d(layout.field_width_m, layout.field_length_m);
   shape.gradient = params.slope.gradient();
+  const Eigen::Vector2d beyond = Eigen::Vector2d::Constant(params.surroundings_m);
   const Eigen::AlignedBox2d box(
-      Eigen::Vector2d(-kMargin_m, -kMargin_m),
-      Eigen::Vector2d(layout.field_width_m + kMargin_m, layout.field_length_m + kMargin_m));
+      -beyond, Eigen::Vector2d(layout.field_width_m, layout.field_length_m) + beyond);
   world->terrain = build_terrain(params.terrain, trees.seed, world->origin, shape, box);
   world->rows = make_map(layout, trees, *world->terrain);
 

@@ -19,6 +19,7 @@
 #include "engine/api/messages/sensors.h"
 #include "engine/api/parameter_table.h"
 #include "engine/api/vehicle.h"
+#include "engine/core/constants.h"
 #include "engine/core/error.h"
 
 namespace vinerow::controllers {
@@ -112,7 +113,14 @@ class Ardupilot final : public Autopilot, public MayFail {
     if (line.empty()) fail(now, "would get a state that is not finite");
     // What is sent now, the firmware reads in the step that the line starts.
     if (link_) link_->step(now);
-    take(now, lockstep_->exchange(now, line));
+    lockstep_->send_state(now, line);
+    is_waiting_ = true;
+  }
+
+  void finish_step(Time now) override {
+    if (!is_waiting_) return;
+    is_waiting_ = false;
+    take(now, lockstep_->wait_for_outputs(now));
     listen(now);
     for (std::size_t i = 0; i < packet_.pwm_us.size(); ++i) pulses_.values[i] = packet_.pwm_us[i];
     pulses_writer_.write(now, pulses_);
@@ -162,6 +170,29 @@ class Ardupilot final : public Autopilot, public MayFail {
     }
   }
 
+  /// Without a sensor: what ideal gyroscopes and accelerometers show on the mean since the last
+  /// state, so that the firmware's estimator, which integrates them, gets the motion whole.
+  ///   f_B = R_BW (dv_W / dt + g z), w_B dt = rotation vector of q_last^-1 q
+  /// with R at half the rotation. The first state has the values of the instant.
+  void measure_motion(Time now, const Odometry& truth) {
+    const Eigen::Quaterniond& q_WB = truth.X_WB.q;
+    const Eigen::Vector3d v_W = q_WB * truth.v_WB_B;
+    Eigen::Vector3d w_B = truth.w_WB_B, f_B = vehicle_.specific_force_B();
+    if (steps_ > 1) {
+      const double dt_s = (now - last_time_).s();
+      const Eigen::AngleAxisd turn(last_q_WB_.conjugate() * q_WB);
+      w_B = turn.angle() / dt_s * turn.axis();
+      const Eigen::Vector3d force_W =
+          (v_W - last_v_W_) / dt_s + kStandardGravity_mps2 * Eigen::Vector3d::UnitZ();
+      f_B = last_q_WB_.slerp(0.5, q_WB).conjugate() * force_W;
+    }
+    last_time_ = now;
+    last_q_WB_ = q_WB;
+    last_v_W_ = v_W;
+    state_.gyro_FRD_radps = swap_frd_and_B(w_B);
+    state_.specific_force_FRD_mps2 = swap_frd_and_B(f_B);
+  }
+
   void fill(Time now) {
     const Odometry& truth = truth_.value();
     // ArduPilot adds each step truncated to whole microseconds. A nanosecond more in each keeps
@@ -171,10 +202,12 @@ class Ardupilot final : public Autopilot, public MayFail {
     state_.q_NED_FRD = q_NED_FRD_from(truth.X_WB.q);
     state_.position_NED_m = swap_ned_and_W(truth.X_WB.p);
     state_.velocity_NED_mps = swap_ned_and_W(truth.X_WB.q * truth.v_WB_B);
-    const bool has_imu = imu_.connected();
-    state_.gyro_FRD_radps = swap_frd_and_B(has_imu ? imu_.value().w_WS_S : truth.w_WB_B);
-    state_.specific_force_FRD_mps2 =
-        swap_frd_and_B(has_imu ? imu_.value().f_WS_S : vehicle_.specific_force_B());
+    if (imu_.connected()) {
+      state_.gyro_FRD_radps = swap_frd_and_B(imu_.value().w_WS_S);
+      state_.specific_force_FRD_mps2 = swap_frd_and_B(imu_.value().f_WS_S);
+    } else {
+      measure_motion(now, truth);
+    }
     for (std::size_t i = 0; i < ranges_.size(); ++i) {
       // A field that is left out would keep its last value in the autopilot.
       constexpr double kNothing_m = 1.0;
@@ -211,10 +244,13 @@ class Ardupilot final : public Autopilot, public MayFail {
   std::optional<FirmwareLink> link_;
   std::string failure_;
   Time now_;
-  bool has_begun_ = false;
+  bool has_begun_ = false, is_waiting_ = false;
   std::uint64_t steps_ = 0;
   Time begin_;
   std::size_t next_stick_ = 0;
+  Time last_time_;  ///< of the last state
+  Eigen::Quaterniond last_q_WB_ = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d last_v_W_ = Eigen::Vector3d::Zero();
 
   SignalReader<Odometry> truth_;
   SignalReader<ImuSample> imu_;
@@ -231,7 +267,7 @@ PartSpec spec_of(const char* name, const char* description, std::vector<Paramete
   spec.description = description;
   spec.parameters = std::move(parameters);
   spec.reads = {"truth"};
-  spec.writes = {"actuators", "servo_outputs", "estimate", "autopilot_event"};
+  spec.writes = {"actuators", "servo_outputs", "estimate", "follower", "autopilot_event"};
   return spec;
 }
 

@@ -21,8 +21,9 @@ std::string seconds(milliseconds time) {
 
 }  // namespace
 
-void LockstepLink::send(std::string_view line) {
-  socket_.send({reinterpret_cast<const std::uint8_t*>(line.data()), line.size()}, *peer_);
+void LockstepLink::send() {
+  socket_.send({reinterpret_cast<const std::uint8_t*>(line_.data()), line_.size()}, *peer_);
+  sent_ = Clock::now();
 }
 
 std::optional<Result<ServoPacket>> LockstepLink::next_packet(milliseconds limit) {
@@ -54,15 +55,18 @@ Result<ServoPacket> LockstepLink::wait_for_first(milliseconds limit, const GaveU
   return Failure{fmt::format("sent nothing to UDP port {} for {}", socket_.port(), seconds(limit))};
 }
 
-Result<ServoPacket> LockstepLink::exchange(std::string_view line, milliseconds limit,
-                                           const GaveUp& gave_up) {
+void LockstepLink::answer(std::string_view line) {
   // What came while the physics worked are repetitions, and this answer is for all of them.
   while (const auto packet = next_packet(milliseconds(0))) {
-    if (!*packet) return *packet;
+    if (!*packet && !failure_) failure_ = Failure{packet->reason()};
   }
-  send(line);
+  line_ = line;
+  send();
+}
+
+Result<ServoPacket> LockstepLink::wait_for_next(milliseconds limit, const GaveUp& gave_up) {
+  if (failure_) return *failure_;
   const auto begin = Clock::now();
-  auto sent = begin;
   for (auto now = begin; now - begin < limit; now = Clock::now()) {
     const auto packet = next_packet(kLook);
     if (!packet) {
@@ -76,9 +80,7 @@ Result<ServoPacket> LockstepLink::exchange(std::string_view line, milliseconds l
       return *packet;
     }
     if (frame == frame_) {
-      if (Clock::now() - sent < kCrossing) continue;
-      send(line);
-      sent = Clock::now();
+      if (Clock::now() - sent_ >= kCrossing) send();
     } else if (frame == 0) {
       return Failure{fmt::format("has restarted after packet {}", frame_)};
     } else {

@@ -33,22 +33,26 @@ class LockstepLink {
   /// "sent nothing for 60 s"
   Result<ServoPacket> wait_for_first(std::chrono::milliseconds limit, const GaveUp& gave_up);
 
-  /// Answers the last packet and waits for the next one. Wall time decides only when an answer is
-  /// sent again and when to give up.
+  /// Answers the last packet. @param line  stays valid until the next packet is there
+  void answer(std::string_view line);
+  /// Waits for the packet after the answer. Wall time decides only when an answer is sent again and
+  /// when to give up.
   /// @returns as wait_for_first()
-  Result<ServoPacket> exchange(std::string_view line, std::chrono::milliseconds limit,
-                               const GaveUp& gave_up);
+  Result<ServoPacket> wait_for_next(std::chrono::milliseconds limit, const GaveUp& gave_up);
 
  private:
   using Clock = std::chrono::steady_clock;
   /// @returns the next packet of the peer, or a failure; nullopt if none arrived within `limit`
   std::optional<Result<ServoPacket>> next_packet(std::chrono::milliseconds limit);
-  void send(std::string_view line);
+  void send();
 
   UdpSocket socket_;
   std::span<const std::uint8_t> last_;  ///< in the socket's buffer
   std::optional<UdpAddress> peer_;
   std::uint32_t frame_ = 0;
+  std::string_view line_;           ///< the last answer
+  Clock::time_point sent_;          ///< when it was sent
+  std::optional<Failure> failure_;  ///< of a packet that came before it
 };
 
 }  // namespace vinerow::controllers

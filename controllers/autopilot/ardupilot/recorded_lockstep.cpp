@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "controllers/autopilot/link/plain_text.h"
+
 namespace vinerow::controllers {
 namespace {
 
@@ -34,28 +36,37 @@ Result<ServoPacket> RecordedLockstep::begin(Time /*now*/) {
   return next_packet();
 }
 
-Result<ServoPacket> RecordedLockstep::exchange(Time /*now*/, std::string_view line) {
-  // Messages to the firmware, which nobody gets here.
-  while (next_ && next_->from.port != 0 && !(next_->from == own_)) advance();
+void RecordedLockstep::send_state(Time /*now*/, std::string_view line) {
+  line_ = line;
+}
+
+Result<ServoPacket> RecordedLockstep::wait_for_outputs(Time /*now*/) {
+  skip_messages_to_firmware();
   if (!next_) return Failure{fmt::format("is a recording, which ends here ({})", file_)};
   const std::string_view recorded = text_of(next_->bytes);
-  if (recorded != line) {
-    const auto differs = std::mismatch(recorded.begin(), recorded.end(), line.begin(), line.end());
+  if (recorded != line_) {
+    const auto differs =
+        std::mismatch(recorded.begin(), recorded.end(), line_.begin(), line_.end());
     const auto at = static_cast<std::size_t>(differs.first - recorded.begin());
     const auto near = [at](std::string_view text) {
       const std::size_t begin = at > 24 ? at - 24 : 0;
-      return begin < text.size() ? text.substr(begin, 48) : std::string_view();
+      return plain_text(begin < text.size() ? text.substr(begin, 48) : std::string_view());
     };
     return Failure{fmt::format(
         "is a recording ({}) of another flight: the state was \"...{}...\" there and is "
         "\"...{}...\" here",
-        file_, near(recorded), near(line))};
+        file_, near(recorded), near(line_))};
   }
   advance();
   return next_packet();
 }
 
+void RecordedLockstep::skip_messages_to_firmware() {
+  while (next_ && next_->from.port != 0 && !(next_->from == own_)) advance();
+}
+
 std::span<const std::uint8_t> RecordedLockstep::next_message(Time /*now*/) {
+  skip_messages_to_firmware();
   // Port 0 stands for the autopilot.
   const bool is_message = next_ && next_->from.port == 0 && !(next_->to == own_);
   if (!is_message) return {};

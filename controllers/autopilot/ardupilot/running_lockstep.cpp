@@ -30,10 +30,14 @@ Result<ServoPacket> RunningLockstep::begin(Time now) {
   return packet;
 }
 
-Result<ServoPacket> RunningLockstep::exchange(Time now, std::string_view line) {
+void RunningLockstep::send_state(Time now, std::string_view line) {
   record(now, options_.own, theirs(),
          {reinterpret_cast<const std::uint8_t*>(line.data()), line.size()});
-  auto packet = link_->exchange(line, options_.answer_limit, gave_up());
+  link_->answer(line);
+}
+
+Result<ServoPacket> RunningLockstep::wait_for_outputs(Time now) {
+  auto packet = link_->wait_for_next(options_.answer_limit, gave_up());
   if (packet) record(now, theirs(), options_.own, link_->last_packet());
   return packet;
 }

@@ -34,7 +34,8 @@ class RunningLockstep final : public Lockstep {
 
   /// @throws ConfigError if the port is taken or the program cannot be started
   Result<ServoPacket> begin(Time now) override;
-  Result<ServoPacket> exchange(Time now, std::string_view line) override;
+  void send_state(Time now, std::string_view line) override;
+  Result<ServoPacket> wait_for_outputs(Time now) override;
   std::span<const std::uint8_t> next_message(Time now) override;
   void send_message(Time now, std::span<const std::uint8_t> bytes) override;
 

@@ -15,8 +15,8 @@ namespace {
 
 using Parameters = std::vector<FirmwareParameter>;
 
-/// Marks that say "calibrated" to its checks before arming, as its own simulation sets them: an
-/// accelerometer with an offset, a compass with the offsets that it makes up itself.
+/// Marks that say "calibrated" to its checks before arming: accelerometers with small offsets. Its
+/// compasses are calibrated from the start.
 void add_calibrations(Parameters& parameters) {
   for (const char* sensor : {"", "2"}) {
     for (const char* axis : {"X", "Y", "Z"}) {
@@ -24,11 +24,8 @@ void add_calibrations(Parameters& parameters) {
       parameters.push_back({fmt::format("INS_ACC{}SCAL_{}", sensor, axis), 1.001});
     }
   }
-  for (const char* compass : {"", "2", "3"}) {
-    parameters.push_back({fmt::format("COMPASS_OFS{}_X", compass), 5});
-    parameters.push_back({fmt::format("COMPASS_OFS{}_Y", compass), 13});
-    parameters.push_back({fmt::format("COMPASS_OFS{}_Z", compass), -18});
-  }
+  // Its gyroscopes would drift by themselves: they have the errors of our sensor, or none.
+  parameters.push_back({"SIM_DRIFT_SPEED", 0});
 }
 
 /// Number of an output's function, SERVOn_FUNCTION.
@@ -67,8 +64,9 @@ void add_outputs(const ArdupilotParams& params, const VehicleDescription& vehicl
 
 void add_rover(const VehicleDescription& vehicle, Parameters& parameters) {
   const double top_mps = vehicle.max_speed_mps.value_or(2.0);
-  // Half of the throttle is half of the top speed: our drives follow their set speed.
-  constexpr double kShare = 0.5;
+  // A share of the throttle is that share of the top speed: our drives follow their set speed. The
+  // rest is for turning: the outer wheels are faster.
+  constexpr double kShare = 0.75;
   const double cruise_mps = kShare * top_mps;
   parameters.push_back({"CRUISE_SPEED", cruise_mps});
   parameters.push_back({"CRUISE_THROTTLE", 100.0 * kShare});

@@ -1,12 +1,13 @@
 #include "controllers/autopilot/mavlink/firmware_link.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "controllers/autopilot/frames/body_state.h"
+#include "controllers/autopilot/link/plain_text.h"
 #include "controllers/autopilot/mavlink/gps_input.h"
 #include "controllers/autopilot/mavlink/mission_items.h"
 #include "controllers/autopilot/mavlink/plan_mission.h"
+#include "engine/mavlink/enums.h"
 
 namespace vinerow::controllers {
 namespace {
@@ -17,6 +18,16 @@ Event::Level level_of(std::uint8_t severity) {
   constexpr std::uint8_t kError = 3, kWarning = 4;  // MAV_SEVERITY
   if (severity <= kError) return Event::Level::kError;
   return severity == kWarning ? Event::Level::kWarning : Event::Level::kInfo;
+}
+
+GroundStationOptions station_options(const FirmwareLinkOptions& options,
+                                     const VehicleDescription& vehicle) {
+  GroundStationOptions station = options.station;
+  station.expects_mission = options.mission.has_value();
+  station.vehicle_type = vehicle.rotorcraft   ? mavlink::kTypeQuadrotor
+                         : vehicle.fixed_wing ? mavlink::kTypeFixedWing
+                                              : mavlink::kTypeGroundRover;
+  return station;
 }
 
 Odometry odometry_of(const FirmwareEstimate& estimate, const FirmwareFrame& frame) {
@@ -41,7 +52,7 @@ FirmwareLink::FirmwareLink(FirmwareLinkOptions options, const GeoOrigin& origin,
       send_(std::move(send)),
       frame_(origin, options_.gnss.empty() ? FirmwareFrame::Receiver::kOfFirmware
                                            : FirmwareFrame::Receiver::kOurs),
-      station_(options_.station, send_),
+      station_(station_options(options_, vehicle), send_),
       last_estimate_(kNever) {
   if (options_.mission) begin_mission(*options_.mission);
 }
@@ -50,6 +61,7 @@ void FirmwareLink::connect(Ports& ports) {
   if (!has_mission_) plan_ = ports.read_optional<PlannedPath>("plan");
   if (!options_.gnss.empty()) gnss_ = ports.read<GnssFix>(options_.gnss);
   estimate_ = ports.write<Odometry>("estimate");
+  follower_writer_ = ports.write<FollowerState>("follower");
 }
 
 void FirmwareLink::begin_mission(const io::MissionFile& mission) {
@@ -61,6 +73,7 @@ void FirmwareLink::take(Time now, std::span<const std::uint8_t> bytes) {
   has_heard_ = true;
   reader_.read(bytes, [&](const mavlink::Frame& frame) { station_.take(now, frame); });
   write_estimate(now);
+  if (station_.finished() && !follower_.finished) write_follower(now);
 }
 
 void FirmwareLink::write_estimate(Time now) {
@@ -68,11 +81,30 @@ void FirmwareLink::write_estimate(Time now) {
   if (!estimate || estimate->time == last_estimate_) return;
   last_estimate_ = estimate->time;
   estimate_.write(now, odometry_of(*estimate, frame_));
+  write_follower(now);
+}
+
+void FirmwareLink::write_follower(Time now) {
+  follower_.waypoint = station_.current_item();
+  follower_.finished = station_.finished();
+  if (const auto& navigation = station_.navigation()) {
+    follower_.lateral_error_m = navigation->xtrack_error;
+    follower_.remaining_m = navigation->wp_dist;
+  }
+  follower_writer_.write(now, follower_);
 }
 
 void FirmwareLink::step(Time now) {
   if (!has_mission_ && plan_.has_value()) {
     begin_mission(make_plan_mission(plan_.value(), vehicle_, frame_.wgs84(), options_.tolerance_m));
+  }
+  if (!begin_) begin_ = now;
+  if (!has_complained_ && !station_.estimate() &&
+      (now - *begin_).s() > options_.station.ready_timeout_s) {
+    has_complained_ = true;
+    events_.push_back({Event::Level::kWarning, part_,
+                       has_heard_ ? "the firmware has no estimate of its position yet"
+                                  : "the firmware has sent no MAVLink yet"});
   }
   if (!has_heard_) return;
   if (gnss_.connected() && gnss_.is_newer_than(last_fix_)) {
@@ -82,12 +114,9 @@ void FirmwareLink::step(Time now) {
 }
 
 std::vector<Event> FirmwareLink::take_events() {
-  std::vector<Event> events;
+  std::vector<Event> events = std::exchange(events_, {});
   for (const mavlink::StatusText& text : station_.take_texts()) {
-    std::string words(mavlink::text_of(text.text));
-    std::replace_if(
-        words.begin(), words.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-    events.push_back({level_of(text.severity), part_, std::move(words)});
+    events.push_back({level_of(text.severity), part_, plain_text(mavlink::text_of(text.text))});
   }
   return events;
 }

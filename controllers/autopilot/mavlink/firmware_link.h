@@ -35,7 +35,7 @@ class FirmwareLink {
   FirmwareLink(FirmwareLinkOptions options, const GeoOrigin& origin,
                const VehicleDescription& vehicle, std::string part, Send send);
 
-  /// Writes "estimate"; reads the plan and the receiver.
+  /// Writes "estimate" and "follower"; reads the plan and the receiver.
   void connect(Ports& ports);
   /// Bytes from the firmware.
   void take(Time now, std::span<const std::uint8_t> bytes);
@@ -51,6 +51,7 @@ class FirmwareLink {
  private:
   void begin_mission(const io::MissionFile& mission);
   void write_estimate(Time now);
+  void write_follower(Time now);
 
   FirmwareLinkOptions options_;
   const VehicleDescription& vehicle_;
@@ -60,12 +61,16 @@ class FirmwareLink {
   GroundStation station_;
   mavlink::FrameReader reader_;
   mavlink::FrameWriter receiver_{mavlink::Sender{255, 220}};  // MAV_COMP_ID_GPS
-  bool has_heard_ = false, has_mission_ = false;
+  bool has_heard_ = false, has_mission_ = false, has_complained_ = false;
+  std::optional<Time> begin_;
+  std::vector<Event> events_;
   Time last_estimate_;
   std::uint64_t last_fix_ = 0;
   SignalReader<PlannedPath> plan_;
   SignalReader<GnssFix> gnss_;
   SignalWriter<Odometry> estimate_;
+  SignalWriter<FollowerState> follower_writer_;
+  FollowerState follower_;
 };
 
 }  // namespace vinerow::controllers

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "controllers/autopilot/link/plain_text.h"
 #include "engine/mavlink/enums.h"
 
 namespace vinerow::controllers {
@@ -14,6 +15,19 @@ using namespace mavlink;
 
 constexpr double kRepeat_s = 1.0;
 constexpr std::uint8_t kAllMissions = 0;  // MAV_MISSION_TYPE_MISSION
+
+std::string name_of_type(std::uint8_t type) {
+  switch (type) {
+    case kTypeGroundRover:
+      return "a rover";
+    case kTypeQuadrotor:
+      return "a quadrotor";
+    case kTypeFixedWing:
+      return "a fixed wing";
+    default:
+      return fmt::format("a vehicle of type {}", type);
+  }
+}
 
 bool is_armed(const Heartbeat& heartbeat) {
   return (heartbeat.base_mode & kModeFlagArmed) != 0;
@@ -50,7 +64,8 @@ void GroundStation::request(const CommandLong& command) {
 }
 
 void GroundStation::request_streams() {
-  for (const std::uint32_t message : {Attitude::kId, LocalPositionNed::kId, SysStatus::kId}) {
+  for (const std::uint32_t message : {EkfStatusReport::kId, Attitude::kId, LocalPositionNed::kId,
+                                      NavControllerOutput::kId, SysStatus::kId}) {
     const double rate_Hz = message == SysStatus::kId ? 1.0 : options_.report_rate_Hz;
     CommandLong command;
     command.command = kCommandSetMessageInterval;
@@ -58,10 +73,22 @@ void GroundStation::request_streams() {
     command.param2 = static_cast<float>(1e6 / rate_Hz);  // microseconds
     request(command);
   }
+  request_origin();
+}
+
+void GroundStation::request_origin() {
   CommandLong origin;
   origin.command = kCommandRequestMessage;
   origin.param1 = static_cast<float>(GpsGlobalOrigin::kId);
   request(origin);
+}
+
+void GroundStation::take_ekf_status(const EkfStatusReport& status) {
+  const bool knows = (status.flags & kEkfKnowsPlace) != 0;
+  // Before, positions come from a simpler estimator, whose origin has no altitude.
+  if (!knows || !knows_place_) origin_.reset();
+  if (knows && !origin_) request_origin();
+  knows_place_ = knows;
 }
 
 void GroundStation::send_parameter() {
@@ -110,18 +137,29 @@ std::string GroundStation::last_complaint() const {
   return complaint_.empty() ? "" : fmt::format(" ({})", complaint_);
 }
 
-std::optional<std::uint32_t> GroundStation::auto_mode() const {
-  // Numbers of ArduPilot's mode AUTO; PX4 has main mode 4 (auto), sub mode 4 (mission).
+std::optional<std::uint32_t> GroundStation::arming_mode() const {
+  // Numbers of ArduPilot's modes: AUTO, but its copters are armed in GUIDED and change to AUTO when
+  // the mission starts. PX4 has main mode 4 (auto), sub mode 4 (mission).
   if (heartbeat_.autopilot == kAutopilotPx4) return 4u << 24 | 4u << 16;
   switch (heartbeat_.type) {
     case kTypeGroundRover:
     case kTypeFixedWing:
       return 10;
     case kTypeQuadrotor:
-      return 3;
+      return 4;
     default:
       return std::nullopt;
   }
+}
+
+void GroundStation::meet(Time now, const Frame& frame) {
+  vehicle_ = frame.sender;
+  const std::uint8_t wanted = options_.vehicle_type.value_or(heartbeat_.type);
+  if (heartbeat_.type != wanted) {
+    return fail(fmt::format("is firmware for {}, and this is {}", name_of_type(heartbeat_.type),
+                            name_of_type(wanted)));
+  }
+  enter(now, options_.parameters.empty() ? Stage::kReady : Stage::kParameters);
 }
 
 void GroundStation::take_heartbeat(Time now, const Frame& frame) {
@@ -130,9 +168,8 @@ void GroundStation::take_heartbeat(Time now, const Frame& frame) {
   heartbeat_ = *heartbeat;
   const bool armed = is_armed(heartbeat_);
   if (stage_ == Stage::kListen) {
-    vehicle_ = frame.sender;
-    enter(now, options_.parameters.empty() ? Stage::kReady : Stage::kParameters);
-  } else if (stage_ == Stage::kMode && heartbeat_.custom_mode == auto_mode()) {
+    meet(now, frame);
+  } else if (stage_ == Stage::kMode && heartbeat_.custom_mode == arming_mode()) {
     enter(now, Stage::kArm);
   } else if (stage_ == Stage::kArm && armed) {
     enter(now, Stage::kStart);
@@ -148,7 +185,7 @@ void GroundStation::take_ack(Time now, const CommandAck& ack) {
   if (stage_ == Stage::kStart && ack.command == kCommandMissionStart && !is_refused) {
     enter(now, Stage::kFlight);
   } else if (stage_ == Stage::kMode && ack.command == kCommandSetMode && is_refused) {
-    fail(fmt::format("refused the mode AUTO{}", last_complaint()));
+    fail(fmt::format("refused the mode for missions{}", last_complaint()));
   }
 }
 
@@ -164,19 +201,26 @@ void GroundStation::take(Time now, const Frame& frame) {
   if (const auto attitude = read<Attitude>(frame)) {
     attitude_ = attitude;
   } else if (const auto position = read<LocalPositionNed>(frame)) {
-    if (attitude_ && origin_) estimate_ = FirmwareEstimate{now, *position, *attitude_, *origin_};
+    if (attitude_ && origin_ && knows_place_)
+      estimate_ = FirmwareEstimate{now, *position, *attitude_, *origin_};
   } else if (const auto origin = read<GpsGlobalOrigin>(frame)) {
     origin_ = origin;
+  } else if (const auto ekf_status = read<EkfStatusReport>(frame)) {
+    take_ekf_status(*ekf_status);
+  } else if (const auto current = read<MissionCurrent>(frame)) {
+    current_item_ = current->seq;
+  } else if (const auto navigation = read<NavControllerOutput>(frame)) {
+    navigation_ = navigation;
   } else if (const auto parameter = read<ParamValue>(frame)) {
     take_parameter(now, *parameter);
   } else if (const auto status = read<SysStatus>(frame)) {
-    const bool is_ready = (status->onboard_control_sensors_health & kSensorPrearmCheck) != 0;
-    if (stage_ == Stage::kReady && is_ready && estimate_ && !mission_.empty()) {
+    is_ready_ = (status->onboard_control_sensors_health & kSensorPrearmCheck) != 0;
+    if (stage_ == Stage::kReady && is_ready_ && estimate_ && !mission_.empty()) {
       enter(now, Stage::kUpload);
     }
   } else if (const auto text = read<StatusText>(frame)) {
     constexpr std::uint8_t kWarning = 4;
-    if (text->severity <= kWarning) complaint_ = text_of(text->text);
+    if (text->severity <= kWarning) complaint_ = plain_text(text_of(text->text));
     texts_.push_back(*text);
   } else if (const auto request_int = read<MissionRequestInt>(frame)) {
     send_item(now, request_int->seq);
@@ -245,13 +289,15 @@ void GroundStation::step(Time now) {
       }
       break;
     case Stage::kMode: {
-      const auto mode = auto_mode();
+      const auto mode = arming_mode();
       if (!mode) {
-        fail(fmt::format("is a vehicle of type {}, for which no mode AUTO is known",
+        fail(fmt::format("is a vehicle of type {}, whose mode for missions is unknown",
                          heartbeat_.type));
         break;
       }
-      if (gives_up(options_.answer_timeout_s, "did not change to AUTO") || !is_due(now)) break;
+      if (gives_up(options_.answer_timeout_s, "did not change to the mode for missions") ||
+          !is_due(now))
+        break;
       CommandLong command;
       command.command = kCommandSetMode;
       command.param1 = kModeFlagCustom;
@@ -265,7 +311,8 @@ void GroundStation::step(Time now) {
       break;
     }
     case Stage::kArm: {
-      if (gives_up(options_.answer_timeout_s, "was not armed") || !is_due(now)) break;
+      // Its checks go on: while it says that it is not ready, it is not asked.
+      if (gives_up(options_.ready_timeout_s, "was not armed") || !is_ready_ || !is_due(now)) break;
       CommandLong command;
       command.command = kCommandArm;
       command.param1 = 1.0F;

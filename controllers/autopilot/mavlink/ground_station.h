@@ -28,10 +28,12 @@ struct ScheduledCommand {
 struct GroundStationOptions {
   std::vector<FirmwareParameter> parameters;  ///< set one by one before anything else
   std::vector<ScheduledCommand> commands;     ///< in order of time
-  bool expects_mission = false;               ///< fly() will be called
-  double report_rate_Hz = 10.0;               ///< of attitude and position
-  double ready_timeout_s = 120.0;             ///< until its own checks let it be armed
-  double answer_timeout_s = 10.0;             ///< of each request, which is repeated every second
+  /// MAV_TYPE of the vehicle; firmware of another one is refused. Absent: any.
+  std::optional<std::uint8_t> vehicle_type;
+  bool expects_mission = false;    ///< fly() will be called
+  double report_rate_Hz = 10.0;    ///< of attitude and position
+  double ready_timeout_s = 120.0;  ///< until its own checks let it be armed
+  double answer_timeout_s = 10.0;  ///< of each request, which is repeated every second
 };
 
 /// The firmware's own estimate.
@@ -63,6 +65,9 @@ class GroundStation {
   const std::string& failure() const { return failure_; }
   /// The latest estimate, if attitude, position and its origin have come.
   const std::optional<FirmwareEstimate>& estimate() const { return estimate_; }
+  /// Its way to the next item: number, and cross-track error in its own sign.
+  int current_item() const { return current_item_; }
+  const std::optional<mavlink::NavControllerOutput>& navigation() const { return navigation_; }
   /// Sentences of the autopilot since the last call.
   std::vector<mavlink::StatusText> take_texts();
   /// Number of items that were reached.
@@ -83,12 +88,15 @@ class GroundStation {
   };
 
   void enter(Time now, Stage stage);
+  void meet(Time now, const mavlink::Frame& frame);
   void fail(const std::string& reason);
   /// True once per second of a stage: the request is sent (again).
   bool is_due(Time now);
   void request(const mavlink::CommandLong& command);
   /// Attitude, position and status, at their rates.
   void request_streams();
+  void request_origin();
+  void take_ekf_status(const mavlink::EkfStatusReport& status);
   void send_parameter();
   void send_commands(Time now);
   void send_item(Time now, int number);
@@ -98,7 +106,7 @@ class GroundStation {
   void take_mission_ack(Time now, const mavlink::MissionAck& ack);
   /// What the autopilot said last, for reasons: " (PreArm: ...)".
   std::string last_complaint() const;
-  std::optional<std::uint32_t> auto_mode() const;
+  std::optional<std::uint32_t> arming_mode() const;
 
   GroundStationOptions options_;
   std::vector<mavlink::MissionItemInt> mission_;
@@ -112,8 +120,9 @@ class GroundStation {
   std::string failure_, complaint_;
   mavlink::Sender vehicle_;
   mavlink::Heartbeat heartbeat_;
-  bool was_armed_ = false;
-  int items_reached_ = 0;
+  bool was_armed_ = false, is_ready_ = false, knows_place_ = true;
+  int items_reached_ = 0, current_item_ = 0;
+  std::optional<mavlink::NavControllerOutput> navigation_;
   std::optional<mavlink::Attitude> attitude_;
   std::optional<mavlink::GpsGlobalOrigin> origin_;
   std::optional<FirmwareEstimate> estimate_;

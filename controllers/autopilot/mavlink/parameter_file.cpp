@@ -8,6 +8,7 @@
 #include <sstream>
 #include <utility>
 
+#include "controllers/autopilot/link/plain_text.h"
 #include "engine/core/error.h"
 #include "engine/core/files.h"
 
@@ -65,7 +66,7 @@ std::vector<FirmwareParameter> parse_parameters(const std::string& text,
         !read_number(words[at + 1], parameter.value)) {
       throw ConfigError(
           fmt::format("{}:{}: \"{}\" must be a name of at most {} characters and a number",
-                      file.string(), number, line.substr(0, 60), kMaxName));
+                      file.string(), number, plain_text(line.substr(0, 60)), kMaxName));
     }
     parameter.name = words[at];
     set_parameter(parameters, parameter);

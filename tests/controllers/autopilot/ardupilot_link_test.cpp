@@ -152,7 +152,8 @@ struct Bench {
     for (int step = 0; packet && step < steps - 1; ++step) {
       ArdupilotState state;
       state.timestamp_s = 0.001 * step;
-      packet = link.exchange(line.write(state), limit, no);
+      link.answer(line.write(state));
+      packet = link.wait_for_next(limit, no);
       // The pulses answer the state of this step, not of an earlier one.
       if (packet) {
         EXPECT_EQ(packet->pwm_us[0], 1000 + step % 1000) << step;
@@ -227,7 +228,8 @@ TEST(ArdupilotLockstep, RefusesASecondAutopilot) {
   FakeArdupilot second(options, still);
   std::this_thread::sleep_for(milliseconds(200));
   StateLine line;
-  const auto packet = link.exchange(line.write({}), milliseconds(3000), no);
+  link.answer(line.write({}));
+  const auto packet = link.wait_for_next(milliseconds(3000), no);
   ASSERT_FALSE(packet);
   EXPECT_THAT(packet.reason(), HasSubstr("is not alone: programs at the ports"));
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "controllers/autopilot/ardupilot/start_command.h"
 #include "controllers/autopilot/frames/body_state.h"
 #include "controllers/autopilot/frames/firmware_frame.h"
 #include "controllers/autopilot/mavlink/gps_input.h"
@@ -15,6 +16,7 @@
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 #include "engine/math/geo_origin.h"
+#include "tests/controllers/support/plant.h"
 #include "tests/support/folder_test.h"
 
 namespace vinerow::controllers::firmware_exchange_test {
@@ -82,10 +84,7 @@ TEST(FirmwareFrame, AttitudeComesBack) {
 }
 
 VehicleDescription rover() {
-  VehicleDescription vehicle;
-  vehicle.type = "diff_drive_rover";
-  vehicle.wheeled.emplace();
-  return vehicle;
+  return test::make_rover_description();
 }
 
 VehicleDescription copter() {
@@ -212,6 +211,67 @@ TEST(GpsInput, HasTheReceiversReading) {
   EXPECT_EQ(input.time_week, 2319);
   EXPECT_EQ(input.time_week_ms, (5u * 86'400 + 36'000 + 18 + 12) * 1000 + 345);
   EXPECT_EQ(make_gps_input(GnssFix{}, Time{}).fix_type, 1);
+}
+
+AutopilotContext context_of(const VehicleDescription& vehicle) {
+  AutopilotContext context;
+  context.part = "rover.autopilot";
+  context.period = Duration{10'000'000};
+  context.vehicle_description = &vehicle;
+  context.origin = kOrigin;
+  return context;
+}
+
+double value_of(const std::vector<FirmwareParameter>& parameters, const std::string& name) {
+  for (const auto& parameter : parameters) {
+    if (parameter.name == name) return parameter.value;
+  }
+  return std::nan("");
+}
+
+TEST(StartCommand, OfOneWordGetsWhatARepeatableRunNeeds) {
+  const VehicleDescription vehicle = rover();
+  ArdupilotParams params;
+  params.command = {"./ardurover"};
+  params.instance = 2;
+  EXPECT_THAT(start_command(params, context_of(vehicle)),
+              ElementsAre("./ardurover", "--wipe", "--model", "JSON:127.0.0.1", "--instance", "2",
+                          "--home", "45.000000000000,9.000000000000,150.000,0", "--speedup", "1000",
+                          "--start-time", "1718964000", "--serial0", "udpclient:127.0.0.1:14575",
+                          "--defaults", "vinerow.parm"));
+  params.command = {"wrapper", "-I{instance}", "{mavlink},{mavlink}"};
+  params.mavlink_port = 4000;
+  EXPECT_THAT(start_command(params, context_of(vehicle)),
+              ElementsAre("wrapper", "-I2", "udpclient:127.0.0.1:4000,udpclient:127.0.0.1:4000"));
+  params.command = {};
+  EXPECT_TRUE(start_command(params, context_of(vehicle)).empty());
+  EXPECT_EQ(lockstep_port_of(params), 9022);
+}
+
+TEST(VehicleParameters, FollowFromTheVehicleAndTheUserHasTheLastWord) {
+  VehicleDescription vehicle = rover();
+  vehicle.max_speed_mps = 2.0;
+  ArdupilotParams params;
+  params.gnss = "gps";
+  params.ranges = {"left", "down"};
+  params.parameters = {{"WP_SPEED", 0.7}, {"RC1_MIN", 1100}};
+  AutopilotContext context = context_of(vehicle);
+  Pose to_the_left, downwards;
+  to_the_left.q = Eigen::AngleAxisd(0.5 * kPi, Vector3d::UnitZ());
+  downwards.q = Eigen::AngleAxisd(0.5 * kPi, Vector3d::UnitY());
+  context.sensors = {{"left", "ultrasound", to_the_left}, {"down", "ultrasound", downwards}};
+  const auto parameters = start_parameters(params, context);
+  EXPECT_EQ(value_of(parameters, "LOG_BACKEND_TYPE"), 0);
+  EXPECT_EQ(value_of(parameters, "SERVO1_FUNCTION"), 73);
+  EXPECT_EQ(value_of(parameters, "SERVO3_FUNCTION"), 74);
+  EXPECT_EQ(value_of(parameters, "CRUISE_SPEED"), 1.5);
+  EXPECT_EQ(value_of(parameters, "CRUISE_THROTTLE"), 75);
+  EXPECT_EQ(value_of(parameters, "GPS1_TYPE"), 14);
+  EXPECT_EQ(value_of(parameters, "RNGFND1_TYPE"), 100);
+  EXPECT_EQ(value_of(parameters, "RNGFND1_ORIENT"), 6);   // MAV_SENSOR_ROTATION_YAW_270
+  EXPECT_EQ(value_of(parameters, "RNGFND2_ORIENT"), 25);  // MAV_SENSOR_ROTATION_PITCH_270
+  EXPECT_EQ(value_of(parameters, "WP_SPEED"), 0.7);
+  EXPECT_EQ(value_of(parameters, "RC1_MIN"), 1100);
 }
 
 struct ParameterFile : test::FolderTest {

@@ -71,9 +71,11 @@ TEST(GroundStation, UploadsArmsAndStarts) {
   EXPECT_TRUE(bench.vehicle.is_armed);
   EXPECT_TRUE(bench.vehicle.has_started);
   EXPECT_FALSE(bench.station->finished());
-  // Attitude and position at 10 Hz, status at 1 Hz: message and microseconds.
+  // State of its estimator, attitude, position and navigation at 10 Hz, status at 1 Hz: message and
+  // microseconds.
   EXPECT_THAT(bench.vehicle.intervals,
-              ::testing::ElementsAre(std::pair(30.0F, 1e5F), std::pair(32.0F, 1e5F),
+              ::testing::ElementsAre(std::pair(193.0F, 1e5F), std::pair(30.0F, 1e5F),
+                                     std::pair(32.0F, 1e5F), std::pair(62.0F, 1e5F),
                                      std::pair(1.0F, 1e6F)));
   ASSERT_TRUE(bench.station->estimate());
   EXPECT_NEAR(bench.station->estimate()->position.x, bench.time_s, 0.2);
@@ -116,7 +118,8 @@ TEST(GroundStation, SaysWhyThereIsNoMission) {
   refused.run(6.0);
   EXPECT_EQ(refused.station->failure(), "refused the mission: an item is invalid");
 
-  Bench unarmed(2);
+  hurried.ready_timeout_s = 10.0;
+  Bench unarmed(2, hurried);
   unarmed.vehicle.refuses_to_arm = true;
   unarmed.run(20.0);
   EXPECT_EQ(unarmed.station->failure(), "was not armed for 10 s (Arm: Throttle not neutral)");
@@ -124,7 +127,7 @@ TEST(GroundStation, SaysWhyThereIsNoMission) {
   Bench boat(2);
   boat.vehicle.type = 11;
   boat.run(6.0);
-  EXPECT_EQ(boat.station->failure(), "is a vehicle of type 11, for which no mode AUTO is known");
+  EXPECT_EQ(boat.station->failure(), "is a vehicle of type 11, whose mode for missions is unknown");
 }
 
 TEST(GroundStation, SetsParametersFirst) {
@@ -165,6 +168,14 @@ TEST(GroundStation, SendsCommandsInTime) {
   EXPECT_EQ(bench.vehicle.other_commands[0].param3, 0.0F);
   bench.run(2.0);
   EXPECT_EQ(bench.vehicle.other_commands.size(), 2u);
+}
+
+TEST(GroundStation, RefusesFirmwareOfAnotherVehicle) {
+  GroundStationOptions options;
+  options.vehicle_type = kTypeFixedWing;
+  Bench bench(0, options);
+  bench.run(1.0);
+  EXPECT_EQ(bench.station->failure(), "is firmware for a rover, and this is a fixed wing");
 }
 
 TEST(GroundStation, WithoutAMissionItOnlyListens) {

@@ -1,0 +1,79 @@
+/// Exchange with an autopilot on loopback: state out, outputs in, without the autopilot's own time.
+/// The other side answers at once. Aim: 60 us of wall time.
+
+#include <benchmark/benchmark.h>
+
+#include <atomic>
+#include <thread>
+
+#include "controllers/autopilot/ardupilot/lockstep_link.h"
+#include "controllers/autopilot/ardupilot/state_line.h"
+
+namespace vinerow::autopilot_bench {
+namespace {
+
+using namespace controllers;
+using std::chrono::milliseconds;
+
+constexpr UdpAddress kAnyPort{0x7F000001, 0};
+
+/// Sends packet n + 1 for each answer.
+class Responder {
+ public:
+  explicit Responder(UdpAddress peer) : socket_(kAnyPort, "responder"), peer_(peer) {
+    thread_ = std::thread([this] {
+      send();
+      while (!stops_) {
+        if (socket_.receive(milliseconds(20))) send();
+      }
+    });
+  }
+  ~Responder() {
+    stops_ = true;
+    thread_.join();
+  }
+
+ private:
+  void send() {
+    std::array<std::uint8_t, 40> packet{0x1A, 0x48, 0xB0, 0x04};
+    for (int i = 0; i < 4; ++i) packet[4 + i] = static_cast<std::uint8_t>(frame_ >> (8 * i));
+    ++frame_;
+    socket_.send(packet, peer_);
+  }
+
+  UdpSocket socket_;
+  UdpAddress peer_;
+  std::uint32_t frame_ = 0;
+  std::atomic<bool> stops_{false};
+  std::thread thread_;
+};
+
+void exchange(benchmark::State& state) {
+  LockstepLink link(kAnyPort, "bench");
+  Responder responder({kAnyPort.host, link.port()});
+  const auto never = [] { return std::string(); };
+  if (!link.wait_for_first(milliseconds(5000), never)) return state.SkipWithError("no packet");
+  StateLine line;
+  ArdupilotState of_vehicle;
+  for (auto _ : state) {
+    of_vehicle.timestamp_s += 0.001;
+    link.answer(line.write(of_vehicle));
+    const auto packet = link.wait_for_next(milliseconds(5000), never);
+    if (!packet) return state.SkipWithError(packet.reason().c_str());
+  }
+}
+BENCHMARK(exchange)->Name("autopilot_exchange")->Unit(benchmark::kMicrosecond)->UseRealTime();
+
+void write_line(benchmark::State& state) {
+  StateLine line;
+  ArdupilotState of_vehicle;
+  of_vehicle.position_NED_m = {12.3456789, -98.7654321, -1.5};
+  for (auto _ : state) {
+    of_vehicle.timestamp_s += 0.001;
+    benchmark::DoNotOptimize(line.write(of_vehicle).data());
+  }
+}
+BENCHMARK(write_line)->Name("autopilot_state_line")->Unit(benchmark::kNanosecond);
+
+}  // namespace
+}  // namespace vinerow::autopilot_bench

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Have the pages written by hand at most 42,000 words of prose?
+"""Are the pages written by hand short enough?
 
     word_count_test.py [--list]
 
@@ -13,7 +13,7 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-LIMIT = 43_000
+LIMIT = 44_000  # raised by 1,000 for the guide of autopilots, a new interface
 # Written by `vinerow docs` and tools/results, or a list that only grows.
 NOT_COUNTED = {f"docs/reference/{name}.md" for name in ("parts", "metrics", "signals", "messages", "cli", "gym")} | {"docs/papers/results.md",
                                                                                                              "CHANGELOG.md"}
@@ -62,7 +62,7 @@ def pages() -> list[str]:
 
 
 class Pages(unittest.TestCase):
-    def test_they_have_at_most_40000_words(self):
+    def test_they_are_short_enough(self):
         counts = {page: words_of((ROOT / page).read_text()) for page in pages()}
         self.assertGreater(len(counts), 60)
         total = sum(counts.values())

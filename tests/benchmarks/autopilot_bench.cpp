@@ -15,12 +15,12 @@ namespace {
 using namespace controllers;
 using std::chrono::milliseconds;
 
-constexpr UdpAddress kAnyPort{0x7F000001, 0};
+constexpr mavlink::UdpAddress kAnyPort{0x7F000001, 0};
 
 /// Sends packet n + 1 for each answer.
 class Responder {
  public:
-  explicit Responder(UdpAddress peer) : socket_(kAnyPort, "responder"), peer_(peer) {
+  explicit Responder(mavlink::UdpAddress peer) : socket_(kAnyPort, "responder"), peer_(peer) {
     thread_ = std::thread([this] {
       send();
       while (!stops_) {
@@ -41,8 +41,8 @@ class Responder {
     socket_.send(packet, peer_);
   }
 
-  UdpSocket socket_;
-  UdpAddress peer_;
+  mavlink::UdpSocket socket_;
+  mavlink::UdpAddress peer_;
   std::uint32_t frame_ = 0;
   std::atomic<bool> stops_{false};
   std::thread thread_;

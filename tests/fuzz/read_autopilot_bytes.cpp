@@ -200,7 +200,7 @@ std::vector<AutopilotSeed> autopilot_seeds() {
                                      ("fuzz_seed_" + std::to_string(::getpid()) + ".pcap");
   {
     DatagramRecorder recorder(file);
-    const UdpAddress ours{0x7F000001, 9002}, theirs{0x7F000001, 0};
+    const mavlink::UdpAddress ours{0x7F000001, 9002}, theirs{0x7F000001, 0};
     const std::span packet(reinterpret_cast<const std::uint8_t*>(packet16.data()), packet16.size());
     recorder.add(Time{1'000'000}, theirs, ours, packet);
     recorder.add(Time{2'000'000}, ours, theirs, packet.first(9));

@@ -8,12 +8,12 @@
 #include <cmath>
 #include <filesystem>
 
-#include "controllers/autopilot/link/udp_socket.h"
 #include "engine/api/messages/commands.h"
 #include "engine/api/messages/motion.h"
 #include "engine/api/messages/sensors.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
+#include "engine/mavlink/udp_socket.h"
 #include "tests/controllers/autopilot/fake_ardupilot.h"
 #include "tests/controllers/autopilot/fake_vehicle.h"
 #include "tests/scenarios/session_support.h"
@@ -41,7 +41,7 @@ int free_instance() {
   for (int k = 0; k < 200; ++k) {
     const int instance = 20 + (static_cast<int>(::getpid()) + k) % 200;
     try {
-      controllers::UdpSocket probe({kLoopback, port_of(instance)}, "");
+      mavlink::UdpSocket probe({kLoopback, port_of(instance)}, "");
       return instance;
     } catch (const ConfigError&) {
     }
@@ -375,8 +375,8 @@ class MissionFirmware {
   }
 
   static constexpr int home_latitude = 450'000'000, home_longitude = 90'000'000;
-  controllers::UdpSocket socket_;
-  controllers::UdpAddress peer_;
+  mavlink::UdpSocket socket_;
+  mavlink::UdpAddress peer_;
   std::array<double, 3> home_{};
   int steps_ = 0;
   FakeArdupilot fake_;  // last: its thread uses the others
@@ -477,7 +477,7 @@ TEST(Ardupilot, SaysWhatWentWrong) {
   EXPECT_THAT(fault_of(rover_text("type: ardupilot") + "    controller: {type: remote_velocity}\n"),
               HasSubstr("rover.controller: the vehicle has an autopilot ('ardupilot'), which takes "
                         "the place of estimator, guidance and controller"));
-  controllers::UdpSocket taken({kLoopback, port_of(instance)}, "");
+  mavlink::UdpSocket taken({kLoopback, port_of(instance)}, "");
   EXPECT_THAT(fault_of(rover_text(ardupilot(instance))),
               HasSubstr("cannot listen on UDP port " + std::to_string(port_of(instance)) +
                         ": another program has it"));

@@ -94,24 +94,37 @@ void add_peer_options(CLI::App& command, PeerChoice& choice) {
       .add_flag("--ros2-network", choice.ros2_node.network,
                 "be seen by ROS 2 nodes of other machines too")
       ->needs(ros2);
+  CLI::Option* mavlink =
+      command.add_flag("--mavlink", choice.mavlink,
+                       "show the vehicles to a ground station (QGroundControl) while the run goes "
+                       "on, in real time");
+  command
+      .add_option("--mavlink-host", choice.ground_station.host,
+                  "IPv4 address of the ground station (default: 127.0.0.1)")
+      ->needs(mavlink);
+  command
+      .add_option("--mavlink-port", choice.ground_station.port,
+                  "UDP port where it listens (default: 14550)")
+      ->check(CLI::Range(1, 65535))
+      ->needs(mavlink);
   command.add_flag("--paused", choice.paused, "start paused, until a client resumes the run");
   command.add_option_function<std::string>(
       "--speed", [&choice](const std::string& text) { choice.speed = read_speed(text); },
-      "simulated seconds per second, or max (default: max; 1 with --live or --ros2, except in "
-      "lock-step)");
+      "simulated seconds per second, or max (default: max; 1 with --live, --ros2 or --mavlink, "
+      "except in lock-step)");
 }
 
 void complete_peer_options(PeerChoice& choice) {
   if (choice.replays()) {
     if (choice.has_peers() || choice.paused || choice.speed) {
       throw ConfigError(
-          "--replay-commands repeats a run without peers: leave out --live, --ros2, --paused and "
-          "--speed");
+          "--replay-commands repeats a run without peers: leave out --live, --ros2, --mavlink, "
+          "--paused and --speed");
     }
     choice.replay_commands = log_of(choice.replay_commands);
   }
   if (choice.paused && !choice.has_peers()) {
-    throw ConfigError("--paused waits for a client: give --live or --ros2 too");
+    throw ConfigError("--paused waits for a client: give --live, --ros2 or --mavlink too");
   }
   // Read only where it counts: a strange value must not stop other runs.
   if (!choice.ros2) return;
@@ -154,6 +167,10 @@ void RunPeers::start(const scenario::Scenario& scenario, const Registry& registr
     fmt::print("ros2     node /vinerow in domain {}{}\n", options.domain,
                options.network ? "" : ", on this machine");
   }
+  if (choice.mavlink) {
+    mavlink_ = live::make_mavlink_peer(*run_, choice.ground_station);
+    fmt::print("mavlink  udp://{}:{}\n", choice.ground_station.host, choice.ground_station.port);
+  }
   if (choice.live) {
     server_ = std::make_unique<live::WebServer>(*run_, choice.server);
     fmt::print("live     {}\n", server_->url());
@@ -170,6 +187,7 @@ std::shared_ptr<run::RunDriver> RunPeers::driver() const {
 }
 
 void RunPeers::leave() {
+  mavlink_ = nullptr;
   ros2_ = nullptr;
   server_ = nullptr;
 }

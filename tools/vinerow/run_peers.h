@@ -8,6 +8,7 @@
 #include <string>
 
 #include "engine/api/registry.h"
+#include "engine/live/mavlink_peer.h"
 #include "engine/live/ros2_bridge.h"
 #include "engine/live/web_server.h"
 #include "engine/run/command_log.h"
@@ -20,6 +21,8 @@ namespace vinerow::tools {
 struct PeerChoice {
   bool live = false;  ///< a server for browsers and Foxglove
   live::ServerOptions server;
+  bool mavlink = false;
+  live::MavlinkOptions ground_station;
   bool ros2 = false;
   live::Ros2Options ros2_node;
   std::optional<int> ros2_domain;  ///< absent: of the environment
@@ -28,7 +31,7 @@ struct PeerChoice {
   std::filesystem::path replay_commands;  ///< empty: none
 
   bool replays() const { return !replay_commands.empty(); }
-  bool has_peers() const { return live || ros2; }
+  bool has_peers() const { return live || ros2 || mavlink; }
 };
 
 void add_peer_options(CLI::App& command, PeerChoice& choice);
@@ -62,6 +65,7 @@ class RunPeers {
   std::shared_ptr<live::LiveRun> run_;
   std::unique_ptr<live::WebServer> server_;
   std::unique_ptr<live::Ros2Bridge> ros2_;
+  std::unique_ptr<live::MavlinkPeer> mavlink_;
 };
 
 }  // namespace vinerow::tools

@@ -284,7 +284,7 @@ std::unique_ptr<Autopilot> make_ardupilot(const ParameterSet& parameters,
                                           const AutopilotContext& context) {
   const std::string who = context.part + " (ardupilot)";
   const ArdupilotParams params = ardupilot_table().read(parameters, who);
-  const auto host = parse_ipv4(params.address);
+  const auto host = mavlink::parse_ipv4(params.address);
   if (!host) {
     throw ConfigError(fmt::format("{}: address = '{}', must be an IPv4 address such as 127.0.0.1",
                                   who, params.address));

@@ -12,7 +12,7 @@
 #include <string_view>
 
 #include "controllers/autopilot/ardupilot/servo_packet.h"
-#include "controllers/autopilot/link/udp_socket.h"
+#include "engine/mavlink/udp_socket.h"
 
 namespace vinerow::controllers {
 
@@ -23,7 +23,7 @@ class LockstepLink {
 
   /// @param own  where the autopilot sends its packets  @param who  for errors
   /// @throws ConfigError if the port is taken
-  LockstepLink(UdpAddress own, const std::string& who) : socket_(own, who) {}
+  LockstepLink(mavlink::UdpAddress own, const std::string& who) : socket_(own, who) {}
 
   std::uint16_t port() const { return socket_.port(); }
   /// Bytes of the packet that was returned last.
@@ -46,9 +46,9 @@ class LockstepLink {
   std::optional<Result<ServoPacket>> next_packet(std::chrono::milliseconds limit);
   void send();
 
-  UdpSocket socket_;
+  mavlink::UdpSocket socket_;
   std::span<const std::uint8_t> last_;  ///< in the socket's buffer
-  std::optional<UdpAddress> peer_;
+  std::optional<mavlink::UdpAddress> peer_;
   std::uint32_t frame_ = 0;
   std::string_view line_;           ///< the last answer
   Clock::time_point sent_;          ///< when it was sent

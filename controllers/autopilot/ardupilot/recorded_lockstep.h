@@ -33,7 +33,7 @@ class RecordedLockstep final : public Lockstep {
   std::string_view line_;                  ///< the last state
   std::optional<RecordedDatagram> next_;   ///< in the recording
   std::optional<RecordedDatagram> taken_;  ///< what the last call returned
-  UdpAddress own_;                         ///< where the packets of the outputs went
+  mavlink::UdpAddress own_;                ///< where the packets of the outputs went
 };
 
 }  // namespace vinerow::controllers

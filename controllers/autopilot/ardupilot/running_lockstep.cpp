@@ -8,7 +8,7 @@ LockstepLink::GaveUp RunningLockstep::gave_up() {
   return [this] { return process_ ? process_->ending() : std::string(); };
 }
 
-void RunningLockstep::record(Time now, UdpAddress from, UdpAddress to,
+void RunningLockstep::record(Time now, mavlink::UdpAddress from, mavlink::UdpAddress to,
                              std::span<const std::uint8_t> bytes) {
   if (recorder_) recorder_->add(now, from, to, bytes);
 }

@@ -16,12 +16,12 @@
 namespace vinerow::controllers {
 
 struct RunningLockstepOptions {
-  UdpAddress own;                     ///< where the autopilot sends its outputs
-  std::optional<UdpAddress> mavlink;  ///< where it sends MAVLink; absent: no MAVLink
-  std::vector<std::string> command;   ///< program and arguments; empty: it is started elsewhere
-  std::filesystem::path folder;       ///< it works there
-  std::string parameters;             ///< text of a file there, for a program that is started
-  std::filesystem::path record;       ///< pcap file; empty: none
+  mavlink::UdpAddress own;                     ///< where the autopilot sends its outputs
+  std::optional<mavlink::UdpAddress> mavlink;  ///< where it sends MAVLink; absent: no MAVLink
+  std::vector<std::string> command;  ///< program and arguments; empty: it is started elsewhere
+  std::filesystem::path folder;      ///< it works there
+  std::string parameters;            ///< text of a file there, for a program that is started
+  std::filesystem::path record;      ///< pcap file; empty: none
   std::chrono::milliseconds start_limit{60'000};
   std::chrono::milliseconds answer_limit{10'000};
 };
@@ -45,14 +45,15 @@ class RunningLockstep final : public Lockstep {
  private:
   LockstepLink::GaveUp gave_up();
   /// The autopilot's ports are other ones in every run: 0 stands for them.
-  void record(Time now, UdpAddress from, UdpAddress to, std::span<const std::uint8_t> bytes);
-  UdpAddress theirs() const { return {options_.own.host, 0}; }
+  void record(Time now, mavlink::UdpAddress from, mavlink::UdpAddress to,
+              std::span<const std::uint8_t> bytes);
+  mavlink::UdpAddress theirs() const { return {options_.own.host, 0}; }
 
   RunningLockstepOptions options_;
   std::string who_;
   std::optional<LockstepLink> link_;
-  std::optional<UdpSocket> mavlink_;
-  std::optional<UdpAddress> mavlink_peer_;
+  std::optional<mavlink::UdpSocket> mavlink_;
+  std::optional<mavlink::UdpAddress> mavlink_peer_;
   std::optional<DatagramRecorder> recorder_;
   std::unique_ptr<ChildProcess> process_;  // ends before the socket closes
 };

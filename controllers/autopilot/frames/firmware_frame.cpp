@@ -15,9 +15,6 @@ constexpr double kPerDegree = 1e7;
 double rad_from_e7(std::int32_t angle) {
   return rad_from_deg(angle / kPerDegree);
 }
-std::int32_t e7_from_rad(double angle_rad) {
-  return static_cast<std::int32_t>(std::lround(deg_from_rad(angle_rad) * kPerDegree));
-}
 
 /// A circle of latitude is shorter than the equator; ArduPilot takes the mean of both latitudes.
 double east_radius_m(double latitude_rad, double other_rad) {
@@ -41,14 +38,13 @@ std::string FirmwareFrame::home_text() const {
 
 PlaceE7 FirmwareFrame::place_of(const Eigen::Vector3d& p_W) const {
   if (receiver_ == Receiver::kOurs) {
-    const Geodetic place = wgs84_.to_geodetic(p_W);
-    return {e7_from_rad(place.latitude_rad), e7_from_rad(place.longitude_rad)};
+    return io::place_e7(wgs84_.to_geodetic(p_W));
   }
   const double latitude0 = rad_from_e7(home().latitude);
   const double latitude = latitude0 + p_W.y() / kEarthRadius_m;
   const double longitude =
       rad_from_e7(home().longitude) + p_W.x() / east_radius_m(latitude, latitude0);
-  return {e7_from_rad(latitude), e7_from_rad(longitude)};
+  return io::place_e7({latitude, longitude, 0.0});
 }
 
 Eigen::Vector3d FirmwareFrame::local_to_W(const PlaceE7& ekf_origin, double altitude_m,

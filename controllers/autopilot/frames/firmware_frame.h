@@ -11,18 +11,14 @@
 /// SITL_State::parse_home.
 
 #include <Eigen/Core>
-#include <cstdint>
 #include <string>
 
+#include "engine/io/missions/mission_items.h"
 #include "engine/math/geo.h"
 
 namespace vinerow::controllers {
 
-/// As MAVLink sends places: 1e-7 degrees. ArduPilot computes with these numbers.
-struct PlaceE7 {
-  std::int32_t latitude = 0, longitude = 0;
-  friend bool operator==(const PlaceE7&, const PlaceE7&) = default;
-};
+using io::PlaceE7;  // ArduPilot computes with these numbers
 
 class FirmwareFrame {
  public:

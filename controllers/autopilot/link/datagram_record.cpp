@@ -76,7 +76,7 @@ void DatagramRecorder::write(std::span<const std::uint8_t> bytes) {
   }
 }
 
-void DatagramRecorder::add(Time time, UdpAddress from, UdpAddress to,
+void DatagramRecorder::add(Time time, mavlink::UdpAddress from, mavlink::UdpAddress to,
                            std::span<const std::uint8_t> bytes) {
   const auto udp_size = static_cast<std::uint32_t>(kUdpHeader + bytes.size());
   const auto size = static_cast<std::uint32_t>(kIpHeader + udp_size);

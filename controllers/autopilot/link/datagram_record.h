@@ -11,14 +11,14 @@
 #include <string>
 #include <vector>
 
-#include "controllers/autopilot/link/udp_socket.h"
 #include "engine/core/time.h"
+#include "engine/mavlink/udp_socket.h"
 
 namespace vinerow::controllers {
 
 struct RecordedDatagram {
   Time time;
-  UdpAddress from, to;
+  mavlink::UdpAddress from, to;
   std::vector<std::uint8_t> bytes;
 };
 
@@ -27,7 +27,8 @@ class DatagramRecorder {
   /// @throws WriteError
   explicit DatagramRecorder(const std::filesystem::path& file);
   /// @throws WriteError
-  void add(Time time, UdpAddress from, UdpAddress to, std::span<const std::uint8_t> bytes);
+  void add(Time time, mavlink::UdpAddress from, mavlink::UdpAddress to,
+           std::span<const std::uint8_t> bytes);
 
  private:
   struct Close {

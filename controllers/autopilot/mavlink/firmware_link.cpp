@@ -5,8 +5,8 @@
 #include "controllers/autopilot/frames/body_state.h"
 #include "controllers/autopilot/link/plain_text.h"
 #include "controllers/autopilot/mavlink/gps_input.h"
-#include "controllers/autopilot/mavlink/mission_items.h"
-#include "controllers/autopilot/mavlink/plan_mission.h"
+#include "engine/io/missions/mission_items.h"
+#include "engine/io/missions/plan_mission.h"
 #include "engine/mavlink/enums.h"
 
 namespace vinerow::controllers {
@@ -15,9 +15,8 @@ namespace {
 constexpr Time kNever{-1};
 
 Event::Level level_of(std::uint8_t severity) {
-  constexpr std::uint8_t kError = 3, kWarning = 4;  // MAV_SEVERITY
-  if (severity <= kError) return Event::Level::kError;
-  return severity == kWarning ? Event::Level::kWarning : Event::Level::kInfo;
+  if (severity <= mavlink::kSeverityError) return Event::Level::kError;
+  return severity == mavlink::kSeverityWarning ? Event::Level::kWarning : Event::Level::kInfo;
 }
 
 GroundStationOptions station_options(const FirmwareLinkOptions& options,
@@ -66,7 +65,12 @@ void FirmwareLink::connect(Ports& ports) {
 
 void FirmwareLink::begin_mission(const io::MissionFile& mission) {
   has_mission_ = true;
-  station_.fly(make_mission_items(mission, frame_, options_.has_home_item));
+  std::optional<Geodetic> home;
+  if (options_.has_home_item) {
+    home = mission.planned_home.value_or(frame_.wgs84().to_geodetic(Eigen::Vector3d::Zero()));
+  }
+  station_.fly(io::make_mission_items(
+      mission, home, [this](const Geodetic& point) { return frame_.place_of(point); }));
 }
 
 void FirmwareLink::take(Time now, std::span<const std::uint8_t> bytes) {
@@ -96,7 +100,8 @@ void FirmwareLink::write_follower(Time now) {
 
 void FirmwareLink::step(Time now) {
   if (!has_mission_ && plan_.has_value()) {
-    begin_mission(make_plan_mission(plan_.value(), vehicle_, frame_.wgs84(), options_.tolerance_m));
+    begin_mission(
+        io::make_plan_mission(plan_.value(), vehicle_, frame_.wgs84(), options_.tolerance_m));
   }
   if (!begin_) begin_ = now;
   if (!has_complained_ && !station_.estimate() &&

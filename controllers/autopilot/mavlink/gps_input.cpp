@@ -3,26 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/math/angles.h"
+#include "engine/io/missions/mission_items.h"
+#include "engine/mavlink/enums.h"
 
 namespace vinerow::controllers {
 namespace {
 
-// GPS_FIX_TYPE
-constexpr std::uint8_t kNoFix = 1, kFix3d = 3, kDgps = 4, kRtkFloat = 5, kRtkFixed = 6;
-
 std::uint8_t fix_type_of(const GnssFix& fix) {
-  if (!fix.valid) return kNoFix;
-  switch (fix.mode) {
-    case GnssFix::Mode::kSbas:
-      return kDgps;
-    case GnssFix::Mode::kFloat:
-      return kRtkFloat;
-    case GnssFix::Mode::kFixed:
-      return kRtkFixed;
-    default:
-      return kFix3d;
-  }
+  return mavlink::fix_type(fix.valid, static_cast<int>(fix.mode));
 }
 
 }  // namespace
@@ -38,11 +26,9 @@ mavlink::GpsInput make_gps_input(const GnssFix& fix, Time now) {
   input.time_week_ms = static_cast<std::uint32_t>(gps_ms % (1000 * kWeek_s));
   input.fix_type = fix_type_of(fix);
   if (!fix.valid) return input;
-  const auto e7 = [](double angle_rad) {
-    return static_cast<std::int32_t>(std::lround(deg_from_rad(angle_rad) * 1e7));
-  };
-  input.lat = e7(fix.latitude_rad);
-  input.lon = e7(fix.longitude_rad);
+  const io::PlaceE7 place = io::place_e7({fix.latitude_rad, fix.longitude_rad, fix.altitude_m});
+  input.lat = place.latitude;
+  input.lon = place.longitude;
   input.alt = static_cast<float>(fix.altitude_m);
   input.vn = static_cast<float>(fix.v_W.y());
   input.ve = static_cast<float>(fix.v_W.x());

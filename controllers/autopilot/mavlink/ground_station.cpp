@@ -219,8 +219,7 @@ void GroundStation::take(Time now, const Frame& frame) {
       enter(now, Stage::kUpload);
     }
   } else if (const auto text = read<StatusText>(frame)) {
-    constexpr std::uint8_t kWarning = 4;
-    if (text->severity <= kWarning) complaint_ = plain_text(text_of(text->text));
+    if (text->severity <= kSeverityWarning) complaint_ = plain_text(text_of(text->text));
     texts_.push_back(*text);
   } else if (const auto request_int = read<MissionRequestInt>(frame)) {
     send_item(now, request_int->seq);

@@ -235,9 +235,9 @@ TEST(ArdupilotLockstep, RefusesASecondAutopilot) {
 }
 
 TEST(UdpSocket, SaysThatItsPortIsTaken) {
-  UdpSocket first({kLoopback, 0}, "rover.autopilot (ardupilot)");
+  mavlink::UdpSocket first({kLoopback, 0}, "rover.autopilot (ardupilot)");
   try {
-    UdpSocket second({kLoopback, first.port()}, "rover.autopilot (ardupilot)");
+    mavlink::UdpSocket second({kLoopback, first.port()}, "rover.autopilot (ardupilot)");
     FAIL();
   } catch (const ConfigError& error) {
     EXPECT_EQ(std::string(error.what()), "rover.autopilot (ardupilot): cannot listen on UDP port " +
@@ -247,20 +247,20 @@ TEST(UdpSocket, SaysThatItsPortIsTaken) {
 }
 
 TEST(UdpSocket, TellsThatADatagramWasCut) {
-  UdpSocket receiver({kLoopback, 0}, ""), sender({kLoopback, 0}, "");
+  mavlink::UdpSocket receiver({kLoopback, 0}, ""), sender({kLoopback, 0}, "");
   sender.send(std::vector<std::uint8_t>(3000, 1), {kLoopback, receiver.port()});
   const auto datagram = receiver.receive(milliseconds(1000));
   ASSERT_TRUE(datagram);
   EXPECT_TRUE(datagram->is_cut);
-  EXPECT_EQ(datagram->bytes.size(), UdpSocket::kMaxDatagram);
-  EXPECT_EQ(datagram->from, (UdpAddress{kLoopback, sender.port()}));
+  EXPECT_EQ(datagram->bytes.size(), mavlink::UdpSocket::kMaxDatagram);
+  EXPECT_EQ(datagram->from, (mavlink::UdpAddress{kLoopback, sender.port()}));
   EXPECT_EQ(receiver.receive(milliseconds(0)), std::nullopt);
 }
 
 TEST(UdpSocket, ReadsAddresses) {
-  EXPECT_EQ(parse_ipv4("127.0.0.1"), kLoopback);
-  EXPECT_EQ(parse_ipv4("localhost"), std::nullopt);
-  EXPECT_EQ(parse_ipv4("256.0.0.1"), std::nullopt);
+  EXPECT_EQ(mavlink::parse_ipv4("127.0.0.1"), kLoopback);
+  EXPECT_EQ(mavlink::parse_ipv4("localhost"), std::nullopt);
+  EXPECT_EQ(mavlink::parse_ipv4("256.0.0.1"), std::nullopt);
 }
 
 }  // namespace

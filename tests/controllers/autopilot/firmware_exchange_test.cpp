@@ -10,10 +10,10 @@
 #include "controllers/autopilot/frames/body_state.h"
 #include "controllers/autopilot/frames/firmware_frame.h"
 #include "controllers/autopilot/mavlink/gps_input.h"
-#include "controllers/autopilot/mavlink/mission_items.h"
 #include "controllers/autopilot/mavlink/parameter_file.h"
-#include "controllers/autopilot/mavlink/plan_mission.h"
 #include "engine/core/error.h"
+#include "engine/io/missions/mission_items.h"
+#include "engine/io/missions/plan_mission.h"
 #include "engine/math/angles.h"
 #include "engine/math/geo_origin.h"
 #include "tests/controllers/support/plant.h"
@@ -121,7 +121,7 @@ TEST(PlanMission, HasAWaypointWhereThePlanBends) {
 
   const LocalFrame frame(kOrigin);
   for (const double tolerance_m : {0.05, 0.2}) {
-    const io::MissionFile mission = make_plan_mission(plan, rover(), frame, tolerance_m);
+    const io::MissionFile mission = io::make_plan_mission(plan, rover(), frame, tolerance_m);
     std::vector<Vector3d> corners{plan.points.front().p_W};
     for (const io::MissionItem& item : mission.items) {
       EXPECT_EQ(item.command, 16);
@@ -153,7 +153,7 @@ TEST(PlanMission, RotorcraftTakeOffAndLandWhereThePlanIsVertical) {
   plan.points = {point(0, 0, 0.1, PathKind::kVertical), point(0, 0, 4, PathKind::kLeg, 1.5),
                  point(10, 0, 4, PathKind::kLeg, 1.5),  point(10, 5, 4, PathKind::kLeg, 3.0),
                  point(0, 5, 4, PathKind::kVertical),   point(0, 5, 0.1)};
-  const io::MissionFile mission = make_plan_mission(plan, copter(), LocalFrame(kOrigin), 0.05);
+  const io::MissionFile mission = io::make_plan_mission(plan, copter(), LocalFrame(kOrigin), 0.05);
   EXPECT_THAT(commands_of(mission), ElementsAre(22, 178, 16, 16, 178, 16, 21));
   // Above mean sea level: the world's origin is at 150 m.
   EXPECT_EQ(mission.items[0].frame, 0);
@@ -174,7 +174,8 @@ TEST(MissionItems, BeginWithHomeAndHaveNoNaN) {
   servo.params = {9, 1700, 0, 0, 0, 0, 0};
   mission.items = {waypoint, servo};
   const FirmwareFrame frame(kOrigin, Receiver::kOurs);
-  const auto items = make_mission_items(mission, frame, true);
+  const auto place_of = [&](const Geodetic& point) { return frame.place_of(point); };
+  const auto items = io::make_mission_items(mission, mission.planned_home, place_of);
   ASSERT_EQ(items.size(), 3u);
   EXPECT_EQ(items[0].x, 450'000'000);
   EXPECT_EQ(items[0].z, 150.0F);
@@ -184,7 +185,7 @@ TEST(MissionItems, BeginWithHomeAndHaveNoNaN) {
   EXPECT_EQ(items[1].z, 12.0F);
   EXPECT_EQ(items[2].command, 183);
   EXPECT_EQ(items[2].param2, 1700.0F);
-  EXPECT_EQ(make_mission_items(mission, frame, false).size(), 2u);
+  EXPECT_EQ(io::make_mission_items(mission, std::nullopt).size(), 2u);
 }
 
 TEST(GpsInput, HasTheReceiversReading) {

@@ -1,4 +1,4 @@
-#include "controllers/autopilot/mavlink/plan_mission.h"
+#include "engine/io/missions/plan_mission.h"
 
 #include <algorithm>
 #include <utility>
@@ -6,7 +6,7 @@
 #include "engine/io/missions/mav_command.h"
 #include "engine/math/angles.h"
 
-namespace vinerow::controllers {
+namespace vinerow::io {
 namespace {
 
 using Points = std::vector<PathPoint>;
@@ -64,9 +64,9 @@ std::vector<std::size_t> waypoints_of(const Points& points, double tolerance_m) 
 
 }  // namespace
 
-io::MissionFile make_plan_mission(const PlannedPath& plan, const VehicleDescription& vehicle,
-                                  const LocalFrame& frame, double tolerance_m) {
-  io::MissionFile mission;
+MissionFile make_plan_mission(const PlannedPath& plan, const VehicleDescription& vehicle,
+                              const LocalFrame& frame, double tolerance_m) {
+  MissionFile mission;
   mission.format = "plan";
   mission.rotorcraft = vehicle.rotorcraft.has_value();
   const Points& points = plan.points;
@@ -81,7 +81,7 @@ io::MissionFile make_plan_mission(const PlannedPath& plan, const VehicleDescript
   const auto add_place = [&](int command, const Eigen::Vector3d& p_W) {
     const Geodetic place = frame.to_geodetic(p_W);
     // What drives has no altitude of its own.
-    add(command, flies ? io::kFrameMeanSeaLevel : io::kFrameHome,
+    add(command, flies ? kFrameMeanSeaLevel : kFrameHome,
         {0, 0, 0, 0, deg_from_rad(place.latitude_rad), deg_from_rad(place.longitude_rad),
          flies ? place.altitude_m : 0.0});
   };
@@ -95,20 +95,20 @@ io::MissionFile make_plan_mission(const PlannedPath& plan, const VehicleDescript
     if (from.speed_mps > 0.0 && from.speed_mps != speed_mps) {
       constexpr double kThroughAir = 0.0, kOverGround = 1.0, kKeepThrottle = -1.0;
       speed_mps = from.speed_mps;
-      add(io::kDoChangeSpeed, io::kFrameMission,
+      add(kDoChangeSpeed, kFrameMission,
           {vehicle.fixed_wing ? kThroughAir : kOverGround, speed_mps, kKeepThrottle, 0, 0, 0, 0});
     }
     const bool lands = vehicle.rotorcraft && from.kind == PathKind::kVertical &&
                        k + 1 == kept.size() && to_W.z() < from.p_W.z();
     if (!is_in_the_air) {
       is_in_the_air = true;
-      add_place(io::kNavTakeOff, to_W);
+      add_place(kNavTakeOff, to_W);
       // A take-off only climbs, to the height of its item.
       if (from.kind == PathKind::kVertical || vehicle.fixed_wing) continue;
     }
-    add_place(lands ? io::kNavLand : io::kNavWaypoint, to_W);
+    add_place(lands ? kNavLand : kNavWaypoint, to_W);
   }
   return mission;
 }
 
-}  // namespace vinerow::controllers
+}  // namespace vinerow::io

@@ -6,7 +6,7 @@
 #include "engine/io/missions/mission_file.h"
 #include "engine/math/geo.h"
 
-namespace vinerow::controllers {
+namespace vinerow::io {
 
 /// A waypoint wherever the plan bends, and an item wherever its desired speed changes. Rotorcraft
 /// take off and land where the plan goes straight up and down.
@@ -17,7 +17,7 @@ namespace vinerow::controllers {
 /// sides of it.
 /// @param tolerance_m  farthest that a leg may be from the plan
 /// @returns places in WGS84, home at the plan's start
-io::MissionFile make_plan_mission(const PlannedPath& plan, const VehicleDescription& vehicle,
-                                  const LocalFrame& frame, double tolerance_m);
+MissionFile make_plan_mission(const PlannedPath& plan, const VehicleDescription& vehicle,
+                              const LocalFrame& frame, double tolerance_m);
 
-}  // namespace vinerow::controllers
+}  // namespace vinerow::io

@@ -1,4 +1,4 @@
-#include "controllers/autopilot/link/udp_socket.h"
+#include "engine/mavlink/udp_socket.h"
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
@@ -13,7 +13,7 @@
 
 #include "engine/core/error.h"
 
-namespace vinerow::controllers {
+namespace vinerow::mavlink {
 namespace {
 
 sockaddr_in to_system(UdpAddress address) {
@@ -84,4 +84,4 @@ void UdpSocket::send(std::span<const std::uint8_t> bytes, UdpAddress to) {
            reinterpret_cast<const sockaddr*>(&address), sizeof address);
 }
 
-}  // namespace vinerow::controllers
+}  // namespace vinerow::mavlink

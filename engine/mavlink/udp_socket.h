@@ -8,7 +8,7 @@
 #include <span>
 #include <string>
 
-namespace vinerow::controllers {
+namespace vinerow::mavlink {
 
 /// IPv4 address and port.
 struct UdpAddress {
@@ -50,4 +50,4 @@ class UdpSocket {
   std::array<std::uint8_t, kMaxDatagram + 1> buffer_{};
 };
 
-}  // namespace vinerow::controllers
+}  // namespace vinerow::mavlink

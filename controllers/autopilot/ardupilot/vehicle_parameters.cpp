@@ -71,8 +71,13 @@ void add_rover(const VehicleDescription& vehicle, Parameters& parameters) {
   parameters.push_back({"CRUISE_SPEED", cruise_mps});
   parameters.push_back({"CRUISE_THROTTLE", 100.0 * kShare});
   parameters.push_back({"WP_SPEED", cruise_mps});
-  if (vehicle.min_turning_radius_m.value_or(0.0) > 0.0) {
-    parameters.push_back({"TURN_RADIUS", *vehicle.min_turning_radius_m});
+  // Steering per rad/s. The whole steering of axles turns the vehicle by v / R, and ArduPilot
+  // divides it by v (MOT_SPD_SCA_BASE is 1 m/s), so this is the smallest radius R. Skid-steered
+  // rovers keep ArduPilot's 0.2.
+  const double radius_m = vehicle.min_turning_radius_m.value_or(0.0);
+  if (vehicle.steers_by_axles() && radius_m > 0.0) {
+    parameters.push_back({"TURN_RADIUS", radius_m});
+    parameters.push_back({"ATC_STR_RAT_FF", radius_m});
   }
 }
 

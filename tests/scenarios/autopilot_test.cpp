@@ -17,6 +17,7 @@
 #include "tests/controllers/autopilot/fake_ardupilot.h"
 #include "tests/controllers/autopilot/fake_vehicle.h"
 #include "tests/scenarios/session_support.h"
+#include "tools/parts/register_all.h"
 #include "vinerow/session.h"
 
 namespace vinerow::autopilot_test {
@@ -482,6 +483,84 @@ TEST(Ardupilot, SaysWhatWentWrong) {
               HasSubstr("cannot listen on UDP port " + std::to_string(port_of(instance)) +
                         ": another program has it"));
 }
+
+std::vector<std::string> autopilots() {
+  Registry registry;
+  register_all(registry);
+  return registry.names(PartKind::kAutopilot);
+}
+
+/// What the kernel may expect of any autopilot. A new one needs a line in make_firmware().
+class AutopilotConformance : public ::testing::TestWithParam<std::string> {
+ protected:
+  AutopilotConformance() : folder_("autopilot_conformance") {}
+
+  /// Something that answers `packets` states. @returns the vehicle's autopilot
+  std::string make_firmware(int packets) {
+    if (GetParam() == "ardupilot") return ardupilot(start_fake(packets));
+    if (GetParam() == "replay") {
+      const std::string record = ", record: drive.pcap";
+      const auto out = folder_.path() / ("products" + std::to_string(packets));
+      Session session = open(rover_text(ardupilot(start_fake(1'000'000), record)), out);
+      session.advance(Time{(packets - 1) * 10'000'000LL});
+      const auto file = out / "rover.autopilot" / "drive.pcap";
+      return "type: replay, rate_Hz: 100, file: " + file.string();
+    }
+    ADD_FAILURE() << "no firmware for " << GetParam();
+    return "";
+  }
+
+ private:
+  int start_fake(int packets) {
+    const int instance = free_instance();
+    FakeOptions options = fake_options(instance);
+    options.packets = packets;
+    fake_ = std::make_unique<FakeArdupilot>(options, [](const FakeState&) {
+      return Pulses{pulse(0.3), 1500, pulse(0.25)};
+    });
+    return instance;
+  }
+
+  test::ScratchFolder folder_;
+  std::unique_ptr<FakeArdupilot> fake_;
+};
+
+TEST_P(AutopilotConformance, WritesActuatorsOncePerPeriodAndRepeats) {
+  std::vector<std::string> digests;
+  for (int run = 0; run < 2; ++run) {
+    Session session = open(rover_text(make_firmware(1000)));
+    session.advance(Time{2 * kSecond});
+    const SignalBase& actuators = session.any_signal("rover/actuators");
+    EXPECT_EQ(actuators.sequence(), 201u);  // at 100 Hz, with both ends
+    EXPECT_EQ(actuators.stamp(), Time{2 * kSecond});
+    EXPECT_EQ(actuators.writer(), "rover.autopilot");
+    EXPECT_FALSE(session.finished());
+    digests.push_back(session.digest());
+  }
+  EXPECT_EQ(digests[0], digests[1]);
+}
+
+TEST_P(AutopilotConformance, SilenceEndsTheRunWithItsName) {
+  std::string text = make_firmware(51);
+  if (const auto at = text.find("answer_timeout_s: 5"); at != std::string::npos) {
+    text.replace(at, 19, "answer_timeout_s: 0.3");
+  }
+  Session session = open(rover_text(text));
+  try {
+    session.advance(Time{2 * kSecond});
+    ADD_FAILURE() << "it went on";
+  } catch (const SimulationError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("rover.autopilot (" + GetParam() + "): the autopilot "));
+    EXPECT_NEAR(session.now().s(), 0.5, 0.02);
+  }
+}
+
+TEST_P(AutopilotConformance, HasNoEstimatorBesideIt) {
+  EXPECT_THAT(fault_of(rover_text(make_firmware(10)) + "    estimator: {type: truth}\n"),
+              HasSubstr("rover.estimator: the vehicle has an autopilot ('" + GetParam() + "')"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Types, AutopilotConformance, ::testing::ValuesIn(autopilots()));
 
 TEST(Ardupilot, EndOfTheRunEndsWhatItHasStarted) {
   const int instance = free_instance();

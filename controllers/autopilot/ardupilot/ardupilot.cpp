@@ -266,7 +266,7 @@ PartSpec spec_of(const char* name, const char* description, std::vector<Paramete
   spec.name = name;
   spec.description = description;
   spec.parameters = std::move(parameters);
-  spec.reads = {"truth"};
+  spec.reads = {"truth", "plan (optional)", "battery (optional)"};
   spec.writes = {"actuators", "servo_outputs", "estimate", "follower", "autopilot_event"};
   return spec;
 }

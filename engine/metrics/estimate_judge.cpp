@@ -49,18 +49,20 @@ void EstimateJudge::connect(Ports& ports) {
 }
 
 void EstimateJudge::step(Time now, const Odometry& truth, double direction_rad) {
+  const bool is_new = estimate_.has_value() && estimate_.is_newer_than(seen_);
+  // An estimator of the run begins at a tick, and only its estimates at ticks count. A firmware
+  // reports when its own clock says so.
+  if (is_new && !reports_between_) reports_between_ = estimate_.stamp() != now;
   if (estimate_.has_value() && estimate_.stamp() == now) {
     judge(truth, estimate_.value(), direction_rad);
-  } else if (has_last_ && estimate_.is_newer_than(seen_) && estimate_.stamp() > last_time_) {
-    // A firmware reports when its own clock says so: the truth of that instant lies between two
-    // samples, near enough to the straight line between them.
+  } else if (is_new && *reports_between_ && has_last_ && estimate_.stamp() > last_time_) {
+    // The truth of that instant lies between two samples, near enough to the straight line.
     const double share = (estimate_.stamp() - last_time_).s() / (now - last_time_).s();
     Odometry between;
     between.X_WB.p = (1.0 - share) * last_p_W_ + share * truth.X_WB.p;
     between.X_WB.q = last_q_WB_.slerp(share, truth.X_WB.q);
     judge(between, estimate_.value(), direction_rad);
   }
-  if (estimate_.has_value()) estimate_.is_newer_than(seen_);
   has_last_ = true;
   last_time_ = now;
   last_p_W_ = truth.X_WB.p;

@@ -2,6 +2,7 @@
 /// Statistics of the metric `estimation` for one estimator: errors, consistency, containment.
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -79,6 +80,7 @@ class EstimateJudge {
   Prefixes prefixes_;
   double margin_;
   std::uint64_t seen_ = 0;
+  std::optional<bool> reports_between_;  ///< the first estimate came between two ticks
   bool has_last_ = false;
   Time last_time_;  ///< of the last sample of the truth
   Eigen::Vector3d last_p_W_ = Eigen::Vector3d::Zero();

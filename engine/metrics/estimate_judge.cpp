@@ -50,12 +50,14 @@ void EstimateJudge::connect(Ports& ports) {
 
 void EstimateJudge::step(Time now, const Odometry& truth, double direction_rad) {
   const bool is_new = estimate_.has_value() && estimate_.is_newer_than(seen_);
+  const bool is_at_tick = estimate_.has_value() && estimate_.stamp() == now;
+  const bool is_between = is_new && has_last_ && !is_at_tick && estimate_.stamp() > last_time_;
   // An estimator of the run begins at a tick, and only its estimates at ticks count. A firmware
   // reports when its own clock says so.
-  if (is_new && !reports_between_) reports_between_ = estimate_.stamp() != now;
-  if (estimate_.has_value() && estimate_.stamp() == now) {
+  if (!reports_between_ && (is_at_tick || is_between)) reports_between_ = is_between;
+  if (is_at_tick) {
     judge(truth, estimate_.value(), direction_rad);
-  } else if (is_new && *reports_between_ && has_last_ && estimate_.stamp() > last_time_) {
+  } else if (is_between && *reports_between_) {
     // The truth of that instant lies between two samples, near enough to the straight line.
     const double share = (estimate_.stamp() - last_time_).s() / (now - last_time_).s();
     Odometry between;

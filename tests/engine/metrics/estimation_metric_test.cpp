@@ -244,6 +244,27 @@ TEST(EstimationMetric, LeavesOutTheBeginningAndOldEstimates) {
   EXPECT_NEAR(bench.result("estimate_longitudinal_max_m"), 0.2, 1e-12);
 }
 
+TEST(EstimationMetric, JudgesFirmwareThatReportsBetweenTicks) {
+  // 15 ms after a tick, in the 25 ms in which the vehicle drives 1 m: it was at 0.6 m then.
+  const auto drive = [](Bench& bench) {
+    bench.write_truth({0, 0, 0}, 0);
+    bench.look();
+    bench.write_truth({1, 0, 0}, 0);
+    bench.write_estimate({-0.3, 0, 0}, 0, Eigen::Matrix3d::Identity(), Duration{10'000'000});
+    bench.look();
+  };
+  Bench firmware(0.0);
+  drive(firmware);
+  EXPECT_NEAR(firmware.result("estimate_longitudinal_max_m"), 0.1, 1e-12);
+  // An estimator that begins at a tick is judged at ticks alone.
+  Bench estimator(0.0);
+  estimator.write_truth({0, 0, 0}, 0);
+  estimator.write_estimate({0.02, 0, 0});
+  estimator.look();
+  drive(estimator);
+  EXPECT_NEAR(estimator.result("estimate_longitudinal_max_m"), 0.02, 1e-12);
+}
+
 TEST(EstimationMetric, LeavesOutARotorcraftThatHasLanded) {
   using Phase = ReferenceTrajectory::Phase;
   const auto largest_m = [](const VehicleDescription& vehicle) {

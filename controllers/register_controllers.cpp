@@ -1,6 +1,8 @@
 #include "controllers/register_controllers.h"
 
 #include "controllers/autopilot/ardupilot/ardupilot.h"
+#include "controllers/autopilot/px4/px4.h"
+#include "controllers/autopilot/replay/replay.h"
 #include "controllers/dwa/dwa.h"
 #include "controllers/estimation/inertial/error_state_estimator.h"
 #include "controllers/estimation/odometry/gps_pose.h"
@@ -62,6 +64,7 @@ void register_controllers(Registry& registry) {
   registry.add_controller(remote_velocity_spec(), make_remote_velocity);
   registry.add_controller(remote_actuators_spec(), make_remote_actuators);
   registry.add_autopilot(ardupilot_spec(), make_ardupilot);
+  registry.add_autopilot(px4_spec(), make_px4);
   registry.add_autopilot(autopilot_replay_spec(), make_autopilot_replay);
   registry.add_controller(mpc_nominal_spec(), make_mpc_nominal);
   registry.add_controller(trmpc_spec(), make_trmpc);

@@ -34,7 +34,7 @@ inline constexpr std::uint16_t kCommandSetMode = 176, kCommandPauseContinue = 19
                                kCommandMissionStart = 300, kCommandArm = 400,
                                kCommandSetMessageInterval = 511, kCommandRequestMessage = 512;
 // MAV_PARAM_TYPE
-inline constexpr std::uint8_t kParameterReal32 = 9;
+inline constexpr std::uint8_t kParameterUint32 = 5, kParameterInt32 = 6, kParameterReal32 = 9;
 // MAV_RESULT
 inline constexpr std::uint8_t kResultAccepted = 0, kResultTemporarilyRejected = 1,
                               kResultDenied = 2, kResultUnsupported = 3, kResultFailed = 4,

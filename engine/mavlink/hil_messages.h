@@ -109,6 +109,58 @@ struct HilGps {
   }
 };
 
+/// Positions of a pilot's sticks and switches.
+struct RcChannels {
+  static constexpr std::uint32_t kId = 65;
+  static constexpr const char* kName = "RC_CHANNELS";
+  std::uint32_t time_boot_ms = 0;  ///< ms
+  std::uint8_t chancount = 0;
+  std::uint16_t chan1_raw = 65535;   ///< us; 65535: not used
+  std::uint16_t chan2_raw = 65535;   ///< us
+  std::uint16_t chan3_raw = 65535;   ///< us
+  std::uint16_t chan4_raw = 65535;   ///< us
+  std::uint16_t chan5_raw = 65535;   ///< us
+  std::uint16_t chan6_raw = 65535;   ///< us
+  std::uint16_t chan7_raw = 65535;   ///< us
+  std::uint16_t chan8_raw = 65535;   ///< us
+  std::uint16_t chan9_raw = 65535;   ///< us
+  std::uint16_t chan10_raw = 65535;  ///< us
+  std::uint16_t chan11_raw = 65535;  ///< us
+  std::uint16_t chan12_raw = 65535;  ///< us
+  std::uint16_t chan13_raw = 65535;  ///< us
+  std::uint16_t chan14_raw = 65535;  ///< us
+  std::uint16_t chan15_raw = 65535;  ///< us
+  std::uint16_t chan16_raw = 65535;  ///< us
+  std::uint16_t chan17_raw = 65535;  ///< us
+  std::uint16_t chan18_raw = 65535;  ///< us
+  std::uint8_t rssi = 255;           ///< 255: unknown
+
+  template <class Self, class F>
+  static constexpr void fields(Self& self, F&& f) {
+    f(Field{"time_boot_ms"}, self.time_boot_ms);
+    f(Field{"chancount"}, self.chancount);
+    f(Field{"chan1_raw"}, self.chan1_raw);
+    f(Field{"chan2_raw"}, self.chan2_raw);
+    f(Field{"chan3_raw"}, self.chan3_raw);
+    f(Field{"chan4_raw"}, self.chan4_raw);
+    f(Field{"chan5_raw"}, self.chan5_raw);
+    f(Field{"chan6_raw"}, self.chan6_raw);
+    f(Field{"chan7_raw"}, self.chan7_raw);
+    f(Field{"chan8_raw"}, self.chan8_raw);
+    f(Field{"chan9_raw"}, self.chan9_raw);
+    f(Field{"chan10_raw"}, self.chan10_raw);
+    f(Field{"chan11_raw"}, self.chan11_raw);
+    f(Field{"chan12_raw"}, self.chan12_raw);
+    f(Field{"chan13_raw"}, self.chan13_raw);
+    f(Field{"chan14_raw"}, self.chan14_raw);
+    f(Field{"chan15_raw"}, self.chan15_raw);
+    f(Field{"chan16_raw"}, self.chan16_raw);
+    f(Field{"chan17_raw"}, self.chan17_raw);
+    f(Field{"chan18_raw"}, self.chan18_raw);
+    f(Field{"rssi"}, self.rssi);
+  }
+};
+
 /// True state, for the log of the autopilot.
 struct HilStateQuaternion {
   static constexpr std::uint32_t kId = 115;

@@ -16,7 +16,7 @@ using AllMessages =
                 ParamValue, ParamSet, GpsRawInt, Attitude, LocalPositionNed, GlobalPositionInt,
                 GpsGlobalOrigin, NavControllerOutput, MissionRequest, MissionSetCurrent,
                 MissionCurrent, MissionRequestList, MissionCount, MissionClearAll,
-                MissionItemReached, MissionAck, MissionRequestInt, RequestDataStream,
+                MissionItemReached, MissionAck, MissionRequestInt, RcChannels, RequestDataStream,
                 MissionItemInt, VfrHud, CommandInt, CommandLong, CommandAck,
                 SetPositionTargetLocalNed, HilActuatorControls, HilSensor, HilGps,
                 HilStateQuaternion, DistanceSensor, BatteryStatus, AutopilotVersion,

@@ -12,24 +12,9 @@
 #include <cstring>
 
 #include "engine/core/error.h"
+#include "engine/mavlink/socket_address.h"
 
 namespace vinerow::mavlink {
-namespace {
-
-sockaddr_in to_system(UdpAddress address) {
-  sockaddr_in result{};
-  result.sin_family = AF_INET;
-  result.sin_addr.s_addr = htonl(address.host);
-  result.sin_port = htons(address.port);
-  return result;
-}
-
-UdpAddress from_system(const sockaddr_in& address) {
-  return {ntohl(address.sin_addr.s_addr), ntohs(address.sin_port)};
-}
-
-}  // namespace
-
 std::optional<std::uint32_t> parse_ipv4(const std::string& text) {
   in_addr address{};
   if (inet_pton(AF_INET, text.c_str(), &address) != 1) return std::nullopt;
@@ -45,8 +30,7 @@ UdpSocket::UdpSocket(UdpAddress own, const std::string& who)
   socklen_t size = sizeof address;
   if (::bind(descriptor_, reinterpret_cast<const sockaddr*>(&address), size) != 0 ||
       ::getsockname(descriptor_, reinterpret_cast<sockaddr*>(&address), &size) != 0) {
-    const std::string reason =
-        errno == EADDRINUSE ? "another program has it" : std::strerror(errno);
+    const std::string reason = words_of_bind_failure(errno);
     ::close(descriptor_);
     throw ConfigError(fmt::format("{}: cannot listen on UDP port {}: {}", who, own.port, reason));
   }
@@ -76,6 +60,11 @@ std::optional<UdpSocket::Datagram> UdpSocket::receive(std::chrono::milliseconds 
     pollfd waits{descriptor_, POLLIN, 0};
     ::poll(&waits, 1, static_cast<int>(left.count()));
   }
+}
+
+bool UdpSocket::has_datagram() const {
+  pollfd waits{descriptor_, POLLIN, 0};
+  return ::poll(&waits, 1, 0) > 0;
 }
 
 void UdpSocket::send(std::span<const std::uint8_t> bytes, UdpAddress to) {

@@ -41,6 +41,8 @@ class UdpSocket {
   std::uint16_t port() const { return port_; }
   /// Waits at most `limit` for a datagram; 0: takes only what has arrived.
   std::optional<Datagram> receive(std::chrono::milliseconds limit);
+  /// True if a datagram has arrived that was not taken yet.
+  bool has_datagram() const;
   /// A datagram that cannot be sent now is lost, as on any network.
   void send(std::span<const std::uint8_t> bytes, UdpAddress to);
 

@@ -4,10 +4,13 @@
 #include <benchmark/benchmark.h>
 
 #include <atomic>
+#include <optional>
 #include <thread>
 
 #include "controllers/autopilot/ardupilot/lockstep_link.h"
 #include "controllers/autopilot/ardupilot/state_line.h"
+#include "controllers/autopilot/px4/hil_lockstep.h"
+#include "tests/controllers/autopilot/fake_px4.h"
 
 namespace vinerow::autopilot_bench {
 namespace {
@@ -63,6 +66,45 @@ void exchange(benchmark::State& state) {
   }
 }
 BENCHMARK(exchange)->Name("autopilot_exchange")->Unit(benchmark::kMicrosecond)->UseRealTime();
+
+/// Answers each HIL_SENSOR at once.
+class HilResponder {
+ public:
+  explicit HilResponder(std::uint16_t port) {
+    options_.port = port;
+    options_.silent = 0;
+    fake_.emplace(options_, [](const FakePx4State&) { return FakePx4::Shares{}; });
+  }
+
+ private:
+  FakePx4Options options_;
+  std::optional<FakePx4> fake_;
+};
+
+void exchange_hil(benchmark::State& state) {
+  RunningLockstepOptions options;
+  options.own = {kAnyPort.host, mavlink::TcpServer(kAnyPort, "bench").port()};
+  HilLockstep lockstep(options, "bench");
+  HilResponder responder(options.own.port);
+  mavlink::FrameWriter writer(mavlink::Sender{1, 200});
+  std::uint64_t stamp_us = 0;
+  const auto next_state = [&](std::uint64_t) {
+    mavlink::HilSensor sensors;
+    sensors.time_usec = stamp_us += 4000;
+    sensors.xacc = static_cast<float>(stamp_us);
+    return FirmwareState{writer.write(sensors), stamp_us};
+  };
+  if (!lockstep.begin(Time{}, next_state)) return state.SkipWithError("no outputs");
+  for (auto _ : state) {
+    lockstep.send_state(Time{}, next_state(0));
+    const auto outputs = lockstep.wait_for_outputs(Time{});
+    if (!outputs) return state.SkipWithError(outputs.reason().c_str());
+  }
+}
+BENCHMARK(exchange_hil)
+    ->Name("autopilot_exchange_hil")
+    ->Unit(benchmark::kMicrosecond)
+    ->UseRealTime();
 
 void write_line(benchmark::State& state) {
   StateLine line;

@@ -67,8 +67,10 @@ void talk(const std::vector<Bytes>& pieces, AutopilotTally& tally) {
   tally.refusal = station.failure();
   if (!tally.refusal.empty()) check_refusal(tally.refusal);
   if (station.finished() && !tally.refusal.empty()) broken("finished or failed");
-  for (const mavlink::StatusText& text : station.take_texts()) {
-    if (mavlink::text_of(text.text).size() > text.text.size()) broken("texts end in their field");
+  for (const SpokenText& text : station.take_texts()) {
+    for (const char c : text.text) {
+      if (c < ' ' || c > '~') broken("texts are printable");
+    }
   }
 }
 

@@ -16,6 +16,7 @@
 #include "engine/mavlink/udp_socket.h"
 #include "tests/controllers/autopilot/fake_ardupilot.h"
 #include "tests/controllers/autopilot/fake_vehicle.h"
+#include "tests/scenarios/autopilot_support.h"
 #include "tests/scenarios/session_support.h"
 #include "tools/parts/register_all.h"
 #include "vinerow/session.h"
@@ -30,25 +31,14 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using Pulses = std::vector<std::uint16_t>;
 
-constexpr std::int64_t kSecond = 1'000'000'000;
-constexpr std::uint32_t kLoopback = 0x7F000001;
-
 std::uint16_t port_of(int instance) {
   return static_cast<std::uint16_t>(9002 + 10 * instance);
 }
 
-/// An instance whose port nobody uses: tests run side by side.
 int free_instance() {
-  for (int k = 0; k < 200; ++k) {
-    const int instance = 20 + (static_cast<int>(::getpid()) + k) % 200;
-    try {
-      mavlink::UdpSocket probe({kLoopback, port_of(instance)}, "");
-      return instance;
-    } catch (const ConfigError&) {
-    }
-  }
-  ADD_FAILURE() << "no free port";
-  return 0;
+  return free_instance_of([](int instance) {
+    mavlink::UdpSocket({kLoopback, port_of(instance)}, "");
+  });
 }
 
 std::uint16_t pulse(double share) {
@@ -74,28 +64,9 @@ std::pair<double, double> towards(const FakeState& state, double north_m, double
   return {std::min(0.3, 0.3 * distance_m) * std::max(0.0, std::cos(error)), 0.4 * error};
 }
 
-void replace(std::string& text, const std::string& from, const std::string& to) {
-  text.replace(text.find(from), from.size(), to);
-}
-
-/// The rover of session_support.h, before the alley and with its back to it.
-std::string rover_text(const std::string& autopilot) {
-  std::string text = test::kFreeRover;
-  replace(text, "duration_s: 3", "duration_s: 40");
-  replace(text, "type: vineyard,", "type: vineyard, pitch_m: 6,");  // room to turn
-  replace(text, "spawn: {alley: 0}", "spawn: {alley: 0, offset_m: 3, turn_deg: 150}");
-  return text + "    autopilot: {" + autopilot + "}\n";
-}
-
 std::string ardupilot(int instance, const std::string& more = "") {
   return "type: ardupilot, rate_Hz: 100, answer_timeout_s: 5, instance: " +
          std::to_string(instance) + more;
-}
-
-Session open(const std::string& text, const std::filesystem::path& products = {}) {
-  SessionOptions options;
-  options.products = products;
-  return open_session_text(text, ".", {}, std::move(options));
 }
 
 FakeOptions fake_options(int instance, double think_s = 0.0) {
@@ -446,16 +417,6 @@ TEST(Ardupilot, GetsTheReadingsOfOurReceiver) {
   EXPECT_EQ(firmware.vehicle.fixes.back().fix_type, 3);
 }
 
-std::string fault_of(const std::string& text, std::int64_t seconds = 1) {
-  try {
-    Session session = open(text);
-    session.advance(Time{seconds * kSecond});
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "";
-}
-
 TEST(Ardupilot, SaysWhatWentWrong) {
   const int instance = free_instance();
   const std::string number = std::to_string(instance);
@@ -498,10 +459,11 @@ class AutopilotConformance : public ::testing::TestWithParam<std::string> {
   /// Something that answers `packets` states. @returns the vehicle's autopilot
   std::string make_firmware(int packets) {
     if (GetParam() == "ardupilot") return ardupilot(start_fake(packets));
+    if (GetParam() == "px4") return px4(start_fake_px4(packets));
     if (GetParam() == "replay") {
       const std::string record = ", record: drive.pcap";
       const auto out = folder_.path() / ("products" + std::to_string(packets));
-      Session session = open(rover_text(ardupilot(start_fake(1'000'000), record)), out);
+      Session session = open(px4_rover_text(ardupilot(start_fake(1'000'000), record)), out);
       session.advance(Time{(packets - 1) * 10'000'000LL});
       const auto file = out / "rover.autopilot" / "drive.pcap";
       return "type: replay, rate_Hz: 100, file: " + file.string();
@@ -521,14 +483,27 @@ class AutopilotConformance : public ::testing::TestWithParam<std::string> {
     return instance;
   }
 
+  int start_fake_px4(int packets) {
+    const int instance = free_px4_instance();
+    controllers::FakePx4Options options = px4_options(instance);
+    // The last answer while it boots counts too.
+    options.answers = packets;
+    fake_px4_ =
+        std::make_unique<controllers::FakePx4>(options, [](const controllers::FakePx4State&) {
+          return controllers::FakePx4::Shares{0.3F, 0.25F};
+        });
+    return instance;
+  }
+
   test::ScratchFolder folder_;
   std::unique_ptr<FakeArdupilot> fake_;
+  std::unique_ptr<controllers::FakePx4> fake_px4_;
 };
 
 TEST_P(AutopilotConformance, WritesActuatorsOncePerPeriodAndRepeats) {
   std::vector<std::string> digests;
   for (int run = 0; run < 2; ++run) {
-    Session session = open(rover_text(make_firmware(1000)));
+    Session session = open(px4_rover_text(make_firmware(1000)));
     session.advance(Time{2 * kSecond});
     const SignalBase& actuators = session.any_signal("rover/actuators");
     EXPECT_EQ(actuators.sequence(), 201u);  // at 100 Hz, with both ends
@@ -545,7 +520,7 @@ TEST_P(AutopilotConformance, SilenceEndsTheRunWithItsName) {
   if (const auto at = text.find("answer_timeout_s: 5"); at != std::string::npos) {
     text.replace(at, 19, "answer_timeout_s: 0.3");
   }
-  Session session = open(rover_text(text));
+  Session session = open(px4_rover_text(text));
   try {
     session.advance(Time{2 * kSecond});
     ADD_FAILURE() << "it went on";
@@ -556,7 +531,7 @@ TEST_P(AutopilotConformance, SilenceEndsTheRunWithItsName) {
 }
 
 TEST_P(AutopilotConformance, HasNoEstimatorBesideIt) {
-  EXPECT_THAT(fault_of(rover_text(make_firmware(10)) + "    estimator: {type: truth}\n"),
+  EXPECT_THAT(fault_of(px4_rover_text(make_firmware(10)) + "    estimator: {type: truth}\n"),
               HasSubstr("rover.estimator: the vehicle has an autopilot ('" + GetParam() + "')"));
 }
 

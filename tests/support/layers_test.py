@@ -17,6 +17,7 @@ FILES, GEO, CLOUDS = "engine/io/files", "engine/io/geo", "engine/io/clouds"
 VEHICLE_PARTS, WORLD_PARTS = "vehicles/parts", "worlds/parts"
 SOLVERS, PATHS = "controllers/parts/solvers", "controllers/parts/paths"
 CONTROLLER_PARTS = ["controllers/parts"]
+FIRMWARE = "controllers/autopilot/firmware"
 AUTOPILOT_PARTS = [f"controllers/autopilot/{part}" for part in ("frames", "link", "mavlink", "outputs")]
 ESTIMATION_PARTS = "controllers/estimation/parts"
 SEARCH, ROUTES, SURVEY = "controllers/planning/search", "controllers/planning/routes", "controllers/planning/survey"
@@ -72,7 +73,10 @@ ALLOWED = {
     "controllers/autopilot/frames": BASE + ["engine/io/missions"],
     "controllers/autopilot/mavlink": BASE + [MAVLINK, "engine/io/missions", "controllers/autopilot/frames", "controllers/autopilot/link"],
     "controllers/autopilot/outputs": BASE + ["controllers/parts/ground_drive"],
-    "controllers/autopilot/ardupilot": BASE + ["engine/io/missions", MAVLINK] + AUTOPILOT_PARTS,
+    "controllers/autopilot/firmware": BASE + ["engine/io/missions", MAVLINK] + AUTOPILOT_PARTS,
+    "controllers/autopilot/ardupilot": BASE + [MAVLINK, FIRMWARE] + AUTOPILOT_PARTS,
+    "controllers/autopilot/px4": BASE + [MAVLINK, FIRMWARE] + AUTOPILOT_PARTS,
+    "controllers/autopilot/replay": BASE + [FIRMWARE, "controllers/autopilot/ardupilot", "controllers/autopilot/px4"],
     SOLVERS: [CORE, MATH],
     PATHS: BASE,
     "controllers/parts/ground_drive": BASE + [PATHS],

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "controllers/autopilot/firmware/running_lockstep.h"
+
 namespace vinerow::controllers {
 namespace {
 
@@ -14,10 +16,6 @@ constexpr milliseconds kLook{100};
 /// A repeated packet that arrives earlier after an answer has crossed it on the way: ArduPilot
 /// repeats after 1 s.
 constexpr milliseconds kCrossing{500};
-
-std::string seconds(milliseconds time) {
-  return fmt::format("{:g} s", std::chrono::duration<double>(time).count());
-}
 
 }  // namespace
 
@@ -52,7 +50,8 @@ Result<ServoPacket> LockstepLink::wait_for_first(milliseconds limit, const GaveU
     }
     if (const std::string reason = gave_up(); !reason.empty()) return Failure{reason};
   }
-  return Failure{fmt::format("sent nothing to UDP port {} for {}", socket_.port(), seconds(limit))};
+  return Failure{
+      fmt::format("sent nothing to UDP port {} for {}", socket_.port(), seconds_text(limit))};
 }
 
 void LockstepLink::answer(std::string_view line) {
@@ -87,7 +86,7 @@ Result<ServoPacket> LockstepLink::wait_for_next(milliseconds limit, const GaveUp
       return Failure{fmt::format("sent packet {} after packet {}", frame, frame_)};
     }
   }
-  return Failure{fmt::format("sent nothing for {} (packet {})", seconds(limit), frame_)};
+  return Failure{fmt::format("sent nothing for {} (packet {})", seconds_text(limit), frame_)};
 }
 
 }  // namespace vinerow::controllers

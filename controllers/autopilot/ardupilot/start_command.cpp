@@ -2,12 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
-#include <filesystem>
 #include <utility>
 
-#include "controllers/autopilot/ardupilot/running_lockstep.h"
 #include "controllers/autopilot/ardupilot/vehicle_parameters.h"
+#include "controllers/autopilot/firmware/firmware_autopilot.h"
 #include "controllers/autopilot/frames/firmware_frame.h"
 #include "controllers/autopilot/mavlink/gps_input.h"
 
@@ -16,33 +14,24 @@ namespace {
 
 constexpr int kPortsPerInstance = 10;  // ArduPilot's, for each of its ports
 
-/// A program by its name alone is looked for in the user's folder of autopilots first.
-std::string find_program(const std::string& name) {
-  const char* folder = std::getenv("VINEROW_ARDUPILOT");
-  if (folder == nullptr || name.find('/') != std::string::npos) return name;
-  const std::filesystem::path program = std::filesystem::path(folder) / name;
-  std::error_code ignored;
-  return std::filesystem::exists(program, ignored) ? program.string() : name;
-}
-
 }  // namespace
 
-int lockstep_port_of(const ArdupilotParams& params) {
+int lockstep_port_of(const FirmwareParams& params) {
   constexpr int kFirst = 9002;
   return kFirst + kPortsPerInstance * params.instance;
 }
 
-int mavlink_port_of(const ArdupilotParams& params) {
+int mavlink_port_of(const FirmwareParams& params) {
   constexpr int kFirst = 14555;  // beside 14550 and 14551, which ground stations use
   return params.mavlink_port > 0 ? params.mavlink_port
                                  : kFirst + kPortsPerInstance * params.instance;
 }
 
-std::vector<std::string> start_command(const ArdupilotParams& params,
+std::vector<std::string> start_command(const FirmwareParams& params,
                                        const AutopilotContext& context) {
   std::vector<std::string> words = params.command;
   if (words.empty()) return words;
-  words.front() = find_program(words.front());
+  words.front() = find_program(words.front(), "VINEROW_ARDUPILOT");
   if (words.size() == 1) {
     // The speed is a ceiling at which it would sleep; the serial port would wait for a client.
     const std::string start = fmt::format("{}", kFirmwareStart_s);
@@ -58,7 +47,7 @@ std::vector<std::string> start_command(const ArdupilotParams& params,
       {"{instance}", fmt::format("{}", params.instance)},
       {"{home}", frame.home_text()},
       {"{mavlink}", fmt::format("udpclient:{}:{}", params.address, mavlink_port_of(params))},
-      {"{parameters}", RunningLockstep::kParameterFile}};
+      {"{parameters}", kParameterFile}};
   for (std::string& word : words) {
     for (const auto& [name, value] : places) {
       for (auto at = word.find(name); at != std::string::npos; at = word.find(name, at)) {
@@ -70,16 +59,7 @@ std::vector<std::string> start_command(const ArdupilotParams& params,
   return words;
 }
 
-std::vector<FirmwareParameter> user_parameters(const ArdupilotParams& params) {
-  std::vector<FirmwareParameter> parameters;
-  if (!params.parameter_file.empty()) parameters = read_parameter_file(params.parameter_file);
-  for (const ParameterRow& row : params.parameters) {
-    set_parameter(parameters, {row.name, row.value});
-  }
-  return parameters;
-}
-
-std::vector<FirmwareParameter> start_parameters(const ArdupilotParams& params,
+std::vector<FirmwareParameter> start_parameters(const FirmwareParams& params,
                                                 const AutopilotContext& context) {
   std::vector<FirmwareParameter> parameters = vehicle_parameters(params, context);
   for (const FirmwareParameter& parameter : user_parameters(params)) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "controllers/autopilot/firmware/range_orientation.h"
 #include "controllers/autopilot/outputs/output_mixer.h"
 #include "engine/api/vehicle.h"
 #include "engine/api/vehicle_kinds.h"
@@ -44,7 +45,7 @@ int function_number(const std::string& function, const std::vector<OutputChannel
   return kMotor1 + motor->output - 1;
 }
 
-void add_outputs(const ArdupilotParams& params, const VehicleDescription& vehicle,
+void add_outputs(const FirmwareParams& params, const VehicleDescription& vehicle,
                  const std::string& who, Parameters& parameters) {
   const auto mixer = make_output_mixer(vehicle, params.mixer, who);
   const std::vector<OutputChannel> usual = default_output_channels(vehicle, *mixer);
@@ -117,24 +118,14 @@ void add_plane(const VehicleDescription& vehicle, Parameters& parameters) {
 }
 
 /// Rangefinders, airspeed, battery and receiver that we simulate.
-void add_sensors(const ArdupilotParams& params, const AutopilotContext& context,
+void add_sensors(const FirmwareParams& params, const AutopilotContext& context,
                  Parameters& parameters) {
   constexpr int kSimulated = 100, kByMavlink = 14, kVoltageAndCurrent = 4;
   for (std::size_t i = 0; i < params.ranges.size(); ++i) {
     const std::string prefix = fmt::format("RNGFND{}_", i + 1);
     parameters.push_back({prefix + "TYPE", kSimulated});
-    const auto mounting =
-        std::find_if(context.sensors.begin(), context.sensors.end(),
-                     [&](const SensorMounting& sensor) { return sensor.name == params.ranges[i]; });
-    if (mounting == context.sensors.end()) continue;
-    // Directions in steps of 45 degrees to the right; 24 is up, 25 down.
-    const Eigen::Vector3d x_B = mounting->X_BS.q * Eigen::Vector3d::UnitX();
-    int orientation = x_B.z() > 0.0 ? 24 : 25;
-    if (std::abs(x_B.z()) < std::sqrt(0.5)) {
-      const double right_deg = deg_from_rad(std::atan2(-x_B.y(), x_B.x()));
-      orientation = (static_cast<int>(std::lround(right_deg / 45.0)) + 8) % 8;
-    }
-    parameters.push_back({prefix + "ORIENT", static_cast<double>(orientation)});
+    const auto orientation = range_orientation(params.ranges[i], context.sensors);
+    if (orientation) parameters.push_back({prefix + "ORIENT", static_cast<double>(*orientation)});
   }
   if (!params.airspeed.empty()) {
     parameters.push_back({"ARSPD_TYPE", kSimulated});
@@ -147,7 +138,7 @@ void add_sensors(const ArdupilotParams& params, const AutopilotContext& context,
 
 }  // namespace
 
-Parameters vehicle_parameters(const ArdupilotParams& params, const AutopilotContext& context) {
+Parameters vehicle_parameters(const FirmwareParams& params, const AutopilotContext& context) {
   const VehicleDescription& vehicle = *context.vehicle_description;
   Parameters parameters;
   // The log is written by a thread whose pace would show.

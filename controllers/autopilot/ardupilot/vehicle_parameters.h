@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "controllers/autopilot/ardupilot/ardupilot_params.h"
+#include "controllers/autopilot/firmware/firmware_params.h"
 #include "controllers/autopilot/mavlink/parameter_file.h"
 #include "engine/api/stepped_parts.h"
 
@@ -13,7 +13,7 @@ namespace vinerow::controllers {
 /// thrust; from the sensors that the firmware gets; and what any simulated vehicle needs: marks of
 /// calibrated sensors, no log (its thread would keep runs from repeating).
 /// Names and meanings: ArduPilot 4.6.3.
-std::vector<FirmwareParameter> vehicle_parameters(const ArdupilotParams& params,
+std::vector<FirmwareParameter> vehicle_parameters(const FirmwareParams& params,
                                                   const AutopilotContext& context);
 
 }  // namespace vinerow::controllers

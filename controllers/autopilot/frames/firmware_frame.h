@@ -5,10 +5,11 @@
 /// north are another difference of latitude than on WGS84: at 45 degrees 0.17 %, so a waypoint
 /// 100 m away would be missed by 17 cm, which is much between rows of vines. So all places that go
 /// to the firmware and come from it are converted as its receiver does. If it gets the readings of
-/// our own receiver instead, its latitudes are those of WGS84.
+/// our own receiver instead, its latitudes are those of WGS84. PX4 always gets ours; its local
+/// coordinates are an azimuthal equidistant projection of another sphere.
 ///
 /// Source: ArduPilot 4.6.3, Location::offset_latlng, Location::get_distance_NE,
-/// SITL_State::parse_home.
+/// SITL_State::parse_home; PX4 1.14.3, MapProjection::reproject.
 
 #include <Eigen/Core>
 #include <string>
@@ -24,7 +25,8 @@ class FirmwareFrame {
  public:
   enum class Receiver {
     kOfFirmware,  ///< simulated by the firmware from the position in W
-    kOurs         ///< readings of a sensor of the vehicle
+    kOurs,        ///< readings of a sensor of the vehicle
+    kOursInPx4    ///< the same, but local coordinates are PX4's
   };
 
   FirmwareFrame(const GeoOrigin& origin, Receiver receiver) : wgs84_(origin), receiver_(receiver) {}

@@ -14,10 +14,11 @@ class ChildProcess {
   /// Starts it in its own process group, without input. Its output goes to "output.txt" in its
   /// folder, which is made.
   /// @param words  program and arguments; a program without "/" is searched for in PATH
+  /// @param environment  "NAME=value", added to ours
   /// @param who    "rover.autopilot (ardupilot)", for errors
   /// @throws ConfigError if it cannot be started
-  ChildProcess(std::vector<std::string> words, const std::filesystem::path& folder,
-               const std::string& who);
+  ChildProcess(std::vector<std::string> words, const std::vector<std::string>& environment,
+               const std::filesystem::path& folder, const std::string& who);
   /// Ends it and what it has started. ArduPilot ignores polite signals while it waits.
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;

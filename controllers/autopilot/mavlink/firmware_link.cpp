@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "controllers/autopilot/frames/body_state.h"
-#include "controllers/autopilot/link/plain_text.h"
 #include "controllers/autopilot/mavlink/gps_input.h"
 #include "engine/io/missions/mission_items.h"
 #include "engine/io/missions/plan_mission.h"
@@ -49,8 +48,7 @@ FirmwareLink::FirmwareLink(FirmwareLinkOptions options, const GeoOrigin& origin,
       vehicle_(vehicle),
       part_(std::move(part)),
       send_(std::move(send)),
-      frame_(origin, options_.gnss.empty() ? FirmwareFrame::Receiver::kOfFirmware
-                                           : FirmwareFrame::Receiver::kOurs),
+      frame_(origin, options_.receiver),
       station_(station_options(options_, vehicle), send_),
       last_estimate_(kNever) {
   if (options_.mission) begin_mission(*options_.mission);
@@ -58,7 +56,7 @@ FirmwareLink::FirmwareLink(FirmwareLinkOptions options, const GeoOrigin& origin,
 
 void FirmwareLink::connect(Ports& ports) {
   if (!has_mission_) plan_ = ports.read_optional<PlannedPath>("plan");
-  if (!options_.gnss.empty()) gnss_ = ports.read<GnssFix>(options_.gnss);
+  if (!options_.gps_input.empty()) gnss_ = ports.read<GnssFix>(options_.gps_input);
   estimate_ = ports.write<Odometry>("estimate");
   follower_writer_ = ports.write<FollowerState>("follower");
 }
@@ -120,8 +118,8 @@ void FirmwareLink::step(Time now) {
 
 std::vector<Event> FirmwareLink::take_events() {
   std::vector<Event> events = std::exchange(events_, {});
-  for (const mavlink::StatusText& text : station_.take_texts()) {
-    events.push_back({level_of(text.severity), part_, plain_text(mavlink::text_of(text.text))});
+  for (const SpokenText& text : station_.take_texts()) {
+    events.push_back({level_of(text.severity), part_, text.text});
   }
   return events;
 }

@@ -22,8 +22,9 @@ namespace vinerow::controllers {
 struct FirmwareLinkOptions {
   std::optional<io::MissionFile> mission;  ///< absent: the vehicle's plan, if it has one
   double tolerance_m = 0.05;               ///< farthest that its legs may be from a plan
-  std::string gnss;                        ///< sensor that replaces the firmware's receiver
-  bool has_home_item = true;               ///< missions begin with home
+  std::string gps_input;                   ///< sensor whose readings it gets as GPS_INPUT
+  FirmwareFrame::Receiver receiver = FirmwareFrame::Receiver::kOfFirmware;
+  bool has_home_item = true;  ///< missions begin with home
   GroundStationOptions station;
 };
 

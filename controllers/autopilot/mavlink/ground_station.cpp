@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "controllers/autopilot/link/plain_text.h"
 #include "engine/mavlink/enums.h"
 
 namespace vinerow::controllers {
@@ -91,29 +90,58 @@ void GroundStation::take_ekf_status(const EkfStatusReport& status) {
   knows_place_ = knows;
 }
 
+ParameterEncoding GroundStation::encoding() const {
+  return heartbeat_.autopilot == kAutopilotPx4 ? ParameterEncoding::kBytewise
+                                               : ParameterEncoding::kConverted;
+}
+
 void GroundStation::send_parameter() {
   const FirmwareParameter& wanted = options_.parameters[next_parameter_];
+  if (encoding() == ParameterEncoding::kBytewise && !parameter_type_) {
+    // Its answer has the type: whether it is a whole number.
+    ParamRequestRead question;
+    question.target_system = vehicle_.system;
+    question.target_component = vehicle_.component;
+    set_text(question.param_id, wanted.name);
+    send_(writer_.write(question));
+    return;
+  }
   ParamSet set;
   set.target_system = vehicle_.system;
   set.target_component = vehicle_.component;
   set_text(set.param_id, wanted.name);
-  set.param_value = static_cast<float>(wanted.value);
-  set.param_type = kParameterReal32;
+  set.param_type = parameter_type_.value_or(kParameterReal32);
+  set.param_value = to_wire(wanted.value, set.param_type, encoding());
   send_(writer_.write(set));
+}
+
+void GroundStation::next_parameter(Time now) {
+  ++next_parameter_;
+  parameter_type_.reset();
+  enter(now, next_parameter_ < options_.parameters.size() ? Stage::kParameters : Stage::kReady);
 }
 
 void GroundStation::take_parameter(Time now, const ParamValue& value) {
   if (stage_ != Stage::kParameters) return;
   const FirmwareParameter& wanted = options_.parameters[next_parameter_];
   if (text_of(value.param_id) != wanted.name) return;
-  const auto wanted_value = static_cast<float>(wanted.value);
-  // Parameters of whole numbers come back as such.
-  if (value.param_value != wanted_value) {
-    return fail(fmt::format("keeps its parameter {} at {:g} instead of {:g}", wanted.name,
-                            value.param_value, wanted_value));
+  const double has = from_wire(value.param_value, value.param_type, encoding());
+  if (static_cast<float>(has) == static_cast<float>(wanted.value)) return next_parameter(now);
+  if (encoding() == ParameterEncoding::kBytewise && !parameter_type_) {
+    parameter_type_ = value.param_type;
+    has_requested_ = false;
+    return;
   }
-  ++next_parameter_;
-  enter(now, next_parameter_ < options_.parameters.size() ? Stage::kParameters : Stage::kReady);
+  // Parameters of whole numbers come back as such.
+  fail(fmt::format("keeps its parameter {} at {:g} instead of {:g}", wanted.name, has,
+                   wanted.value));
+}
+
+void GroundStation::take_text(const StatusText& piece) {
+  for (SpokenText& text : pieces_.take(piece)) {
+    if (text.severity <= kSeverityWarning) complaint_ = text.text;
+    texts_.push_back(std::move(text));
+  }
 }
 
 void GroundStation::send_commands(Time now) {
@@ -219,8 +247,7 @@ void GroundStation::take(Time now, const Frame& frame) {
       enter(now, Stage::kUpload);
     }
   } else if (const auto text = read<StatusText>(frame)) {
-    if (text->severity <= kSeverityWarning) complaint_ = plain_text(text_of(text->text));
-    texts_.push_back(*text);
+    take_text(*text);
   } else if (const auto request_int = read<MissionRequestInt>(frame)) {
     send_item(now, request_int->seq);
   } else if (const auto request_float = read<MissionRequest>(frame)) {
@@ -332,7 +359,7 @@ void GroundStation::step(Time now) {
   }
 }
 
-std::vector<StatusText> GroundStation::take_texts() {
+std::vector<SpokenText> GroundStation::take_texts() {
   return std::exchange(texts_, {});
 }
 

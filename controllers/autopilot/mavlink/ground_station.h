@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "controllers/autopilot/mavlink/parameter_file.h"
+#include "controllers/autopilot/mavlink/parameter_value.h"
+#include "controllers/autopilot/mavlink/status_texts.h"
 #include "engine/core/time.h"
 #include "engine/mavlink/frame.h"
 #include "engine/mavlink/messages.h"
@@ -69,7 +71,7 @@ class GroundStation {
   int current_item() const { return current_item_; }
   const std::optional<mavlink::NavControllerOutput>& navigation() const { return navigation_; }
   /// Sentences of the autopilot since the last call.
-  std::vector<mavlink::StatusText> take_texts();
+  std::vector<SpokenText> take_texts();
   /// Number of items that were reached.
   int items_reached() const { return items_reached_; }
 
@@ -97,7 +99,10 @@ class GroundStation {
   void request_streams();
   void request_origin();
   void take_ekf_status(const mavlink::EkfStatusReport& status);
+  void take_text(const mavlink::StatusText& piece);
+  ParameterEncoding encoding() const;
   void send_parameter();
+  void next_parameter(Time now);
   void send_commands(Time now);
   void send_item(Time now, int number);
   void take_parameter(Time now, const mavlink::ParamValue& value);
@@ -117,6 +122,8 @@ class GroundStation {
   std::optional<Time> begin_;
   bool has_requested_ = false;
   std::size_t next_parameter_ = 0, next_command_ = 0;
+  /// Of the parameter that is set now, if the encoding depends on it.
+  std::optional<std::uint8_t> parameter_type_;
   std::string failure_, complaint_;
   mavlink::Sender vehicle_;
   mavlink::Heartbeat heartbeat_;
@@ -126,7 +133,8 @@ class GroundStation {
   std::optional<mavlink::Attitude> attitude_;
   std::optional<mavlink::GpsGlobalOrigin> origin_;
   std::optional<FirmwareEstimate> estimate_;
-  std::vector<mavlink::StatusText> texts_;
+  StatusTexts pieces_;
+  std::vector<SpokenText> texts_;
 };
 
 }  // namespace vinerow::controllers

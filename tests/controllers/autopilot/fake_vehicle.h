@@ -1,6 +1,7 @@
 #pragma once
 /// A vehicle that speaks MAVLink's heartbeat, command, mission and parameter protocols.
 
+#include <bit>
 #include <cstdint>
 #include <map>
 #include <span>
@@ -16,16 +17,18 @@ namespace vinerow::controllers::autopilot_fake {
 
 using namespace mavlink;
 
-/// Behaves as an ArduPilot rover does, in steps of 0.1 s.
+/// Behaves as an ArduPilot rover does, in steps of 0.1 s; with PX4's number also as PX4.
 struct FakeVehicle {
   using Bytes = std::vector<std::uint8_t>;
   std::uint8_t type = kTypeGroundRover;
+  std::uint8_t autopilot = kAutopilotArdupilot;
   double ready_at_s = 5.0;
   int loses = 0;  ///< number of frames of the ground station that are lost first
   std::uint8_t mission_result = kMissionAccepted;
   bool refuses_to_arm = false;
   std::string prearm;
   std::map<std::string, float> parameters;
+  std::map<std::string, std::int32_t> whole_parameters;  ///< PX4 alone has them
 
   std::vector<MissionItemInt> items;
   std::size_t wanted = 0;
@@ -56,6 +59,22 @@ struct FakeVehicle {
       return;
     }
     reader.read(bytes, [this](const Frame& frame) { answer(frame); });
+  }
+
+  /// No answer where there is no such parameter, as ArduPilot.
+  void tell_parameter(const std::string& name) {
+    ParamValue value;
+    set_text(value.param_id, name);
+    if (const auto whole = whole_parameters.find(name); whole != whole_parameters.end()) {
+      value.param_type = kParameterInt32;
+      value.param_value = std::bit_cast<float>(whole->second);
+    } else if (const auto known = parameters.find(name); known != parameters.end()) {
+      value.param_type = kParameterReal32;
+      value.param_value = known->second;
+    } else {
+      return;
+    }
+    send(value);
   }
 
   void ask_or_accept() {
@@ -89,6 +108,9 @@ struct FakeVehicle {
           break;
         case kCommandSetMode:
           mode = static_cast<std::uint32_t>(command->param2);
+          if (autopilot == kAutopilotPx4) {  // main and sub mode
+            mode = mode << 16 | static_cast<std::uint32_t>(command->param3) << 24;
+          }
           break;
         case kCommandArm:
           if (refuses_to_arm) {
@@ -113,13 +135,17 @@ struct FakeVehicle {
       }
       send(ack);
     } else if (const auto set = read<ParamSet>(frame)) {
-      const auto known = parameters.find(std::string(text_of(set->param_id)));
-      if (known == parameters.end()) return;  // as ArduPilot: no answer
-      if (known->first != "FIXED") known->second = set->param_value;
-      ParamValue value;
-      value.param_id = set->param_id;
-      value.param_value = known->second;
-      send(value);
+      const std::string name(text_of(set->param_id));
+      if (const auto whole = whole_parameters.find(name); whole != whole_parameters.end()) {
+        if (set->param_type == kParameterInt32) {
+          whole->second = std::bit_cast<std::int32_t>(set->param_value);
+        }
+      }
+      const auto known = parameters.find(name);
+      if (known != parameters.end() && name != "FIXED") known->second = set->param_value;
+      tell_parameter(name);
+    } else if (const auto question = read<ParamRequestRead>(frame)) {
+      tell_parameter(std::string(text_of(question->param_id)));
     } else if (const auto fix = read<GpsInput>(frame)) {
       fixes.push_back(*fix);
     }
@@ -128,7 +154,7 @@ struct FakeVehicle {
   void step(double time_s) {
     Heartbeat heartbeat;
     heartbeat.type = type;
-    heartbeat.autopilot = kAutopilotArdupilot;
+    heartbeat.autopilot = autopilot;
     heartbeat.custom_mode = mode;
     heartbeat.base_mode = is_armed ? kModeFlagArmed : 0;
     send(heartbeat);

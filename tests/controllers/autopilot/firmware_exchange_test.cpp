@@ -232,7 +232,7 @@ double value_of(const std::vector<FirmwareParameter>& parameters, const std::str
 
 TEST(StartCommand, OfOneWordGetsWhatARepeatableRunNeeds) {
   const VehicleDescription vehicle = rover();
-  ArdupilotParams params;
+  FirmwareParams params;
   params.command = {"./ardurover"};
   params.instance = 2;
   EXPECT_THAT(start_command(params, context_of(vehicle)),
@@ -252,7 +252,7 @@ TEST(StartCommand, OfOneWordGetsWhatARepeatableRunNeeds) {
 TEST(VehicleParameters, FollowFromTheVehicleAndTheUserHasTheLastWord) {
   VehicleDescription vehicle = rover();
   vehicle.max_speed_mps = 2.0;
-  ArdupilotParams params;
+  FirmwareParams params;
   params.gnss = "gps";
   params.ranges = {"left", "down"};
   params.parameters = {{"WP_SPEED", 0.7}, {"RC1_MIN", 1100}};

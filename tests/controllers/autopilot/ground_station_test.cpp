@@ -154,6 +154,27 @@ TEST(GroundStation, SetsParametersFirst) {
   EXPECT_EQ(fixed.station->failure(), "keeps its parameter FIXED at 3 instead of 1");
 }
 
+TEST(GroundStation, SetsWholeNumbersOfPx4ByTheirBytes) {
+  GroundStationOptions options;
+  options.parameters = {{"COM_RC_IN_MODE", 4.0}, {"NAV_ACC_RAD", 0.5}, {"NAV_DLL_ACT", 0.0}};
+  Bench bench(2, options);
+  bench.vehicle.autopilot = kAutopilotPx4;
+  bench.vehicle.parameters = {{"NAV_ACC_RAD", 10.0F}};
+  bench.vehicle.whole_parameters = {{"COM_RC_IN_MODE", 1}, {"NAV_DLL_ACT", 0}};
+  bench.run(9.0);
+  EXPECT_EQ(bench.station->failure(), "");
+  EXPECT_EQ(bench.vehicle.whole_parameters.at("COM_RC_IN_MODE"), 4);
+  EXPECT_EQ(bench.vehicle.parameters.at("NAV_ACC_RAD"), 0.5F);
+  EXPECT_TRUE(bench.vehicle.has_started);
+  EXPECT_EQ(bench.vehicle.mode, 4u << 24 | 4u << 16) << "main mode auto, sub mode mission";
+
+  options.parameters = {{"NO_SUCH", 1.0}};
+  Bench unknown(0, options);
+  unknown.vehicle.autopilot = kAutopilotPx4;
+  unknown.run(11.0);
+  EXPECT_EQ(unknown.station->failure(), "has no parameter NO_SUCH: it gave no answer for 10 s");
+}
+
 TEST(GroundStation, SendsCommandsInTime) {
   GroundStationOptions options;
   options.commands = {{2.0, 183, {5.0, 1900.0}}, {4.0, 2500, {}}};

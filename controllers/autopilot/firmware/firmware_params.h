@@ -1,5 +1,5 @@
 #pragma once
-/// Parameters of the autopilot `ardupilot`.
+/// Parameters of the autopilots `ardupilot`, `px4` and `replay`.
 
 #include <string>
 #include <vector>
@@ -29,7 +29,7 @@ struct CommandRow {
   std::vector<double> params;
 };
 
-struct ArdupilotParams {
+struct FirmwareParams {
   std::string address = "127.0.0.1";
   int instance = 0;
   std::vector<std::string> command;
@@ -38,6 +38,8 @@ struct ArdupilotParams {
   std::string mixer;
   std::vector<OutputChannel> channels;
   std::string imu;
+  std::string magnetometer;  ///< of PX4
+  std::string barometer;     ///< of PX4
   std::vector<std::string> ranges;
   std::string airspeed;
   double battery_V = 0.0;
@@ -55,11 +57,12 @@ struct ArdupilotParams {
   double finish_at_s = 0.0;
 };
 
-const ParameterTable<ArdupilotParams>& ardupilot_table();
+const ParameterTable<FirmwareParams>& ardupilot_table();
+const ParameterTable<FirmwareParams>& px4_table();
 
 /// Parameters of the autopilot `replay`: those that shape the exchange, and the recording.
 struct AutopilotReplayParams {
-  ArdupilotParams of;
+  FirmwareParams of;
   std::string file;
 };
 

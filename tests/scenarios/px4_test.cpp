@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "engine/api/messages/commands.h"
+#include "engine/api/messages/event.h"
 #include "engine/api/messages/motion.h"
 #include "engine/api/messages/sensors.h"
 #include "engine/core/error.h"
@@ -155,6 +156,39 @@ TEST(Px4, HasTheSameDigestAtAnyPaceAndInReplay) {
   EXPECT_THAT(fault_of(other), HasSubstr("of another flight: the states differ from byte "));
 }
 
+std::string copter_text(const std::string& autopilot) {
+  return R"(
+vinerow: 1
+name: hover
+duration_s: 20
+world: {type: vineyard, row_count: 2, row_length_m: 20, relief_m: 0, waves_m: 0, leaf_cards_per_m: 10, plant_variants: 1}
+vehicles:
+  drone:
+    type: quadrotor
+    spawn: {alley: 0, offset_m: 4}
+    sensors: {)" +
+         kPx4SensorList + R"(, gps: {type: gps, rate_Hz: 10, error: gaussian, accuracy_m: 0.1}}
+    autopilot: {)" +
+         autopilot + "}\n";
+}
+
+TEST(Px4, DisarmedItsMotorsAreOffAlsoIfReversed) {
+  const int instance = free_px4_instance();
+  FakePx4Options options = px4_options(instance);
+  options.is_armed = false;
+  FakePx4 fake(options, [](const FakePx4State&) { return Shares{}; });
+  Session session = open(copter_text(
+      px4(instance,
+          ", channels: [{function: motor_front_right, output: 1, reversed: true}, {function: "
+          "motor_rear_left, output: 2}, {function: motor_front_left, output: 3}, {function: "
+          "motor_rear_right, output: 4, reversed: true}]",
+          250)));
+  session.advance(Time{kSecond});
+  for (const double speed : session.signal<NamedValues>("drone/actuators").value().values) {
+    EXPECT_EQ(speed, 0.0);
+  }
+}
+
 TEST(Px4, HoldsAQuadrotorAtAHeight) {
   const int instance = free_px4_instance();
   // The law of autopilot_test.cpp, mixed for PX4's X: 1 front right, 2 rear left, 3 front left,
@@ -177,19 +211,7 @@ TEST(Px4, HoldsAQuadrotorAtAHeight) {
     shares[3] = static_cast<float>(thrust - r - p + y);
     return shares;
   });
-  const std::string text = R"(
-vinerow: 1
-name: hover
-duration_s: 20
-world: {type: vineyard, row_count: 2, row_length_m: 20, relief_m: 0, waves_m: 0, leaf_cards_per_m: 10, plant_variants: 1}
-vehicles:
-  drone:
-    type: quadrotor
-    spawn: {alley: 0, offset_m: 4}
-    sensors: {)" + kPx4SensorList +
-                           R"(, gps: {type: gps, rate_Hz: 10, error: gaussian, accuracy_m: 0.1}}
-    autopilot: {)" + px4(instance, "", 250) +
-                           "}\n";
+  const std::string text = copter_text(px4(instance, "", 250));
   Session session = open(text);
   session.advance(Time{0});
   const double start_m = session.signal<Odometry>("drone/truth").value().X_WB.p.z();
@@ -256,6 +278,30 @@ TEST(Px4, GetsParametersAndAMissionByMavlink) {
   const Odometry& truth = session.signal<Odometry>("rover/truth").value();
   const Odometry& estimate = session.signal<Odometry>("rover/estimate").value();
   EXPECT_LT((truth.X_WB.p - estimate.X_WB.p).norm(), 0.1);
+}
+
+TEST(Px4, OutputsThatAreNoNumbersEndTheRun) {
+  const int instance = free_px4_instance();
+  FakePx4 fake(px4_options(instance), [](const FakePx4State& state) {
+    return skid(0.3, state.truth ? std::nan("") : 0.3);
+  });
+  EXPECT_THAT(fault_of(px4_rover_text(px4(instance))),
+              HasSubstr("rover.autopilot (px4): the autopilot sent nan as output 2"));
+}
+
+TEST(Px4, WaitsForItsSensorsAndSaysForWhich) {
+  const int instance = free_px4_instance();
+  FakePx4 fake(px4_options(instance), [](const FakePx4State&) { return skid(0.3, 0.3); });
+  std::string text = px4_rover_text(px4(instance));
+  replace(text, "type: magnetometer,", "type: magnetometer, outages: [{begin_s: 0, end_s: 12}],");
+  Session session = open(text);
+  session.advance(Time{11 * kSecond});
+  EXPECT_EQ(session.signal<Event>("rover/autopilot_event").value().text,
+            "the autopilot waits for the first reading of 'compass'");
+  session.advance(Time{14 * kSecond});
+  EXPECT_EQ(session.signal<Event>("rover/autopilot_event").value().text,
+            "the autopilot has sent its first outputs");
+  EXPECT_GT(session.signal<Odometry>("rover/truth").value().v_WB_B.x(), 0.2);
 }
 
 TEST(Px4, GetsThePilotsSticks) {

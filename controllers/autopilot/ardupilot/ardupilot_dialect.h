@@ -23,7 +23,9 @@ class ArdupilotDialect final : public Dialect {
   ArdupilotDialect(FirmwareParams params, const AutopilotContext& context, const std::string& who);
 
   void connect(Ports& ports) override;
-  bool has_readings() const override { return !imu_.connected() || imu_.has_value(); }
+  std::string_view missing_sensor() const override {
+    return imu_.connected() && !imu_.has_value() ? params_.imu : std::string_view();
+  }
   /// It boots without states.
   FirmwareState boot_state(std::uint64_t /*number*/) override { return {}; }
   std::string begin(Time now, Bytes outputs) override;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "controllers/autopilot/firmware/lockstep.h"
 #include "engine/api/messages/commands.h"
@@ -14,8 +15,8 @@ class Dialect {
  public:
   virtual ~Dialect() = default;
   virtual void connect(Ports& ports) = 0;
-  /// False while a sensor that the state needs has sent nothing.
-  virtual bool has_readings() const = 0;
+  /// A sensor that the state needs and that has sent nothing yet; empty: none.
+  virtual std::string_view missing_sensor() const = 0;
   /// See Lockstep::BootState.
   virtual FirmwareState boot_state(std::uint64_t number) = 0;
   /// @param outputs  the first ones. @returns what is wrong with them; empty: nothing

@@ -121,7 +121,9 @@ void FirmwareAutopilot::connect(Ports& ports) {
 void FirmwareAutopilot::step(Time now) {
   now_ = now;
   // Without a reading there is nothing to send: a sensor may start later than the autopilot.
-  if (!dialect_->has_readings()) return;
+  if (const std::string_view sensor = dialect_->missing_sensor(); !sensor.empty()) {
+    return wait_for_sensor(now, sensor);
+  }
   if (!has_begun_) {
     has_begun_ = true;
     begin(now);
@@ -173,6 +175,15 @@ void FirmwareAutopilot::begin(Time now) {
     const std::string text = error.what(), prefix = who_ + ": ";
     throw SimulationError(who_, now, text.starts_with(prefix) ? text.substr(prefix.size()) : text);
   }
+}
+
+void FirmwareAutopilot::wait_for_sensor(Time now, std::string_view sensor) {
+  constexpr double kPatience_s = 10.0;
+  if (!first_step_) first_step_ = now;
+  if (has_complained_ || (now - *first_step_).s() < kPatience_s) return;
+  has_complained_ = true;
+  event_.write(now, {Event::Level::kWarning, part_,
+                     fmt::format("the autopilot waits for the first reading of '{}'", sensor)});
 }
 
 void FirmwareAutopilot::listen(Time now) {

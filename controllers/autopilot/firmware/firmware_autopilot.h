@@ -55,6 +55,7 @@ class FirmwareAutopilot final : public Autopilot, public MayFail {
   void begin(Time now);
   void check(Time now, const std::string& fault) const;
   void listen(Time now);
+  void wait_for_sensor(Time now, std::string_view sensor);
 
   double finish_at_s_;
   std::string who_, part_;
@@ -65,7 +66,8 @@ class FirmwareAutopilot final : public Autopilot, public MayFail {
   std::optional<FirmwareLink> link_;
   std::string failure_;
   Time now_;
-  bool has_begun_ = false, is_waiting_ = false;
+  std::optional<Time> first_step_;
+  bool has_begun_ = false, is_waiting_ = false, has_complained_ = false;
   std::uint64_t steps_ = 0;
 
   SignalWriter<NamedValues> actuators_writer_, outputs_writer_;

@@ -154,4 +154,9 @@ void OutputMap::apply_shares(std::span<const float> values, NamedValues& actuato
   mixer_->mix(values_, actuators);
 }
 
+void OutputMap::apply_neutral(NamedValues& actuators) {
+  std::fill(values_.begin(), values_.end(), 0.0);
+  mixer_->mix(values_, actuators);
+}
+
 }  // namespace vinerow::controllers

@@ -45,6 +45,8 @@ class OutputMap {
   void apply_pulses(std::span<const std::uint16_t> pwm_us, NamedValues& actuators);
   /// @param values  -1 to 1, or 0 to 1 for functions of one direction; not finite: neutral or off
   void apply_shares(std::span<const float> values, NamedValues& actuators);
+  /// Nothing moves: every function is neutral or off, also reversed ones.
+  void apply_neutral(NamedValues& actuators);
 
  private:
   std::unique_ptr<OutputMixer> mixer_;

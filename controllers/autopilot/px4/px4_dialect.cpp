@@ -12,6 +12,7 @@
 #include "controllers/autopilot/px4/px4_outputs.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
+#include "engine/mavlink/enums.h"
 
 namespace vinerow::controllers {
 namespace {
@@ -80,8 +81,10 @@ void Px4Dialect::connect(Ports& ports) {
   }
 }
 
-bool Px4Dialect::has_readings() const {
-  return imu_.has_value() && magnetometer_.has_value() && barometer_.has_value();
+std::string_view Px4Dialect::missing_sensor() const {
+  if (!imu_.has_value()) return params_.imu;
+  if (!magnetometer_.has_value()) return params_.magnetometer;
+  return barometer_.has_value() ? std::string_view() : params_.barometer;
 }
 
 template <class M>
@@ -250,7 +253,17 @@ std::string Px4Dialect::take_outputs(Bytes outputs, NamedValues& actuators) {
                           1e-6 * static_cast<double>(controls->time_usec));
       return;
     }
-    std::copy(controls->controls.begin(), controls->controls.end(), shares_.values.begin());
+    for (std::size_t i = 0; i < controls->controls.size(); ++i) {
+      const float share = controls->controls[i];
+      if (!std::isfinite(share)) {
+        fault = fmt::format("sent {} as output {}", share, i + 1);
+        return;
+      }
+      shares_.values[i] = share;
+    }
+    // Disarmed, its outputs are zeros, which would be full for a reversed motor.
+    const bool is_armed = (controls->mode & mavlink::kModeFlagArmed) != 0;
+    if (!is_armed) return outputs_.apply_neutral(actuators);
     outputs_.apply_shares(controls->controls, actuators);
   });
   return fault;

@@ -27,7 +27,7 @@ class Px4Dialect final : public Dialect {
   Px4Dialect(FirmwareParams params, const AutopilotContext& context, const std::string& who);
 
   void connect(Ports& ports) override;
-  bool has_readings() const override;
+  std::string_view missing_sensor() const override;
   FirmwareState boot_state(std::uint64_t number) override;
   std::string begin(Time now, Bytes outputs) override;
   Result<FirmwareState> write_state(Time now) override;

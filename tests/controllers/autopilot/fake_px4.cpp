@@ -69,7 +69,7 @@ void FakePx4::check(const HilSensor& sensors) {
 void FakePx4::answer(int descriptor) {
   HilActuatorControls controls;
   controls.time_usec = state_.sensors.time_usec;
-  controls.mode = kModeFlagArmed | kModeFlagCustom;
+  controls.mode = options_.is_armed ? kModeFlagArmed | kModeFlagCustom : kModeFlagCustom;
   controls.flags = 1;
   controls.controls = firmware_(state_);
   if (answered_ == options_.wrong_stamp_at) controls.time_usec += 1000;

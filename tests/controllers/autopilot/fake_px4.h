@@ -26,9 +26,10 @@ struct FakePx4State {
 };
 
 struct FakePx4Options {
-  std::uint16_t port = 0;      ///< of the simulator
-  int answers = 1'000'000;     ///< it says no more after this number
-  bool closes = false;         ///< then it also closes its connection
+  std::uint16_t port = 0;   ///< of the simulator
+  int answers = 1'000'000;  ///< it says no more after this number
+  bool closes = false;      ///< then it also closes its connection
+  bool is_armed = true;
   int silent = 9;              ///< sensors without an answer at first
   double start_after_s = 0.0;  ///< a slow start
   double think_s = 0.0;        ///< before each answer

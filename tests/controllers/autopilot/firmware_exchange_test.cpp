@@ -16,18 +16,19 @@
 #include "engine/io/missions/plan_mission.h"
 #include "engine/math/angles.h"
 #include "engine/math/geo_origin.h"
+#include "tests/controllers/autopilot/parameter_bench.h"
 #include "tests/controllers/support/plant.h"
 #include "tests/support/folder_test.h"
 
 namespace vinerow::controllers::firmware_exchange_test {
 namespace {
 
+using autopilot_fake::kOrigin;
+using autopilot_fake::value_of;
 using Eigen::Vector3d;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using Receiver = FirmwareFrame::Receiver;
-
-const GeoOrigin kOrigin{rad_from_deg(45.0), rad_from_deg(9.0), 150.0};
 
 TEST(FirmwareFrame, ItsOwnReceiverLivesOnASphere) {
   const FirmwareFrame frame(kOrigin, Receiver::kOfFirmware);
@@ -215,19 +216,7 @@ TEST(GpsInput, HasTheReceiversReading) {
 }
 
 AutopilotContext context_of(const VehicleDescription& vehicle) {
-  AutopilotContext context;
-  context.part = "rover.autopilot";
-  context.period = Duration{10'000'000};
-  context.vehicle_description = &vehicle;
-  context.origin = kOrigin;
-  return context;
-}
-
-double value_of(const std::vector<FirmwareParameter>& parameters, const std::string& name) {
-  for (const auto& parameter : parameters) {
-    if (parameter.name == name) return parameter.value;
-  }
-  return std::nan("");
+  return autopilot_fake::context_of(vehicle, Duration{10'000'000});
 }
 
 TEST(StartCommand, OfOneWordGetsWhatARepeatableRunNeeds) {

@@ -13,17 +13,18 @@
 #include "controllers/autopilot/px4/px4_parameters.h"
 #include "controllers/autopilot/px4/px4_start.h"
 #include "engine/math/angles.h"
+#include "tests/controllers/autopilot/parameter_bench.h"
 #include "tests/controllers/support/plant.h"
 
 namespace vinerow::controllers::px4_unit_test {
 namespace {
 
+using autopilot_fake::kOrigin;
+using autopilot_fake::value_of;
 using Eigen::Vector3d;
 using ::testing::ElementsAre;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
-
-const GeoOrigin kOrigin{rad_from_deg(45.0), rad_from_deg(9.0), 150.0};
 
 TEST(FirmwareFrame, Px4ProjectsAboutItsOrigin) {
   // The forward projection, by spherical trigonometry: distance and bearing from the origin.
@@ -79,13 +80,6 @@ TEST(HilGps, HasTheReceiversReading) {
   EXPECT_EQ(make_hil_gps(GnssFix{}, Time{}).eph, 65535);
 }
 
-double value_of(const std::vector<FirmwareParameter>& parameters, const std::string& name) {
-  for (const auto& parameter : parameters) {
-    if (parameter.name == name) return parameter.value;
-  }
-  return std::nan("");
-}
-
 /// Rotors in the order front left, front right, rear right, rear left; the front right one turns
 /// the body to the left.
 VehicleDescription quadrotor() {
@@ -105,11 +99,7 @@ VehicleDescription quadrotor() {
 }
 
 AutopilotContext context_of(const VehicleDescription& vehicle) {
-  AutopilotContext context;
-  context.part = "drone.autopilot";
-  context.period = Duration{4'000'000};
-  context.vehicle_description = &vehicle;
-  context.origin = kOrigin;
+  AutopilotContext context = autopilot_fake::context_of(vehicle, Duration{4'000'000});
   context.folder = "/runs/x/products/drone.autopilot";
   return context;
 }

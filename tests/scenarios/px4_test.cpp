@@ -70,7 +70,13 @@ TEST(Px4, GetsReadingsThatFitTheTruth) {
   const int instance = free_px4_instance();
   FakePx4 fake(px4_options(instance),
                [](const FakePx4State& state) { return hold_course(state, rad_from_deg(60.0)); });
-  Session session = open(px4_rover_text(px4(instance, ", ranges: [sonar]")));
+  // Inertial unit and compass lie on their sides, which must not show in the readings.
+  std::string text = px4_rover_text(px4(instance, ", ranges: [sonar], airspeed: pitot"));
+  replace(text, "type: imu,", "type: imu, rotation_deg: [0, 0, 90],");
+  replace(text, "type: magnetometer,", "type: magnetometer, rotation_deg: [90, 0, 0],");
+  replace(text, "sensors: {",
+          "sensors: {pitot: {type: air_data, rate_Hz: 20, min_airspeed_mps: 0}, ");
+  Session session = open(text);
   session.advance(Time{10 * kSecond});
   const auto states = fake.states_of_run();
   ASSERT_EQ(states.size(), 1001u);  // at 100 Hz, with both ends
@@ -111,6 +117,23 @@ TEST(Px4, GetsReadingsThatFitTheTruth) {
                 1013.25 * std::pow(1.0 - altitude_m / 44330.77, 1.0 / 0.1902632), 0.5);
     EXPECT_NEAR(one.sensors.pressure_alt, altitude_m, 5.0);
   }
+  const RangeSample& sonar = session.signal<RangeSample>("rover/sonar").value();
+  const double distance_m = std::min(sonar.range_m, sonar.max_range_m + 1.0);
+  const auto ranging = std::find_if(states.rbegin(), states.rend(),
+                                    [](const auto& one) { return !one.ranges.empty(); });
+  EXPECT_NEAR(ranging->ranges[0].current_distance, 100.0 * distance_m, 0.51) << "in cm";
+  EXPECT_EQ(ranging->ranges[0].orientation, 0) << "MAV_SENSOR_ROTATION_NONE: ahead";
+  // Dynamic pressure in hPa at 150 m, where the standard's density is 1.2075 kg/m3.
+  const double speed_mps = session.signal<AirData>("rover/pitot").value().v_air_B.x();
+  const auto flowing = std::find_if(states.rbegin(), states.rend(), [](const auto& one) {
+    return (one.sensors.fields_updated & 0x400) != 0;
+  });
+  EXPECT_GT(speed_mps, 0.2);
+  EXPECT_NEAR(flowing->sensors.diff_pressure, 0.005 * 1.2075 * speed_mps * speed_mps, 1e-5);
+  // The gyroscope's z axis is down: it agrees with the truth through the turn.
+  const FakePx4State& turning = states[60];
+  EXPECT_GT(turning.truth->yawspeed, 0.05F);
+  EXPECT_NEAR(turning.sensors.zgyro, turning.truth->yawspeed, 0.05);
   // Each reading is sent once: receiver 10 Hz, compass 50 Hz, barometer 25 Hz, sonar 20 Hz.
   const auto count = [&](auto&& is_one) {
     return std::count_if(states.begin(), states.end(), is_one);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "controllers/autopilot/firmware/sensor_mounting.h"
 #include "controllers/autopilot/frames/body_state.h"
 #include "engine/core/constants.h"
 #include "engine/core/error.h"
@@ -21,6 +22,7 @@ ArdupilotDialect::ArdupilotDialect(FirmwareParams params, const AutopilotContext
     : params_(std::move(params)),
       period_(context.period),
       vehicle_(*context.vehicle_truth),
+      q_B_imu_(q_BS_of(params_.imu, context.sensors)),
       outputs_(*context.vehicle_description, params_.mixer, params_.channels, kOutputs, who) {
   constexpr std::size_t kRanges = std::tuple_size_v<decltype(ArdupilotState::ranges_m)>;
   if (params_.ranges.size() > kRanges) {
@@ -98,8 +100,8 @@ void ArdupilotDialect::fill(Time now) {
   state_.position_NED_m = swap_ned_and_W(truth.X_WB.p);
   state_.velocity_NED_mps = swap_ned_and_W(truth.X_WB.q * truth.v_WB_B);
   if (imu_.connected()) {
-    state_.gyro_FRD_radps = swap_frd_and_B(imu_.value().w_WS_S);
-    state_.specific_force_FRD_mps2 = swap_frd_and_B(imu_.value().f_WS_S);
+    state_.gyro_FRD_radps = swap_frd_and_B(q_B_imu_ * imu_.value().w_WS_S);
+    state_.specific_force_FRD_mps2 = swap_frd_and_B(q_B_imu_ * imu_.value().f_WS_S);
   } else {
     measure_motion(now, truth);
   }

@@ -41,6 +41,7 @@ class ArdupilotDialect final : public Dialect {
   FirmwareParams params_;
   Duration period_;
   const Vehicle& vehicle_;
+  Eigen::Quaterniond q_B_imu_;
   OutputMap outputs_;
   NamedValues pulses_;
   ArdupilotState state_;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "controllers/autopilot/firmware/range_orientation.h"
+#include "controllers/autopilot/firmware/sensor_mounting.h"
 #include "controllers/autopilot/outputs/output_mixer.h"
 #include "engine/api/vehicle.h"
 #include "engine/api/vehicle_kinds.h"

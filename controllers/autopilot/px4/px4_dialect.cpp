@@ -6,10 +6,11 @@
 #include <cmath>
 #include <utility>
 
-#include "controllers/autopilot/firmware/range_orientation.h"
+#include "controllers/autopilot/firmware/sensor_mounting.h"
 #include "controllers/autopilot/frames/body_state.h"
 #include "controllers/autopilot/px4/hil_gps.h"
 #include "controllers/autopilot/px4/px4_outputs.h"
+#include "engine/core/constants.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 #include "engine/mavlink/enums.h"
@@ -30,6 +31,23 @@ Eigen::Vector3f to_float(const Eigen::Vector3d& v) {
   return v.cast<float>();
 }
 
+constexpr double kZeroCelsius_K = 273.15;
+
+struct StandardAir {
+  double altitude_m, temperature_K, density_kgm3;
+};
+
+/// US Standard Atmosphere 1976 below 11 km at a pressure, which no thermometer of ours completes:
+/// T = T0 (p / p0)^(R L / g), altitude (T0 - T) / L, density p / (R T).
+StandardAir standard_air(double pressure_Pa) {
+  constexpr double kSeaLevel_Pa = 101'325.0, kSeaLevel_K = 288.15, kLapse_Kpm = 0.0065;
+  constexpr double kGasConstant_JpkgK = 287.053;
+  constexpr double kExponent = kGasConstant_JpkgK * kLapse_Kpm / kStandardGravity_mps2;
+  const double temperature_K = kSeaLevel_K * std::pow(pressure_Pa / kSeaLevel_Pa, kExponent);
+  return {(kSeaLevel_K - temperature_K) / kLapse_Kpm, temperature_K,
+          pressure_Pa / (kGasConstant_JpkgK * temperature_K)};
+}
+
 void check_sensors(const FirmwareParams& params, const std::string& who) {
   const std::pair<const char*, const std::string&> needed[] = {
       {"imu", params.imu},
@@ -45,7 +63,7 @@ void check_sensors(const FirmwareParams& params, const std::string& who) {
   }
 }
 
-/// A share for the simulated rangefinder: centimetres, at most what the field holds.
+/// Centimetres of a distance, at most what the message holds.
 std::uint16_t centimetres(double metres) {
   return static_cast<std::uint16_t>(std::clamp(std::round(100.0 * metres), 0.0, 65535.0));
 }
@@ -57,6 +75,8 @@ Px4Dialect::Px4Dialect(FirmwareParams params, const AutopilotContext& context,
     : params_(std::move(params)),
       period_(context.period),
       frame_(context.origin),
+      q_B_imu_(q_BS_of(params_.imu, context.sensors)),
+      q_B_magnetometer_(q_BS_of(params_.magnetometer, context.sensors)),
       outputs_(*context.vehicle_description, params_.mixer,
                px4_output_channels(params_, *context.vehicle_description, who), kPx4Outputs, who) {
   check_sensors(params_, who);
@@ -97,31 +117,31 @@ mavlink::HilSensor Px4Dialect::read_sensors(std::uint64_t stamp_us, bool sends_a
   mavlink::HilSensor message;
   message.time_usec = stamp_us;
   message.fields_updated = kAccelerometerAndGyroscope;
-  const auto force = to_float(swap_frd_and_B(imu_.value().f_WS_S));
-  const auto rate = to_float(swap_frd_and_B(imu_.value().w_WS_S));
+  const auto force = to_float(swap_frd_and_B(q_B_imu_ * imu_.value().f_WS_S));
+  const auto rate = to_float(swap_frd_and_B(q_B_imu_ * imu_.value().w_WS_S));
   message.xacc = force.x(), message.yacc = force.y(), message.zacc = force.z();
   message.xgyro = rate.x(), message.ygyro = rate.y(), message.zgyro = rate.z();
   if (magnetometer_.is_newer_than(last_field_) || sends_all) {
-    const auto field = to_float(kGaussPerTesla * swap_frd_and_B(magnetometer_.value().field_S_T));
+    const auto field = to_float(
+        kGaussPerTesla * swap_frd_and_B(q_B_magnetometer_ * magnetometer_.value().field_S_T));
     message.xmag = field.x(), message.ymag = field.y(), message.zmag = field.z();
     message.fields_updated |= kMagnetometer;
   }
   if (barometer_.is_newer_than(last_pressure_) || sends_all) {
-    const double pressure_hPa = kHectopascalPerPascal * barometer_.value().pressure_Pa;
-    // Altitude by the US Standard Atmosphere 1976 below 11 km.
-    constexpr double kSeaLevel_hPa = 1013.25, kExponent = 0.1902632, kScale_m = 44330.77;
-    message.abs_pressure = static_cast<float>(pressure_hPa);
-    message.pressure_alt =
-        static_cast<float>(kScale_m * (1.0 - std::pow(pressure_hPa / kSeaLevel_hPa, kExponent)));
-    message.temperature = 15.0F;  // of the standard atmosphere; no sensor of ours measures it
+    const StandardAir air = standard_air(barometer_.value().pressure_Pa);
+    message.abs_pressure =
+        static_cast<float>(kHectopascalPerPascal * barometer_.value().pressure_Pa);
+    message.pressure_alt = static_cast<float>(air.altitude_m);
+    message.temperature = static_cast<float>(air.temperature_K - kZeroCelsius_K);
     message.fields_updated |= kBarometer;
   }
   if (airspeed_.has_value() && (airspeed_.is_newer_than(last_air_) || sends_all)) {
-    // A pitot tube measures the dynamic pressure; autopilots turn it back with this density.
-    constexpr double kDensity_kgm3 = 1.225;
+    // A pitot tube measures the dynamic pressure of the air where it flies. Our sensor gives the
+    // true speed; PX4 finds it back with pressure and temperature.
     const double speed_mps = std::max(0.0, airspeed_.value().v_air_B.x());
+    const double density_kgm3 = standard_air(barometer_.value().pressure_Pa).density_kgm3;
     message.diff_pressure =
-        static_cast<float>(kHectopascalPerPascal * 0.5 * kDensity_kgm3 * speed_mps * speed_mps);
+        static_cast<float>(kHectopascalPerPascal * 0.5 * density_kgm3 * speed_mps * speed_mps);
     message.fields_updated |= kDifferentialPressure;
   }
   return message;

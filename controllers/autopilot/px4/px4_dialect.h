@@ -57,6 +57,7 @@ class Px4Dialect final : public Dialect {
   FirmwareParams params_;
   Duration period_;
   LocalFrame frame_;
+  Eigen::Quaterniond q_B_imu_, q_B_magnetometer_;
   OutputMap outputs_;
   NamedValues shares_;
   mavlink::FrameWriter writer_{kSimulator};

@@ -1,6 +1,7 @@
 #pragma once
-/// Directions of rangefinders as autopilots know them.
+/// How a vehicle's sensors are mounted, as autopilots need it.
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -14,5 +15,9 @@ namespace vinerow::controllers {
 /// 24 up, 25 down. @returns nullopt if the vehicle has no such sensor
 std::optional<std::uint8_t> range_orientation(const std::string& sensor,
                                               const std::vector<SensorMounting>& mountings);
+
+/// Rotation from a sensor's frame to B. Autopilots take inertial readings and the magnetic field in
+/// the body, however the sensor is mounted. @returns the identity for a sensor without a mounting
+Eigen::Quaterniond q_BS_of(const std::string& sensor, const std::vector<SensorMounting>& mountings);
 
 }  // namespace vinerow::controllers

@@ -30,6 +30,13 @@ struct TriangleMesh {
   }
 };
 
+/// Whether cameras and 3D laser scanners see a mesh.
+enum class Light : std::uint8_t {
+  kAsDrawn,  ///< if it is visible
+  kMeets,
+  kPasses,  ///< as levels of detail do, and cards with the picture of a leaf
+};
+
 struct MeshInstance {
   std::string name;
   std::shared_ptr<const TriangleMesh> mesh;
@@ -38,6 +45,7 @@ struct MeshInstance {
   Material material;
   bool collides = true;  ///< used by physics and rays
   bool visible = true;   ///< shown in pictures
+  Light light = Light::kAsDrawn;
 };
 
 }  // namespace vinerow

@@ -31,6 +31,7 @@ void for_each_message_type(F&& f) {
   f(static_cast<PressureSample*>(nullptr));
   f(static_cast<MagneticSample*>(nullptr));
   f(static_cast<LaserScan*>(nullptr));
+  f(static_cast<PointCloud*>(nullptr));
   f(static_cast<PositionEllipsoid*>(nullptr));
   f(static_cast<PoseTarget*>(nullptr));
   f(static_cast<VelocityCommand*>(nullptr));

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "engine/api/surface.h"
 #include "engine/math/pose.h"
@@ -29,15 +30,36 @@ struct RayHit {
   int mesh = -1;  ///< index into WorldModel::meshes, -1 for the height field
 };
 
-class SceneQuery {
+/// A ray of cast_rays().
+struct SceneRay {
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
+  Eigen::Vector3d dir_W = Eigen::Vector3d::UnitX();  ///< unit
+  double max_distance_m = 0.0;
+};
+
+/// Surfaces that rays meet.
+class RayScene {
  public:
-  virtual ~SceneQuery() = default;
+  virtual ~RayScene() = default;
 
   /// First hit along a ray. Ignores vehicles. @param dir_W unit. No heap, thread safe.
   virtual std::optional<RayHit> cast_ray(const Eigen::Vector3d& p_W, const Eigen::Vector3d& dir_W,
                                          double max_distance_m,
                                          SurfaceMask mask = kAllSurfaces) const = 0;
 
+  /// First hits of many rays: what cast_ray() returns for each of them, in less time if neighbours
+  /// lie close together. No heap, thread safe. @param hits  as many as rays
+  virtual void cast_rays(std::span<const SceneRay> rays, std::span<std::optional<RayHit>> hits,
+                         SurfaceMask mask = kAllSurfaces) const {
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      hits[i] = cast_ray(rays[i].p_W, rays[i].dir_W, rays[i].max_distance_m, mask);
+    }
+  }
+};
+
+/// Rays on closed hulls of plants, without wires; distances and ground.
+class SceneQuery : public RayScene {
+ public:
   /// Height of the highest ground at (x, y) at or below z_from. @returns nullopt if there is no
   /// ground
   virtual std::optional<double> ground_height_m(double x, double y, double z_from) const = 0;

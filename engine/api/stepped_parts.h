@@ -11,6 +11,7 @@
 /// forwards it to "run/events".
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -38,6 +39,12 @@ class Sensor : public SteppedPart {
   virtual Duration delay() const { return {}; }
   /// Only called if delay() > 0.
   virtual void deliver(Time /*now*/) {}
+  /// Time between two calls of sample(), a multiple of the physics step that divides the period;
+  /// constant. Zero: it is not called.
+  virtual Duration sampling() const { return {}; }
+  /// For sensors that measure while they wait for their reading, as a turning laser does. Called
+  /// before step() at an instant that has both.
+  virtual void sample(Time /*now*/) {}
   /// Mounting pose (x of S is the viewing direction); nullopt if it has no meaning for the sensor.
   virtual std::optional<Pose> mounting_X_BS() const { return std::nullopt; }
 };
@@ -54,6 +61,9 @@ struct SensorMounting {
 struct SensorContext : PartContext {
   std::string name;  ///< of the sensor, and of the signal it writes
   const SceneQuery* scene = nullptr;
+  /// Surfaces as light meets them: leaves one by one where the world has them, and wires. Built at
+  /// the first call, which takes time and memory; call it in the constructor.
+  std::function<const RayScene&()> light;
   const WorldModel* world = nullptr;
   const Vehicle* vehicle_truth = nullptr;  ///< for inertial sensors
 };

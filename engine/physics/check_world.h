@@ -16,6 +16,13 @@ inline bool is_seen_by_rays(const MeshInstance& instance) {
   return instance.collides && instance.surface != SurfaceClass::kWire;
 }
 
+/// Meshes that light meets.
+inline bool is_seen_by_light(const MeshInstance& instance) {
+  if (!instance.mesh) return false;
+  return instance.light == Light::kMeets ||
+         (instance.light == Light::kAsDrawn && instance.visible);
+}
+
 /// Meshes that push in a contact: all but the canopy, which gives way.
 inline bool is_rigid(const MeshInstance& instance) {
   return instance.collides && instance.surface != SurfaceClass::kCanopy;

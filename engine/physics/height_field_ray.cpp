@@ -116,6 +116,14 @@ bool HeightFieldRay::cross_cell(Walk& walk, int i, int j, double t0, double t1) 
   const double h01 = row[field_.columns];
   const double h11 = row[field_.columns + 1];
 
+  // Clear of all four corners, by more than rounding: no crossing.
+  constexpr double kClear_m = 1e-6;
+  const double z0 = walk.z + walk.dz * t0, z1 = walk.z + walk.dz * t1;
+  if (walk.side > 0 &&
+      std::min(z0, z1) > std::max(std::max(h00, h10), std::max(h01, h11)) + kClear_m) {
+    return false;
+  }
+
   // D(t) = d0 + rate * t for the planes of the lower right (u >= v) and the upper left triangle.
   const double u = walk.g[0] - i;
   const double v = walk.g[1] - j;

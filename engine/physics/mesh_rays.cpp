@@ -13,7 +13,6 @@
 #include "engine/api/world_model.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
-#include "engine/physics/check_world.h"
 #include "engine/physics/triangle_ray.h"
 
 namespace vinerow::physics {
@@ -37,6 +36,7 @@ double calc_margin_m(double reach_m) {
 /// Distance at which the ray enters the box, 0 inside; nullopt if it misses the box or ends before.
 std::optional<double> enter_m(const Eigen::AlignedBox3d& box, const Vector3d& p,
                               const Vector3d& dir, double max_distance_m) {
+  if (box.contains(p)) return 0.0;
   double first_m = 0.0, last_m = max_distance_m;
   for (int axis = 0; axis < 3; ++axis) {
     if (dir[axis] == 0.0) {
@@ -70,20 +70,45 @@ struct MeshRays::Impl {
     double margin_m;  ///< error bound of a ray in single precision
   };
 
-  /// A ray in Embree's tree traversal, which passes it to the callback.
-  struct Cast : RTCIntersectContext {
-    const std::vector<Placed>* placed;
-    Vector3d p_W, dir_W;
-    double tree_start_m;  ///< distance along the ray at which Embree's ray starts
-    double margin_m;
+  /// A ray in Embree's tree traversal.
+  struct Lane {
+    Vector3d p_W = Vector3d::Zero(), dir_W = Vector3d::UnitZ();
+    double tree_start_m = 0.0;  ///< distance along the ray at which Embree's ray starts
     // The ray in the frame of the last tested mesh.
     unsigned entry = RTC_INVALID_GEOMETRY_ID;
     TriangleRay ray_M{Vector3d::Zero(), Vector3d::UnitZ()};
     // The nearest hit so far. Among hits at the same distance, the one of the first mesh and
     // triangle, so that it does not depend on the traversal order.
-    double best_m;
+    double best_m = 0.0;
     unsigned best_entry = RTC_INVALID_GEOMETRY_ID;
     unsigned best_triangle = 0;
+
+    /// @returns true if the triangle is the nearest hit so far
+    bool test(const Placed& placed, unsigned entry_of_triangle, unsigned triangle,
+              const std::array<const Eigen::Vector3f*, 3>& corners_M) {
+      if (entry_of_triangle != entry) {
+        ray_M = TriangleRay(placed.R_MW * p_W + placed.p_MW, placed.R_MW * dir_W);
+        entry = entry_of_triangle;
+      }
+      const auto& [a, b, c] = corners_M;
+      const std::optional<double> found_m = ray_M.distance_m(*a, *b, *c);
+      if (!found_m || *found_m > best_m) return false;
+      if (*found_m == best_m && best_entry != RTC_INVALID_GEOMETRY_ID &&
+          std::pair(best_entry, best_triangle) < std::pair(entry, triangle)) {
+        return false;
+      }
+      best_m = *found_m;
+      best_entry = entry;
+      best_triangle = triangle;
+      return true;
+    }
+  };
+
+  /// What the traversal passes to the callback. A ray's id is the number of its lane.
+  struct Cast : RTCIntersectContext {
+    const std::vector<Placed>* placed;
+    double margin_m;
+    Lane* lanes;
   };
 
   static void find_box(const RTCBoundsFunctionArguments* arguments) {
@@ -98,31 +123,66 @@ struct MeshRays::Impl {
     *arguments->bounds_o = {low(0), low(1), low(2), 0.0f, high(0), high(1), high(2), 0.0f};
   }
 
-  /// Called if a ray meets the box of a triangle.
+  /// Called if rays meet the box of a triangle: one, or those of a packet.
   static void look_at_triangle(const RTCIntersectFunctionNArguments* arguments) {
-    if (arguments->N != 1 || arguments->valid[0] == 0) return;
     auto& cast = *static_cast<Cast*>(arguments->context);
     const unsigned instance = arguments->context->instID[0];
     const unsigned entry = instance != RTC_INVALID_GEOMETRY_ID ? instance : arguments->geomID;
     const Placed& placed = (*cast.placed)[entry];
-    if (entry != cast.entry) {
-      cast.ray_M = TriangleRay(placed.R_MW * cast.p_W + placed.p_MW, placed.R_MW * cast.dir_W);
-      cast.entry = entry;
+    const TriangleMesh& mesh = *placed.instance->mesh;
+    const auto& [i_a, i_b, i_c] = mesh.triangles[arguments->primID];
+    const std::array<const Eigen::Vector3f*, 3> triangle = {
+        &mesh.vertices[i_a], &mesh.vertices[i_b], &mesh.vertices[i_c]};
+    const unsigned count = arguments->N;
+    RTCRayN* rays = RTCRayHitN_RayN(arguments->rayhit, count);
+    RTCHitN* hits = RTCRayHitN_HitN(arguments->rayhit, count);
+    for (unsigned i = 0; i < count; ++i) {
+      if (arguments->valid[i] == 0) continue;
+      Lane& lane = cast.lanes[RTCRayN_id(rays, count, i)];
+      if (!lane.test(placed, entry, arguments->primID, triangle)) continue;
+      // Skip boxes that start farther away; test those at the same distance.
+      RTCRayN_tfar(rays, count, i) =
+          static_cast<float>(lane.best_m - lane.tree_start_m + cast.margin_m);
+      RTCHitN_geomID(hits, count, i) = arguments->geomID;
     }
-    const auto [a, b, c] = corners(*placed.instance->mesh, arguments->primID);
-    const std::optional<double> found_m = cast.ray_M.distance_m(a, b, c);
-    if (!found_m || *found_m > cast.best_m) return;
-    if (*found_m == cast.best_m && cast.best_entry != RTC_INVALID_GEOMETRY_ID &&
-        std::pair(cast.best_entry, cast.best_triangle) < std::pair(entry, arguments->primID)) {
-      return;
+  }
+
+  /// Embree's ray starts at the bounds of the meshes, so that a distant start costs no digits in
+  /// single precision. @returns false if the ray misses them
+  bool begin(const SceneRay& ray, Lane& lane) const {
+    if (placed.empty() || !ray.p_W.allFinite() || !ray.dir_W.allFinite() ||
+        !(ray.max_distance_m >= 0.0)) {
+      return false;
     }
-    cast.best_m = *found_m;
-    cast.best_entry = entry;
-    cast.best_triangle = arguments->primID;
-    // Skip boxes that start farther away; test those at the same distance.
-    auto& ray = *reinterpret_cast<RTCRayHit*>(arguments->rayhit);
-    ray.ray.tfar = static_cast<float>(cast.best_m - cast.tree_start_m + cast.margin_m);
-    ray.hit.geomID = arguments->geomID;
+    const std::optional<double> start_m = enter_m(bounds_W, ray.p_W, ray.dir_W, ray.max_distance_m);
+    if (!start_m) return false;
+    lane.p_W = ray.p_W;
+    lane.dir_W = ray.dir_W;
+    lane.tree_start_m = *start_m;
+    lane.best_m = ray.max_distance_m;
+    return true;
+  }
+
+  Cast make_cast(Lane* lanes) const {
+    Cast cast;
+    rtcInitIntersectContext(&cast);
+    cast.placed = &placed;
+    cast.margin_m = margin_m;
+    cast.lanes = lanes;
+    return cast;
+  }
+
+  std::optional<RayHit> hit_of(const Lane& lane) const {
+    if (lane.best_entry == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    const Placed& met = placed[lane.best_entry];
+    const auto [a, b, c] = corners(*met.instance->mesh, lane.best_triangle);
+    const Vector3d normal_W = (met.R_MW.transpose() * (b - a).cross(c - a)).normalized();
+    RayHit hit;
+    hit.distance_m = lane.best_m;
+    hit.normal_W = normal_W.dot(lane.dir_W) > 0.0 ? Vector3d(-normal_W) : normal_W;
+    hit.surface = met.instance->surface;
+    hit.mesh = met.mesh_index;
+    return hit;
   }
 
   RTCDevice device = nullptr;
@@ -203,14 +263,20 @@ struct MeshRays::Impl {
   }
 };
 
-MeshRays::MeshRays(const WorldModel& world) : impl_(std::make_unique<Impl>()) {
+MeshRays::MeshRays(const WorldModel& world, bool (*is_met)(const MeshInstance&))
+    : impl_(std::make_unique<Impl>()) {
   std::map<const TriangleMesh*, int> uses;
+  std::map<const TriangleMesh*, Eigen::AlignedBox3d> boxes_M;
   double reach_m = 0.0;  // largest coordinate of a vertex, in the frame of the world or of its mesh
   for (const MeshInstance& instance : world.meshes) {
-    if (!is_seen_by_rays(instance)) continue;
+    if (!is_met(instance)) continue;
     ++uses[instance.mesh.get()];
-    for (const Eigen::Vector3f& vertex : instance.mesh->vertices) {
-      const Vector3d p_M = vertex.cast<double>();
+    const auto [box, is_new] = boxes_M.try_emplace(instance.mesh.get());
+    if (is_new) box->second = instance.mesh->bounds();
+    if (box->second.isEmpty()) continue;
+    // The corners of its box, not all vertices: leaves have many, and each mesh stands many times.
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vector3d p_M = box->second.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
       const Vector3d p_W = instance.X_WM * p_M;
       impl_->bounds_W.extend(p_W);
       reach_m = std::max({reach_m, p_M.cwiseAbs().maxCoeff(), p_W.cwiseAbs().maxCoeff()});
@@ -231,7 +297,7 @@ MeshRays::MeshRays(const WorldModel& world) : impl_(std::make_unique<Impl>()) {
   impl_->scene = impl_->new_scene();
   for (std::size_t i = 0; i < world.meshes.size(); ++i) {
     const MeshInstance& instance = world.meshes[i];
-    if (!is_seen_by_rays(instance)) continue;
+    if (!is_met(instance)) continue;
     impl_->add(instance, static_cast<int>(i), uses[instance.mesh.get()] == 1);
   }
   rtcCommitScene(impl_->scene);
@@ -245,23 +311,10 @@ bool MeshRays::empty() const {
 
 std::optional<RayHit> MeshRays::cast(const Vector3d& p_W, const Vector3d& dir_W,
                                      double max_distance_m, SurfaceMask mask) const {
-  if (impl_->placed.empty() || !p_W.allFinite() || !dir_W.allFinite() || !(max_distance_m >= 0.0)) {
-    return std::nullopt;
-  }
-  // Embree's ray starts at the bounds of the meshes, so that a distant start costs no digits in
-  // single precision.
-  const std::optional<double> start_m = enter_m(impl_->bounds_W, p_W, dir_W, max_distance_m);
-  if (!start_m) return std::nullopt;
-  const Vector3d p_start_W = p_W + *start_m * dir_W;
-
-  Impl::Cast cast;
-  rtcInitIntersectContext(&cast);
-  cast.placed = &impl_->placed;
-  cast.p_W = p_W;
-  cast.dir_W = dir_W;
-  cast.tree_start_m = *start_m;
-  cast.margin_m = impl_->margin_m;
-  cast.best_m = max_distance_m;
+  Impl::Lane lane;
+  if (!impl_->begin({p_W, dir_W, max_distance_m}, lane)) return std::nullopt;
+  Impl::Cast cast = impl_->make_cast(&lane);
+  const Vector3d p_start_W = p_W + lane.tree_start_m * dir_W;
   RTCRayHit ray;
   ray.ray.org_x = static_cast<float>(p_start_W.x());
   ray.ray.org_y = static_cast<float>(p_start_W.y());
@@ -270,7 +323,7 @@ std::optional<RayHit> MeshRays::cast(const Vector3d& p_W, const Vector3d& dir_W,
   ray.ray.dir_y = static_cast<float>(dir_W.y());
   ray.ray.dir_z = static_cast<float>(dir_W.z());
   ray.ray.tnear = 0.0f;
-  ray.ray.tfar = static_cast<float>(max_distance_m - *start_m + impl_->margin_m);
+  ray.ray.tfar = static_cast<float>(max_distance_m - lane.tree_start_m + impl_->margin_m);
   ray.ray.mask = mask;
   ray.ray.time = 0.0f;
   ray.ray.id = 0;
@@ -278,17 +331,44 @@ std::optional<RayHit> MeshRays::cast(const Vector3d& p_W, const Vector3d& dir_W,
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(impl_->scene, &cast, &ray);
-  if (cast.best_entry == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  return impl_->hit_of(lane);
+}
 
-  const Impl::Placed& placed = impl_->placed[cast.best_entry];
-  const auto [a, b, c] = corners(*placed.instance->mesh, cast.best_triangle);
-  const Vector3d normal_W = (placed.R_MW.transpose() * (b - a).cross(c - a)).normalized();
-  RayHit hit;
-  hit.distance_m = cast.best_m;
-  hit.normal_W = normal_W.dot(dir_W) > 0.0 ? Vector3d(-normal_W) : normal_W;
-  hit.surface = placed.instance->surface;
-  hit.mesh = placed.mesh_index;
-  return hit;
+void MeshRays::cast_packet(std::span<const SceneRay> rays, std::span<std::optional<RayHit>> hits,
+                           SurfaceMask mask) const {
+  VINEROW_DEMAND(rays.size() <= kPacket && hits.size() == rays.size());
+  std::array<Impl::Lane, kPacket> lanes;
+  alignas(32) std::array<int, kPacket> valid{};  // -1: take part
+  RTCRayHit8 packet;
+  bool is_any = false;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const SceneRay& ray = rays[i];
+    if (!impl_->begin(ray, lanes[i])) continue;
+    valid[i] = -1;
+    is_any = true;
+    const Vector3d p_start_W = ray.p_W + lanes[i].tree_start_m * ray.dir_W;
+    packet.ray.org_x[i] = static_cast<float>(p_start_W.x());
+    packet.ray.org_y[i] = static_cast<float>(p_start_W.y());
+    packet.ray.org_z[i] = static_cast<float>(p_start_W.z());
+    packet.ray.dir_x[i] = static_cast<float>(ray.dir_W.x());
+    packet.ray.dir_y[i] = static_cast<float>(ray.dir_W.y());
+    packet.ray.dir_z[i] = static_cast<float>(ray.dir_W.z());
+    packet.ray.tnear[i] = 0.0f;
+    packet.ray.tfar[i] =
+        static_cast<float>(ray.max_distance_m - lanes[i].tree_start_m + impl_->margin_m);
+    packet.ray.mask[i] = mask;
+    packet.ray.time[i] = 0.0f;
+    packet.ray.id[i] = static_cast<unsigned>(i);
+    packet.ray.flags[i] = 0;
+    packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+  }
+  if (is_any) {
+    Impl::Cast cast = impl_->make_cast(lanes.data());
+    cast.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcIntersect8(valid.data(), impl_->scene, &cast, &packet);
+  }
+  for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = impl_->hit_of(lanes[i]);
 }
 
 }  // namespace vinerow::physics

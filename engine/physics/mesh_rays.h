@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "engine/api/forward.h"
 #include "engine/api/scene_query.h"
@@ -18,14 +19,20 @@ namespace vinerow::physics {
 
 class MeshRays {
  public:
-  /// @param world  checked (check_world.h); outlives this object
-  explicit MeshRays(const WorldModel& world);
+  /// @param world   checked (check_world.h); outlives this object
+  /// @param is_met  of check_world.h
+  MeshRays(const WorldModel& world, bool (*is_met)(const MeshInstance&));
   ~MeshRays();
 
   bool empty() const;
   /// First hit. @param dir_W unit. No heap, thread safe.
   std::optional<RayHit> cast(const Eigen::Vector3d& p_W, const Eigen::Vector3d& dir_W,
                              double max_distance_m, SurfaceMask mask) const;
+
+  /// What cast() returns for each of up to kPacket rays. @param hits  as many as rays
+  static constexpr std::size_t kPacket = 8;
+  void cast_packet(std::span<const SceneRay> rays, std::span<std::optional<RayHit>> hits,
+                   SurfaceMask mask) const;
 
  private:
   struct Impl;

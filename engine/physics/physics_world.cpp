@@ -197,6 +197,10 @@ const SceneQuery& PhysicsWorld::scene() const {
   return impl_->scene->queries();
 }
 
+const RayScene& PhysicsWorld::light_scene() const {
+  return impl_->scene->light();
+}
+
 const PhysicsSettings& PhysicsWorld::settings() const {
   return impl_->settings;
 }

@@ -156,6 +156,8 @@ class PhysicsWorld {
 
   /// Rays and distances against the static geometry.
   const SceneQuery& scene() const;
+  /// Surfaces as light meets them. Built at the first call.
+  const RayScene& light_scene() const;
   const PhysicsSettings& settings() const;
   const WorldModel& world_model() const;
 

@@ -21,4 +21,11 @@ StaticScene::StaticScene(std::shared_ptr<const WorldModel> world)
 
 StaticScene::~StaticScene() = default;
 
+const RayScene& StaticScene::light() const {
+  std::call_once(light_once_, [this] {
+    light_ = std::make_unique<const SurfaceRays>(*world_, queries_.terrain(), is_seen_by_light);
+  });
+  return *light_;
+}
+
 }  // namespace vinerow::physics

@@ -6,6 +6,7 @@
 /// one scene, one after the other or at the same time on several threads.
 
 #include <memory>
+#include <mutex>
 
 #include "engine/api/world_model.h"
 #include "engine/physics/contact_normals.h"
@@ -25,6 +26,8 @@ class StaticScene {
   const WorldModel& world() const { return *world_; }
   /// Rays and distances.
   const WorldScene& queries() const { return queries_; }
+  /// Surfaces as light meets them. Built at the first call; thread safe.
+  const RayScene& light() const;
   const ContactNormals& normals() const { return normals_; }
   const StaticGeometry& geometry() const { return *geometry_; }
 
@@ -33,6 +36,8 @@ class StaticScene {
   WorldScene queries_;
   ContactNormals normals_;
   std::unique_ptr<const StaticGeometry> geometry_;
+  mutable std::once_flag light_once_;
+  mutable std::unique_ptr<const SurfaceRays> light_;
 };
 
 }  // namespace vinerow::physics

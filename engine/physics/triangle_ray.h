@@ -21,19 +21,20 @@ namespace vinerow::physics {
 class TriangleRay {
  public:
   /// @param dir_M  unit
-  TriangleRay(const Eigen::Vector3d& p_M, const Eigen::Vector3d& dir_M) : p_M_(p_M) {
+  TriangleRay(const Eigen::Vector3d& p_M, const Eigen::Vector3d& dir_M) {
     dir_M.cwiseAbs().maxCoeff(&z_);
     x_ = (z_ + 1) % 3;
     y_ = (z_ + 2) % 3;
+    start_ = {p_M[x_], p_M[y_], p_M[z_]};
     scale_ = 1.0 / dir_M[z_];
     shear_x_ = dir_M[x_] * scale_;
     shear_y_ = dir_M[y_] * scale_;
   }
 
   /// Distance to the triangle, hit from either side, edges included; nullopt if it is behind the
-  /// start.
-  std::optional<double> distance_m(const Eigen::Vector3d& a_M, const Eigen::Vector3d& b_M,
-                                   const Eigen::Vector3d& c_M) const {
+  /// start. @tparam Vector  of three float or double
+  template <class Vector>
+  std::optional<double> distance_m(const Vector& a_M, const Vector& b_M, const Vector& c_M) const {
     const std::array<double, 3> a = sheared(a_M), b = sheared(b_M), c = sheared(c_M);
     // Twice the signed areas of the triangles formed by the ray and each edge.
     const double u = c[0] * b[1] - c[1] * b[0];
@@ -48,12 +49,13 @@ class TriangleRay {
   }
 
  private:
-  std::array<double, 3> sheared(const Eigen::Vector3d& q_M) const {
-    const Eigen::Vector3d p = q_M - p_M_;
-    return {p[x_] - shear_x_ * p[z_], p[y_] - shear_y_ * p[z_], p[z_]};
+  template <class Vector>
+  std::array<double, 3> sheared(const Vector& q_M) const {
+    const double x = q_M[x_] - start_[0], y = q_M[y_] - start_[1], z = q_M[z_] - start_[2];
+    return {x - shear_x_ * z, y - shear_y_ * z, z};
   }
 
-  Eigen::Vector3d p_M_;
+  std::array<double, 3> start_{};  ///< in the permuted axes
   int x_ = 0, y_ = 0, z_ = 0;
   double scale_ = 0.0, shear_x_ = 0.0, shear_y_ = 0.0;
 };

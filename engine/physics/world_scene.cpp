@@ -1,6 +1,7 @@
 #include "engine/physics/world_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/api/mesh.h"
@@ -30,6 +31,12 @@ void for_each_carrying_triangle(const WorldModel& world, Use&& use) {
       use(plan);
     }
   }
+}
+
+std::optional<HeightFieldRay> make_terrain(const WorldModel& world) {
+  std::optional<HeightFieldRay> terrain;
+  if (world.terrain) terrain.emplace(*world.terrain);
+  return terrain;
 }
 
 }  // namespace
@@ -84,8 +91,10 @@ bool RigidMap::any_near(double x0, double y0, double x1, double y1) const {
 }
 
 WorldScene::WorldScene(const WorldModel& world)
-    : mesh_rays_(world), mesh_distance_(world), rigid_map_(world) {
-  if (world.terrain) terrain_.emplace(*world.terrain);
+    : terrain_(make_terrain(world)),
+      rays_(world, terrain(), is_seen_by_rays),
+      mesh_distance_(world),
+      rigid_map_(world) {
   // The ray caster's single precision moves triangles by far less.
   constexpr double kMargin_m = 1.0;
   for (const MeshInstance& instance : world.meshes) {
@@ -101,16 +110,12 @@ WorldScene::WorldScene(const WorldModel& world)
 
 std::optional<RayHit> WorldScene::cast_ray(const Vector3d& p_W, const Vector3d& dir_W,
                                            double max_distance_m, SurfaceMask mask) const {
-  std::optional<RayHit> first;
-  double reach_m = max_distance_m;
-  if (terrain_ && (mask & mask_of(SurfaceClass::kTerrain)) != 0) {
-    if (const auto hit = terrain_->cast(p_W, dir_W, reach_m)) {
-      first = RayHit{hit->distance_m, hit->normal_W, SurfaceClass::kTerrain, -1};
-      reach_m = hit->distance_m;
-    }
-  }
-  if (const std::optional<RayHit> hit = mesh_rays_.cast(p_W, dir_W, reach_m, mask)) first = hit;
-  return first;
+  return rays_.cast_ray(p_W, dir_W, max_distance_m, mask);
+}
+
+void WorldScene::cast_rays(std::span<const SceneRay> rays, std::span<std::optional<RayHit>> hits,
+                           SurfaceMask mask) const {
+  rays_.cast_rays(rays, hits, mask);
 }
 
 std::optional<double> WorldScene::ground_height_m(double x, double y, double z_from) const {
@@ -122,7 +127,8 @@ std::optional<double> WorldScene::ground_height_m(double x, double y, double z_f
   const double top_m = std::min(z_from, meshes_top_m_);
   const double reach_m = top_m - (highest ? *highest : meshes_bottom_m_);
   if (!(reach_m > 0.0)) return highest;
-  if (const auto hit = mesh_rays_.cast({x, y, top_m}, -Vector3d::UnitZ(), reach_m, kGroundMask)) {
+  if (const auto hit =
+          rays_.meshes().cast({x, y, top_m}, -Vector3d::UnitZ(), reach_m, kGroundMask)) {
     highest = top_m - hit->distance_m;
   }
   return highest;
@@ -145,7 +151,7 @@ std::optional<RayHit> WorldScene::probe_rigid(const Vector3d& p_W, const Vector3
   }
   const Vector3d end_W = p_W + reach_m * dir_W;
   if (!rigid_map_.any_near(p_W.x(), p_W.y(), end_W.x(), end_W.y())) return first;
-  if (const std::optional<RayHit> hit = mesh_rays_.cast(p_W, dir_W, reach_m, kRigidMask)) {
+  if (const std::optional<RayHit> hit = rays_.meshes().cast(p_W, dir_W, reach_m, kRigidMask)) {
     first = hit;
   }
   return first;

@@ -11,7 +11,7 @@
 #include "engine/api/scene_query.h"
 #include "engine/physics/height_field_ray.h"
 #include "engine/physics/mesh_distance.h"
-#include "engine/physics/mesh_rays.h"
+#include "engine/physics/surface_rays.h"
 
 namespace vinerow::physics {
 
@@ -38,6 +38,8 @@ class WorldScene : public SceneQuery {
   /// @param world  checked; outlives this object
   explicit WorldScene(const WorldModel& world);
 
+  void cast_rays(std::span<const SceneRay> rays, std::span<std::optional<RayHit>> hits,
+                 SurfaceMask mask) const override;
   std::optional<RayHit> cast_ray(const Eigen::Vector3d& p_W, const Eigen::Vector3d& dir_W,
                                  double max_distance_m, SurfaceMask mask) const override;
   std::optional<double> ground_height_m(double x, double y, double z_from) const override;
@@ -48,9 +50,12 @@ class WorldScene : public SceneQuery {
   std::optional<RayHit> probe_rigid(const Eigen::Vector3d& p_W, const Eigen::Vector3d& dir_W,
                                     double max_distance_m) const;
 
+  /// Null without a height field.
+  const HeightFieldRay* terrain() const { return terrain_ ? &*terrain_ : nullptr; }
+
  private:
   std::optional<HeightFieldRay> terrain_;
-  MeshRays mesh_rays_;
+  SurfaceRays rays_;
   MeshDistance mesh_distance_;
   RigidMap rigid_map_;
   /// Height range of the meshes that are ground; inverted (empty) without such meshes.

@@ -75,6 +75,15 @@ constexpr std::array kDefinitions = {
                "float32 angle_increment\n# s\nfloat32 time_increment\nfloat32 scan_time\n"
                "# m\nfloat32 range_min\nfloat32 range_max\n# +inf: nothing seen\n"
                "float32[] ranges\nfloat32[] intensities\n"},
+    Definition{"sensor_msgs/PointField",
+               "uint8 INT8=1\nuint8 UINT8=2\nuint8 INT16=3\nuint8 UINT16=4\nuint8 INT32=5\n"
+               "uint8 UINT32=6\nuint8 FLOAT32=7\nuint8 FLOAT64=8\n"
+               "string name\n# bytes from the start of a point\nuint32 offset\nuint8 datatype\n"
+               "uint32 count\n"},
+    Definition{"sensor_msgs/PointCloud2",
+               "std_msgs/Header header\nuint32 height\nuint32 width\n"
+               "sensor_msgs/PointField[] fields\nbool is_bigendian\n# bytes of a point\n"
+               "uint32 point_step\nuint32 row_step\nuint8[] data\nbool is_dense\n"},
     Definition{"geometry_msgs/PoseWithCovarianceStamped",
                "std_msgs/Header header\ngeometry_msgs/PoseWithCovariance pose\n"},
     Definition{"sensor_msgs/Range",

@@ -105,6 +105,7 @@ VINEROW_EXACT_MESSAGE(RangeSample, "sensor_msgs/msg/Range", "vinerow_msgs/msg/Ra
 VINEROW_STANDARD_MESSAGE(PressureSample, "sensor_msgs/msg/FluidPressure")
 VINEROW_STANDARD_MESSAGE(MagneticSample, "sensor_msgs/msg/MagneticField")
 VINEROW_EXACT_MESSAGE(LaserScan, "sensor_msgs/msg/LaserScan", "vinerow_msgs/msg/LaserScan")
+VINEROW_STANDARD_MESSAGE(PointCloud, "sensor_msgs/msg/PointCloud2")
 VINEROW_STANDARD_MESSAGE(PositionEllipsoid, "geometry_msgs/msg/PoseWithCovarianceStamped")
 VINEROW_STANDARD_MESSAGE(PoseTarget, "geometry_msgs/msg/PoseStamped")
 VINEROW_STANDARD_MESSAGE(VelocityCommand, "geometry_msgs/msg/TwistStamped")

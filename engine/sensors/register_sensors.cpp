@@ -10,6 +10,7 @@
 #include "engine/sensors/imu.h"
 #include "engine/sensors/ins.h"
 #include "engine/sensors/lidar.h"
+#include "engine/sensors/lidar_3d.h"
 #include "engine/sensors/magnetometer.h"
 #include "engine/sensors/ultrasound.h"
 
@@ -26,6 +27,7 @@ void register_sensors(Registry& registry) {
   registry.add_sensor(imu_spec(), make_imu);
   registry.add_sensor(ins_spec(), make_ins);
   registry.add_sensor(lidar_spec(), make_lidar);
+  registry.add_sensor(lidar_3d_spec(), make_lidar_3d);
   registry.add_sensor(magnetometer_spec(), make_magnetometer);
   registry.add_sensor(ultrasound_spec(), make_ultrasound);
 }

@@ -169,12 +169,20 @@ void VehicleAssembly::add_sensors() {
     auto sensor_context = context<SensorContext>(part, sensor.part.rate_Hz);
     sensor_context.name = sensor.name;
     sensor_context.scene = &run_.physics.scene();
+    sensor_context.light = [&physics = run_.physics]() -> const RayScene& {
+      return physics.light_scene();
+    };
     sensor_context.world = &run_.world;
     sensor_context.vehicle_truth = &vehicle_;
     parts_.sensors.push_back(with_place(sensor.part.where, config_.name, [&] {
       return run_.registry.make_sensor(sensor.part.type, sensor.part.parameters, sensor_context);
     }));
     Sensor& built = *parts_.sensors.back();
+    if (built.sampling().ns > 0) {
+      schedule(
+          Stage::kSense, part + ".sampling", built.sampling(), Duration{},
+          guarded(run_.bus, part, sensor.part.type, [&built](Time now) { built.sample(now); }));
+    }
     add_stepped(Stage::kSense, part, sensor.part.type, sensor.part.rate_Hz, built);
     // The error-free reading follows from the truth.
     parts_.diagnostics.push_back(fmt::format("{}/{}_truth", config_.name, sensor.name));

@@ -50,6 +50,44 @@ void ray_fan_4m(benchmark::State& state) {
 }
 BENCHMARK(ray_fan_4m)->Unit(benchmark::kNanosecond);
 
+/// Rays of a scanner with 16 lasers that turns in an alley, 20 m, laser by laser, one by one or
+/// together.
+/// @param range(0)  rays of each cast
+void scanner_rays(benchmark::State& state) {
+  const Vineyard& v = vineyard();
+  const auto& line = v.model->rows->alleys[7].line_W;
+  Eigen::Vector3d p = line.front() + 0.4 * (line.back() - line.front());
+  p.z() = v.model->terrain->height_m(p.x(), p.y()) + 1.2;
+  std::vector<SceneRay> rays;
+  for (int laser = 0; laser < 16; ++laser) {
+    const double elevation = (-15.0 + 2.0 * laser) * 3.14159265358979 / 180.0;
+    for (int column = 0; column < 900; ++column) {
+      const double azimuth = 2.0 * 3.14159265358979 * column / 900.0;
+      rays.push_back({p,
+                      {std::cos(elevation) * std::cos(azimuth),
+                       std::cos(elevation) * std::sin(azimuth), std::sin(elevation)},
+                      20.0});
+    }
+  }
+  const auto count = static_cast<std::size_t>(state.range(0));
+  std::vector<std::optional<RayHit>> hits(rays.size());
+  for (auto _ : state) {
+    for (std::size_t at = 0; at < rays.size(); at += count) {
+      if (count == 1) {
+        hits[at] = v.world.scene().cast_ray(rays[at].p_W, rays[at].dir_W, rays[at].max_distance_m);
+      } else {
+        v.world.scene().cast_rays(std::span(rays).subspan(at, count),
+                                  std::span(hits).subspan(at, count));
+      }
+    }
+    benchmark::DoNotOptimize(hits.data());
+  }
+  state.counters["rays_per_s"] =
+      benchmark::Counter(static_cast<double>(rays.size()) * static_cast<double>(state.iterations()),
+                         benchmark::Counter::kIsRate);
+}
+BENCHMARK(scanner_rays)->Arg(1)->Arg(16)->Arg(14400)->Unit(benchmark::kMillisecond);
+
 void distance_of_rover_box(benchmark::State& state) {
   const Vineyard& v = vineyard();
   const auto& line = v.model->rows->alleys[7].line_W;

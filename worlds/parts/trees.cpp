@@ -132,9 +132,10 @@ void plant_tree_row(WorldModel& world, int row_number, const mapping::RowCurve& 
       world.meshes.push_back(std::move(instance));
       return world.meshes.back();
     };
-    add("crown_hull/" + tree, "crown_hull/" + key, SurfaceClass::kCanopy, [&] {
-      return make_crown_hull(crown);
-    }).visible = false;
+    MeshInstance& hull = add("crown_hull/" + tree, "crown_hull/" + key, SurfaceClass::kCanopy,
+                             [&] { return make_crown_hull(crown); });
+    hull.visible = false;
+    hull.light = Light::kMeets;
     add("tree_trunk/" + tree, "tree_trunk/" + key, SurfaceClass::kTrunk,
         [&] { return make_tree_trunk(params, crown, random("tree_trunk." + key)); });
     for (int level = 0; level < 3; ++level) {
@@ -147,6 +148,7 @@ void plant_tree_row(WorldModel& world, int row_number, const mapping::RowCurve& 
           });
       leaves.material = leaf_material();
       leaves.collides = false;
+      leaves.light = Light::kPasses;
     }
   }
 }

@@ -90,6 +90,7 @@ class Planter {
               [&] { return make_canopy_hull(row.curve, ground_, stretches, planting_.canopy); }),
           SurfaceClass::kCanopy);
       hull.visible = false;
+      hull.light = Light::kMeets;
       world_.meshes.push_back(std::move(hull));
     }
     if (row.post_s_m.size() >= 2) add_posts(row, row_name);
@@ -129,6 +130,7 @@ class Planter {
       leaves.X_WM = X_WM;
       leaves.material = leaf_material();
       leaves.collides = false;
+      leaves.light = Light::kPasses;
       world_.meshes.push_back(std::move(leaves));
     }
   }
@@ -147,6 +149,7 @@ class Planter {
                      }),
           SurfaceClass::kTrunk);
       trunks.collides = level == 0;
+      if (level > 0) trunks.light = Light::kPasses;
       world_.meshes.push_back(std::move(trunks));
     }
   }

@@ -145,6 +145,31 @@ struct LaserScan {
   }
 };
 
+/// Points of a scanning laser or of a depth camera, in the sensor's own frame at the instant of each
+/// measurement: those of a moving sensor are not corrected for its motion. All lists have the same
+/// length; what was not seen is left out. ROS 2: sensor_msgs/msg/PointCloud2 with the fields x, y,
+/// z, intensity, time (float32), ring (uint16), return_number (uint8).
+struct PointCloud {
+  static constexpr const char* kType = "PointCloud";
+  static constexpr MessageFrame kFrame = MessageFrame::kOwn;
+  std::vector<float> x, y, z;               ///< m
+  std::vector<float> intensity;             ///< received power; 1: see the sensor
+  std::vector<float> time_s;                ///< from the stamp, not positive
+  std::vector<std::uint16_t> ring;          ///< number of the laser
+  std::vector<std::uint8_t> return_number;  ///< 1: the strongest echo of its pulse, 2: the last one
+
+  template <class Self, class F>
+  static void fields(Self& self, F&& f) {
+    f({"x", "m"}, self.x);
+    f({"y", "m"}, self.y);
+    f({"z", "m"}, self.z);
+    f({"intensity", "", "received power"}, self.intensity);
+    f({"time", "s", "from the stamp, not positive"}, self.time_s);
+    f({"ring", "", "number of the laser"}, self.ring);
+    f({"return_number", "", "1: strongest echo of its pulse, 2: last one"}, self.return_number);
+  }
+};
+
 /// Velocity through the air, measured by a pitot tube with vanes. ROS 2:
 /// geometry_msgs/msg/Vector3Stamped.
 struct AirData {

@@ -304,5 +304,81 @@ TEST(Scene, SharedMeshesAreSeenWhereTheirInstancesStand) {
   }
 }
 
+TEST(Scene, RaysTogetherHitWhatEachHitsAlone) {
+  // Hills as a height field, and the same hills as meshes that stand three times: terrain, meshes
+  // and instances in one packet.
+  WorldModel world;
+  world.terrain = test::make_hills();
+  const auto mesh = test::make_mesh_of(*world.terrain);
+  for (const double x : {-12.0, 3.0, 9.0}) {
+    world.meshes.push_back(
+        test::make_instance("hill", mesh, Vector3d(x, 1.0, 2.0), SurfaceClass::kCanopy));
+  }
+  const PhysicsWorld physics({}, world);
+  const SceneQuery& scene = physics.scene();
+  RandomStream random(1, "", "packets");
+  std::vector<SceneRay> rays;
+  for (int fan = 0; fan < 400; ++fan) {
+    const Vector3d p(random.uniform(-15, 15), random.uniform(-15, 15), random.uniform(26, 46));
+    const Vector3d middle = random_direction(random);
+    // Narrow fans as a laser's beam, and any directions.
+    const double width = fan % 2 == 0 ? 0.01 : 1.0;
+    for (int i = 0; i < 11; ++i) {
+      rays.push_back(
+          {p, (middle + width * random_direction(random)).normalized(), random.uniform(1.0, 40.0)});
+    }
+  }
+  rays[5].dir_W.x() = std::nan("");
+  rays[17].max_distance_m = -1.0;
+  for (const SurfaceMask mask : {kAllSurfaces, mask_of(SurfaceClass::kCanopy)}) {
+    std::vector<std::optional<RayHit>> hits(rays.size());
+    const vinerow::test::AllocationCounter counter;
+    scene.cast_rays(rays, hits, mask);
+    EXPECT_EQ(counter.count(), 0u);
+    int met = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const auto alone = scene.cast_ray(rays[i].p_W, rays[i].dir_W, rays[i].max_distance_m, mask);
+      ASSERT_EQ(hits[i].has_value(), alone.has_value()) << i;
+      if (!alone) continue;
+      ++met;
+      EXPECT_EQ(hits[i]->distance_m, alone->distance_m);
+      EXPECT_EQ(hits[i]->normal_W, alone->normal_W);
+      EXPECT_EQ(hits[i]->surface, alone->surface);
+      EXPECT_EQ(hits[i]->mesh, alone->mesh);
+    }
+    EXPECT_GT(met, 500);
+  }
+}
+
+TEST(Scene, LightMeetsWhatIsDrawnAndWhatStandsForIt) {
+  const auto ball = test::make_mesh_of(test::make_hills());
+  WorldModel world;
+  const auto add = [&](double z, SurfaceClass surface, bool collides, bool visible, Light light) {
+    MeshInstance instance = test::make_instance("layer", ball, Vector3d(0, 0, z), surface);
+    instance.collides = collides;
+    instance.visible = visible;
+    instance.light = light;
+    world.meshes.push_back(instance);
+  };
+  // From above: what the ray at (1, 1) meets first shows which layers it passes. The hills are some
+  // 30 m high.
+  add(50.0, SurfaceClass::kObstacle, true, false, Light::kAsDrawn);  // a box of collisions
+  add(40.0, SurfaceClass::kCanopy, false, true, Light::kPasses);     // cards of leaves
+  add(30.0, SurfaceClass::kWire, true, true, Light::kAsDrawn);
+  add(20.0, SurfaceClass::kCanopy, true, false, Light::kMeets);  // a hull without leaves
+  add(10.0, SurfaceClass::kObstacle, false, true, Light::kAsDrawn);
+  const PhysicsWorld physics({}, world);
+  const auto first = [](const RayScene& scene, double from_z) {
+    const auto hit = scene.cast_ray({1.0, 1.0, from_z}, -Vector3d::UnitZ(), 500.0);
+    return hit ? hit->mesh : -1;
+  };
+  EXPECT_EQ(first(physics.light_scene(), 130.0), 2);
+  EXPECT_EQ(first(physics.light_scene(), 58.0), 3);
+  EXPECT_EQ(first(physics.light_scene(), 48.0), 4);
+  EXPECT_EQ(first(physics.scene(), 130.0), 0);
+  EXPECT_EQ(first(physics.scene(), 78.0), 3);  // neither cards nor wires
+  EXPECT_EQ(first(physics.scene(), 48.0), -1);
+}
+
 }  // namespace
 }  // namespace vinerow::physics::scene_test

@@ -35,6 +35,8 @@ const std::map<std::string, Digests> kDigests = {
      {"5804eb1387bb68921bf591c84af7d77a", "89d0d92229b3f572d1a3364089b013d2"}},
     {"LaserScan",
      {"71d1d3beca374c24df04887955cba02b", "7b9da5773057fbc69a2277707016b54b"}},
+    {"PointCloud",
+     {"22bc2ac365bec16e2bbdfd815a2b6717", "8f4eeb1dd10b94be2fdd8ec677cce495"}},
     {"PositionEllipsoid",
      {"ac9ee19863a37d86c05c93ca87149f4b", "5f9ca171cd65973a6dfce8eb15a9bc31"}},
     {"GnssHeading",

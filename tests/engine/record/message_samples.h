@@ -74,6 +74,13 @@ template <class T>
 void fill(RandomStream& random, T& value) {
   const auto size = static_cast<std::size_t>(random.next_u64() % 7);
   if constexpr (std::is_same_v<T, LaserScan>) value.ranges_m.resize(size);
+  if constexpr (std::is_same_v<T, PointCloud>) {
+    for (auto* list : {&value.x, &value.y, &value.z, &value.intensity, &value.time_s}) {
+      list->resize(size);
+    }
+    value.ring.resize(size);
+    value.return_number.resize(size);
+  }
   if constexpr (std::is_same_v<T, NamedValues>) {
     value.names.resize(size);
     value.values.resize(size);

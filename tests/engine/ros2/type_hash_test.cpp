@@ -58,6 +58,9 @@ TEST(TypeHash, MatchesHashesOfRosZ) {
 // Sources: zenoh-plugin-ros2dds (ParticipantEntitiesInfo, Iron and Jazzy); liveliness tokens of
 // rmw_zenoh_cpp (Log); CARLA's ROS 2 publishers (Clock, captured with `ros2 topic info -v`).
 TEST(TypeHash, MatchesHashesSeenOnTheWire) {
+  // rcl, test_type_hash.cpp.
+  EXPECT_EQ(hash_of("sensor_msgs/msg/PointCloud2"),
+            "RIHS01_9198cabf7da3796ae6fe19c4cb3bdd3525492988c70522628af5daa124bae2b5");
   EXPECT_EQ(message_type_hash(kDiscoveryType, discovery_definition()),
             "RIHS01_91a0593bacdcc50ea9bdcf849a938b128412cc1ea821245c663bcd26f83c295e");
   EXPECT_EQ(hash_of("rcl_interfaces/msg/Log"),

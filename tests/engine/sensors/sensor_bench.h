@@ -59,6 +59,7 @@ struct SensorBench {
     result.seed = seed;
     result.period = period_of_rate(rate_Hz);
     result.scene = &scene;
+    result.light = [this]() -> const RayScene& { return scene; };
     result.world = &world;
     result.vehicle_truth = &vehicle;
     return result;

@@ -1,0 +1,303 @@
+#include "engine/sensors/lidar_3d.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "engine/api/messages/sensors.h"
+#include "engine/core/constants.h"
+#include "engine/core/error.h"
+#include "engine/math/angles.h"
+#include "engine/sensors/laser_optics.h"
+#include "engine/sensors/mounted_sensor.h"
+#include "engine/sensors/scan_pattern.h"
+
+namespace vinerow::sensors {
+namespace {
+
+constexpr int kMaxSubRays3d = 19;
+
+enum class Returns { kStrongest, kLast, kDual };
+
+struct Lidar3dParams {
+  ScanPatternParams pattern;
+  int slices = 20;
+  LaserRanging ranging{
+      .min_range_m = 0.5, .max_range_m = 100.0, .noise_std_m = 0.02, .dark_range_m = 40.0};
+  double divergence_rad = 0.0;
+  int sub_rays = 1;
+  double pulse_m = 0.75;
+  Returns returns = Returns::kStrongest;
+};
+
+const ParameterTable<Lidar3dParams>& lidar_3d_table() {
+  using P = Lidar3dParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .include(&P::pattern, scan_pattern_table())
+          .integer("slices", &P::slices, between(1, 1000),
+                   "times in a period at which its pose is taken; in between it moves evenly")
+          .include(&P::ranging, laser_ranging_table())
+          .degrees("divergence_deg", &P::divergence_rad, between(0.0, 5.0), "full width of a beam")
+          .integer("sub_rays", &P::sub_rays, between(1, kMaxSubRays3d),
+                   "rays of a beam: the middle, and the others on a circle about it")
+          .number("pulse_m", "m", &P::pulse_m, kPositive,
+                  "surfaces of a beam closer together than this make one echo")
+          .choice("returns", &P::returns,
+                  {{"strongest", Returns::kStrongest},
+                   {"last", Returns::kLast},
+                   {"dual", Returns::kDual}},
+                  "echoes of a pulse that are reported");
+  return table;
+}
+
+struct Echo3d {
+  double distance_m = 0.0;
+  double power = 0.0;
+};
+
+class Lidar3d final : public MountedSensor<PointCloud> {
+ public:
+  Lidar3d(const ParameterSet& parameters, const SensorContext& context)
+      : Lidar3d(lidar_3d_table().read(parameters, context.part), parameters, context) {}
+  Lidar3d(const Lidar3dParams& params, const ParameterSet& parameters, const SensorContext& context)
+      : MountedSensor(parameters, context),
+        params_(params),
+        light_(&context.light()),
+        period_(context.period),
+        sampling_{context.period.ns / params.slices},
+        pattern_(make_scan_pattern(params.pattern, context.period.s())),
+        optics_(params.ranging, draw_offset_m(params.ranging, context)),
+        random_(context.random()) {
+    const bool divides = sampling_.ns * params.slices == period_.ns;
+    const bool fits = context.physics_step.ns <= 0 ||
+                      (sampling_.ns > 0 && sampling_.ns % context.physics_step.ns == 0);
+    if (!divides || !fits) {
+      throw ConfigError(fmt::format(
+          "{}: slices = {} cut its period of {:g} s into {:g} s, must be a multiple of the physics "
+          "step of {:g} s",
+          context.part, params.slices, period_.s(), period_.s() / params.slices,
+          context.physics_step.s()));
+    }
+    for (int ray = 1; ray < params.sub_rays; ++ray) {
+      // Half of the beam's area lies inside of this circle.
+      constexpr double kHalfArea = 0.7;
+      const double width = std::tan(0.5 * params.divergence_rad) * kHalfArea;
+      const double angle = 2.0 * kPi * (ray - 1) / (params.sub_rays - 1);
+      asides_.emplace_back(width * std::cos(angle), width * std::sin(angle));
+      aside_scale_ = 1.0 / std::sqrt(1.0 + width * width);
+    }
+    // As large as a frame can be, so that none allocates memory.
+    const std::size_t pulses = pattern_->pulses(0).size();
+    rays_.reserve(pulses * static_cast<std::size_t>(params.sub_rays));
+    hits_.reserve(rays_.capacity());
+    order_.reserve(pulses);
+    first_ray_.reserve(pulses);
+    resize(cloud_, params.returns == Returns::kDual ? 2 * pulses : pulses);
+    resize(true_cloud_, pulses);
+    readings_.prefill(cloud_);
+    resize(cloud_, 0);
+    resize(true_cloud_, 0);
+  }
+
+  Duration sampling() const override { return sampling_; }
+
+  void sample(Time now) override {
+    const Pose X_WS_now = X_WS();
+    if (begin_) cast_until(now, X_WS_now);
+    last_ = now;
+    last_X_WS_ = X_WS_now;
+    if (!begin_) begin_frame(now);
+  }
+
+  void step(Time now) override {
+    if (readings_.is_in_outage(now)) resize(cloud_, 0);
+    readings_.push(now, cloud_, true_cloud_);
+    ++frame_;
+    begin_frame(now);
+  }
+
+ private:
+  static void resize(PointCloud& cloud, std::size_t count) {
+    for (std::vector<float>* list :
+         {&cloud.x, &cloud.y, &cloud.z, &cloud.intensity, &cloud.time_s}) {
+      list->resize(count);
+    }
+    cloud.ring.resize(count);
+    cloud.return_number.resize(count);
+  }
+
+  void begin_frame(Time now) {
+    begin_ = now;
+    next_pulse_ = 0;
+    pulses_ = pattern_->pulses(frame_);
+    resize(cloud_, 0);
+    resize(true_cloud_, 0);
+  }
+
+  /// Pulses between the last sample and this one.
+  void cast_until(Time now, const Pose& X_WS_now) {
+    const double from_s = (last_ - *begin_).s(), to_s = (now - *begin_).s();
+    const std::size_t first = next_pulse_;
+    // Entries of the rotation matrix change evenly and directions are normalised: for a turn by a
+    // in a slice, directions are off by the order of a^3 / 100.
+    const Eigen::Matrix3d R_last_WS = last_X_WS_.q.toRotationMatrix();
+    const Eigen::Matrix3d R_now_WS = X_WS_now.q.toRotationMatrix();
+    rays_.clear();
+    while (next_pulse_ < pulses_.size() && pulses_[next_pulse_].time_s < to_s) ++next_pulse_;
+    order_.resize(next_pulse_ - first);
+    std::iota(order_.begin(), order_.end(), first);
+    // Ring by ring: a scanner fires its lasers far apart, and rays side by side cost half as much.
+    std::sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
+      return std::pair(pulses_[a].ring, a) < std::pair(pulses_[b].ring, b);
+    });
+    first_ray_.resize(order_.size());
+    for (const std::size_t number : order_) {
+      const LaserPulse& pulse = pulses_[number];
+      const double share = (pulse.time_s - from_s) / (to_s - from_s);
+      const Eigen::Vector3d p_W = last_X_WS_.p + share * (X_WS_now.p - last_X_WS_.p);
+      const Eigen::Matrix3d R_WS = R_last_WS + share * (R_now_WS - R_last_WS);
+      first_ray_[number - first] = rays_.size();
+      add_rays(pulse, p_W, R_WS);
+    }
+    hits_.resize(rays_.size());
+    light_->cast_rays(rays_, hits_);
+    for (std::size_t number = first; number < next_pulse_; ++number) {
+      receive(pulses_[number], first_ray_[number - first]);
+    }
+  }
+
+  /// The middle of a beam, and rays on a circle about it.
+  void add_rays(const LaserPulse& pulse, const Eigen::Vector3d& p_W, const Eigen::Matrix3d& R_WS) {
+    const Eigen::Vector3d dir_W = (R_WS * pulse.dir_S).normalized();
+    rays_.push_back({p_W, dir_W, params_.ranging.max_range_m});
+    if (asides_.empty()) return;
+    const Eigen::Vector3d u_W = dir_W.unitOrthogonal(), v_W = dir_W.cross(u_W);
+    for (const Eigen::Vector2d& aside : asides_) {
+      rays_.push_back({p_W, (dir_W + aside.x() * u_W + aside.y() * v_W) * aside_scale_,
+                       params_.ranging.max_range_m});
+    }
+  }
+
+  /// @param first  number of the beam's middle among the rays
+  void receive(const LaserPulse& pulse, std::size_t first) {
+    // Always draw the same count for a pulse, so that later readings do not depend on what it
+    // detects.
+    const double luck_of_strongest = random_.uniform(), luck_of_last = random_.uniform();
+    const double noise = random_.normal();
+    const double second_noise = params_.returns == Returns::kDual ? random_.normal() : noise;
+    const bool is_lost = random_.uniform() < params_.ranging.beam_dropout_share;
+    const int count = find_echoes(pulse, first);
+    if (is_lost || count == 0) return;
+    const Echo3d* const strongest =
+        std::max_element(echoes_.begin(), echoes_.begin() + count,
+                         [](const Echo3d& a, const Echo3d& b) { return a.power < b.power; });
+    const Echo3d* last = &echoes_[count - 1];
+    const auto is_detected = [](const Echo3d& echo, double chance) {
+      return chance < LaserOptics::detection_probability(echo.power);
+    };
+    const bool has_strongest = is_detected(*strongest, luck_of_strongest);
+    // A last echo that is too weak leaves the strongest one as the last.
+    if (!is_detected(*last, luck_of_last)) last = strongest;
+    const bool has_last = last == strongest ? has_strongest : true;
+    if (params_.returns != Returns::kLast && has_strongest) report(pulse, *strongest, noise, 1);
+    const bool reports_last = params_.returns == Returns::kLast ||
+                              (params_.returns == Returns::kDual && last != strongest);
+    if (reports_last && has_last) report(pulse, *last, second_noise, 2);
+  }
+
+  void report(const LaserPulse& pulse, const Echo3d& echo, double noise, std::uint8_t number) {
+    const double reading_m = optics_.reading_m(echo.distance_m, noise);
+    if (!std::isfinite(reading_m)) return;
+    const double percent = 100.0 * optics_.apparent_reflectance(echo.power, echo.distance_m);
+    add(cloud_, pulse, reading_m, percent, number);
+  }
+
+  void add(PointCloud& cloud, const LaserPulse& pulse, double range_m, double intensity,
+           std::uint8_t number) const {
+    const Eigen::Vector3d p_S = range_m * pulse.dir_S;
+    cloud.x.push_back(static_cast<float>(p_S.x()));
+    cloud.y.push_back(static_cast<float>(p_S.y()));
+    cloud.z.push_back(static_cast<float>(p_S.z()));
+    cloud.intensity.push_back(static_cast<float>(intensity));
+    cloud.time_s.push_back(static_cast<float>(pulse.time_s - period_.s()));
+    cloud.ring.push_back(pulse.ring);
+    cloud.return_number.push_back(number);
+  }
+
+  /// What the rays of a beam meet, in the order of distance. @returns number of echoes
+  int find_echoes(const LaserPulse& pulse, std::size_t first) {
+    struct Met {
+      double distance_m, power;
+    };
+    std::array<Met, kMaxSubRays3d> met;
+    int hits = 0;
+    for (int ray = 0; ray < params_.sub_rays; ++ray) {
+      const std::optional<RayHit>& hit = hits_[first + static_cast<std::size_t>(ray)];
+      if (!hit) continue;
+      const double power = optics_.power(*hit, rays_[first + static_cast<std::size_t>(ray)].dir_W);
+      met[hits++] = {hit->distance_m, power / params_.sub_rays};
+      if (ray > 0) continue;
+      add(true_cloud_, pulse, hit->distance_m,
+          100.0 * optics_.apparent_reflectance(power, hit->distance_m), 1);
+    }
+    std::sort(met.begin(), met.begin() + hits,
+              [](const Met& a, const Met& b) { return a.distance_m < b.distance_m; });
+    int count = 0;
+    for (int i = 0; i < hits;) {
+      Echo3d echo;
+      double weighted_m = 0.0, plain_m = 0.0;
+      const int nearest = i;
+      for (; i < hits && met[i].distance_m <= met[nearest].distance_m + params_.pulse_m; ++i) {
+        echo.power += met[i].power;
+        weighted_m += met[i].power * met[i].distance_m;
+        plain_m += met[i].distance_m;
+      }
+      echo.distance_m = echo.power > 0.0 ? weighted_m / echo.power : plain_m / (i - nearest);
+      echoes_[count++] = echo;
+    }
+    return count;
+  }
+
+  Lidar3dParams params_;
+  const RayScene* light_;
+  Duration period_, sampling_;
+  std::unique_ptr<ScanPattern> pattern_;
+  LaserOptics optics_;
+  RandomStream random_;
+  std::uint64_t frame_ = 0;
+  std::optional<Time> begin_;  ///< of the frame
+  std::span<const LaserPulse> pulses_;
+  std::size_t next_pulse_ = 0;
+  Time last_;  ///< of the last sample
+  Pose last_X_WS_;
+  std::vector<Eigen::Vector2d> asides_;  ///< of the rays on the circle, per length
+  double aside_scale_ = 1.0;             ///< makes their directions unit vectors
+  std::vector<SceneRay> rays_;           ///< of a slice
+  std::vector<std::optional<RayHit>> hits_;
+  std::vector<std::size_t> order_;      ///< in which the pulses of a slice are cast
+  std::vector<std::size_t> first_ray_;  ///< of each pulse of a slice: the beam's middle
+  std::array<Echo3d, kMaxSubRays3d> echoes_;
+  PointCloud cloud_, true_cloud_;
+};
+
+}  // namespace
+
+PartSpec lidar_3d_spec() {
+  return mounted_sensor_spec<PointCloud>(
+      "lidar_3d",
+      "3D laser scanner: points of each frame with time, ring and intensity; it moves while it "
+      "turns, and its beams look through leaves",
+      10.0, lidar_3d_table().specs());
+}
+
+std::unique_ptr<Sensor> make_lidar_3d(const ParameterSet& parameters,
+                                      const SensorContext& context) {
+  return std::make_unique<Lidar3d>(parameters, context);
+}
+
+}  // namespace vinerow::sensors

@@ -1,0 +1,231 @@
+#include "engine/sensors/lidar_3d.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "engine/api/messages/sensors.h"
+#include "engine/math/angles.h"
+#include "tests/engine/sensors/scan_bench.h"
+#include "tests/support/no_alloc.h"
+#include "tests/support/plain_scene.h"
+
+namespace vinerow::sensors::lidar_3d_test {
+namespace {
+
+using test::PlainScene;
+using test::SensorValues;
+using Bench = test::ScanBench<PointCloud>;
+
+Eigen::Vector3d point(const PointCloud& cloud, std::size_t i) {
+  return {cloud.x[i], cloud.y[i], cloud.z[i]};
+}
+
+/// Ideal readings of the default scanner.
+SensorValues ideal(SensorValues more = {}) {
+  SensorValues values = {{"noise_std_m", 0.0}, {"dark_range_m", 1e6}};
+  values.insert(values.end(), more.begin(), more.end());
+  return values;
+}
+
+Bench make(const SensorValues& values, const PlainScene& scene, std::uint64_t seed = 1) {
+  return Bench("lidar_3d", test::sensor_parameters("lidar_3d", values), scene, 10.0, seed);
+}
+
+TEST(Lidar3d, EveryPointLiesOnTheWallsOfARoom) {
+  // Walls x = +-8, y = +-5, ground z = -1 in S: closed form for each direction.
+  PlainScene room{test::GroundPlane{}};
+  for (const double side : {-1.0, 1.0}) {
+    room.panels.push_back({{8.0 * side, 0, 0}, {-side, 0, 0}, SurfaceClass::kObstacle});
+    room.panels.push_back({{0, 5.0 * side, 0}, {0, -side, 0}, SurfaceClass::kObstacle});
+  }
+  Bench bench = make(ideal(), room);
+  bench.move([](double) {
+    Pose pose;
+    pose.p.z() = 1.0;
+    return pose;
+  });
+  bench.step();
+  const PointCloud& cloud = bench.step();
+  ASSERT_EQ(cloud.x.size(), 28'800u);
+  for (std::size_t i = 0; i < cloud.x.size(); ++i) {
+    const Eigen::Vector3d p = point(cloud, i);
+    const double gap = std::min({8.0 - std::abs(p.x()), 5.0 - std::abs(p.y()), p.z() + 1.0});
+    ASSERT_NEAR(gap, 0.0, 1e-5) << p.transpose();
+    EXPECT_GT(cloud.time_s[i], -0.1001F);
+    EXPECT_LE(cloud.time_s[i], 0.0F);
+    EXPECT_EQ(cloud.return_number[i], 1);
+  }
+  EXPECT_EQ(bench.truth().x, cloud.x);
+}
+
+TEST(Lidar3d, AMovingScannerSkewsTheWallByItsTimes) {
+  // Towards a wall at 30 m with 10 m/s while it turns left at 1 rad/s: with the pose at each
+  // point's own instant, every point is back on the wall.
+  PlainScene scene;
+  scene.panels.push_back({{30, 0, 0}, {-1, 0, 0}, SurfaceClass::kObstacle});
+  Bench bench = make(ideal({{"slices", std::int64_t{50}}}), scene);
+  const auto way = [](double time_s) {
+    Pose pose;
+    pose.p.x() = 10.0 * time_s;
+    pose.q = Eigen::AngleAxisd(time_s, Eigen::Vector3d::UnitZ());
+    return pose;
+  };
+  bench.move(way);
+  bench.step();
+  const PointCloud& cloud = bench.step();
+  ASSERT_GT(cloud.x.size(), 10'000u);
+  double skew_m = 0.0;
+  for (std::size_t i = 0; i < cloud.x.size(); ++i) {
+    const double time_s = bench.last().s() + cloud.time_s[i];
+    EXPECT_NEAR((way(time_s) * point(cloud, i)).x(), 30.0, 1e-3);
+    // Taken as one instant, the wall would be bent.
+    skew_m = std::max(skew_m, std::abs((way(bench.last().s()) * point(cloud, i)).x() - 30.0));
+  }
+  EXPECT_GT(skew_m, 1.0);
+}
+
+TEST(Lidar3d, ReportsTheStrongestAndTheLastEcho) {
+  // A leaf covers the beam's middle and one of four rays about it, a post stands 3 m behind.
+  PlainScene scene;
+  scene.panels.push_back({{5, 0.25, 0}, {-1, 0, 0}, SurfaceClass::kCanopy, 0.2503, 0.0001});
+  scene.panels.push_back({{8, 0, 0}, {-1, 0, 0}, SurfaceClass::kPost});
+  // One pulse straight ahead in a frame.
+  const auto beam = [&](const char* returns) {
+    return ideal({{"elevations_deg", std::vector<double>{0.0}},
+                  {"columns", std::int64_t{2}},
+                  {"field_of_view_deg", 10.0},
+                  {"divergence_deg", 0.2},
+                  {"sub_rays", std::int64_t{5}},
+                  {"returns", std::string(returns)}});
+  };
+  Bench dual = make(beam("dual"), scene);
+  dual.step();
+  const PointCloud& both = dual.step();
+  ASSERT_EQ(both.x.size(), 2u);
+  const bool leaf_first = both.x[0] < 6.0F;
+  EXPECT_NEAR(both.x[leaf_first ? 0 : 1], 5.0, 1e-4);
+  EXPECT_NEAR(both.x[leaf_first ? 1 : 0], 8.0, 1e-4);
+  EXPECT_EQ(both.return_number[0], 1);
+  EXPECT_EQ(both.return_number[1], 2);
+  Bench last = make(beam("last"), scene);
+  last.step();
+  EXPECT_NEAR(last.step().x.at(0), 8.0, 1e-4);
+}
+
+TEST(Lidar3d, IntensityIsTheReflectanceInPercent) {
+  PlainScene scene;
+  scene.panels.push_back({{10, 0, 0}, {-1, 0, 0}, SurfaceClass::kPost});
+  Bench bench = make({{"noise_std_m", 0.0}, {"stem_reflectance", 0.35}}, scene);
+  bench.step();
+  const PointCloud& cloud = bench.step();
+  for (std::size_t i = 0; i < cloud.x.size(); ++i) {
+    const Eigen::Vector3d p = point(cloud, i);
+    EXPECT_NEAR(cloud.intensity[i], 35.0 * p.x() / p.norm(), 0.01);
+  }
+}
+
+TEST(Lidar3d, LosesDarkSurfacesWhereItsDataSheetDoes) {
+  // 10 % at the dark range: nine in ten are detected.
+  PlainScene scene;
+  scene.panels.push_back({{40, 0, 0}, {-1, 0, 0}, SurfaceClass::kPost});
+  Bench bench = make({{"stem_reflectance", 0.1},
+                      {"elevations_deg", std::vector<double>{0.0}},
+                      {"columns", std::int64_t{100'000}},
+                      {"field_of_view_deg", 5.0}},
+                     scene);
+  bench.step();
+  std::size_t seen = 0, sent = 0;
+  for (int frame = 0; frame < 15; ++frame) {
+    seen += bench.step().x.size();
+    sent += bench.truth().x.size();
+  }
+  const double share = static_cast<double>(seen) / static_cast<double>(sent);
+  EXPECT_NEAR(share, 0.9, 5.0 * 0.3 / std::sqrt(static_cast<double>(sent)) + 0.002);
+}
+
+TEST(Lidar3d, NoiseIsThatOfItsDataSheet) {
+  PlainScene scene;
+  scene.panels.push_back({{20, 0, 0}, {-1, 0, 0}, SurfaceClass::kPost});
+  Bench bench(test::data_sheet("os1_64", {{"field_of_view_deg", 20.0}}), scene);
+  bench.step();
+  double squares = 0.0;
+  std::size_t count = 0;
+  for (int frame = 0; frame < 4; ++frame) {
+    const PointCloud& cloud = bench.step();
+    for (std::size_t i = 0; i < cloud.x.size(); ++i) {
+      const Eigen::Vector3d p = point(cloud, i);
+      const double error = p.norm() - 20.0 * p.norm() / p.x();
+      squares += error * error;
+      ++count;
+    }
+  }
+  ASSERT_GT(count, 5000u);
+  // 1.5 cm and 0.5 mm a metre at a little more than 20 m.
+  EXPECT_NEAR(std::sqrt(squares / static_cast<double>(count)), 0.0252, 0.002);
+}
+
+TEST(Lidar3d, DataSheetsHaveTheirPoints) {
+  PlainScene room;
+  for (const double side : {-1.0, 1.0}) {
+    room.panels.push_back({{4.0 * side, 0, 0}, {-side, 0, 0}, SurfaceClass::kObstacle});
+    room.panels.push_back({{0, 4.0 * side, 0}, {0, -side, 0}, SurfaceClass::kObstacle});
+  }
+  const auto points = [&](const char* sheet) {
+    Bench bench(test::data_sheet(sheet, {{"beam_dropout_share", 0.0}}), room);
+    bench.step();
+    return bench.step().x.size();
+  };
+  EXPECT_EQ(points("vlp16"), 28'800u);   // 288,000 a second of the 300,000 that the maker states
+  EXPECT_EQ(points("os1_64"), 65'536u);  // 655,360 at 10 Hz
+  EXPECT_EQ(points("mid360"), 20'000u);
+}
+
+TEST(Lidar3d, WhatIsSeenShiftsNoRandomNumber) {
+  PlainScene first, second;
+  first.panels.push_back({{10, 0, 0}, {-1, 0, 0}, SurfaceClass::kPost});
+  const SensorValues values = {{"beam_dropout_share", 0.1}};
+  Bench a = make(values, first), b = make(values, second);
+  for (int i = 0; i < 5; ++i) a.step(), b.step();
+  second = first;
+  b.step(), a.step();
+  EXPECT_EQ(a.step().x, b.step().x);
+  Bench other = make(values, first, 2);
+  for (int i = 0; i < 6; ++i) other.step();
+  EXPECT_NE(other.step().x, a.step().x);
+}
+
+TEST(Lidar3d, AFrameAllocatesNothing) {
+  PlainScene scene;
+  scene.panels.push_back({{10, 0, 0}, {-1, 0, 0}, SurfaceClass::kPost});
+  Bench bench = make({}, scene);
+  bench.step(), bench.step();
+  const test::AllocationCounter counter;
+  bench.step();
+  EXPECT_EQ(counter.count(), 0u);
+}
+
+TEST(Lidar3d, RefusesBadInputInOneSentence) {
+  const PlainScene scene;
+  const auto error_of = [&](const SensorValues& values) {
+    return test::refusal_of([&] { make(values, scene); });
+  };
+  EXPECT_EQ(error_of({{"elevations_deg", std::vector<double>{}}}),
+            "rover.sensors.s: elevations_deg has no laser");
+  EXPECT_EQ(error_of({{"azimuth_offsets_deg", std::vector<double>{1.0}}}),
+            "rover.sensors.s: azimuth_offsets_deg has 1 numbers, elevations_deg 16: one for each "
+            "laser");
+  EXPECT_EQ(error_of({{"columns", std::int64_t{100'000}},
+                      {"elevations_deg", std::vector<double>(64, 0.0)}}),
+            "rover.sensors.s: 64 lasers and columns = 100000 make 6400000 pulses a turn, must be "
+            "at most 2000000");
+  EXPECT_EQ(
+      error_of({{"slices", std::int64_t{7}}}),
+      "rover.sensors.s: slices = 7 cut its period of 0.1 s into 0.0142857 s, must be a multiple of "
+      "the physics step of 0.001 s");
+  EXPECT_EQ(error_of({{"min_range_m", 120.0}}),
+            "rover.sensors.s: min_range_m = 120 m, must be < max_range_m = 100 m");
+}
+
+}  // namespace
+}  // namespace vinerow::sensors::lidar_3d_test

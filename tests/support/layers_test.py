@@ -14,7 +14,7 @@ RENDER, RECORD, METRICS = "engine/render", "engine/record", "engine/metrics"
 SIM, PLAYBACK, RUN = "engine/sim", "engine/playback", "engine/run"
 ROS2, LIVE, MAVLINK = "engine/ros2", "engine/live", "engine/mavlink"
 FILES, GEO, CLOUDS = "engine/io/files", "engine/io/geo", "engine/io/clouds"
-VEHICLE_PARTS, WORLD_PARTS = "vehicles/parts", "worlds/parts"
+VEHICLE_PARTS, WORLD_PARTS, PLANTS = "vehicles/parts", "worlds/parts", "worlds/plants"
 SOLVERS, PATHS = "controllers/parts/solvers", "controllers/parts/paths"
 CONTROLLER_PARTS = ["controllers/parts"]
 FIRMWARE = "controllers/autopilot/firmware"
@@ -55,8 +55,9 @@ ALLOWED = {
     VEHICLE_PARTS: BASE + [PHYSICS],
     "vehicles/payloads": BASE + [VEHICLE_PARTS],
     # One folder for each world.
-    "worlds": BASE + [PHYSICS, IO, WORLD_PARTS, MAPPING],
+    "worlds": BASE + [PHYSICS, IO, WORLD_PARTS, PLANTS, MAPPING],
     WORLD_PARTS: BASE + [IO, MODEL],
+    PLANTS: BASE + [WORLD_PARTS, MODEL],
     MODEL: BASE,
     READING: BASE + [IO, MODEL],
     ROWS: BASE + [MODEL],

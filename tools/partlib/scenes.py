@@ -54,6 +54,27 @@ pictures: {{width: 960, height: 540, shares: [1.0], cameras: {{view: {camera}, k
     runs.save(figure, "worlds", colours=224, dpi=110)
 
 
+def draw_seasons(runs: Runs) -> None:
+    """Rows of Nebbiolo from winter to leaf fall."""
+    stages = {0: "pruned (0)", 15: "five leaves (15)", 57: "before flowering (57)", 75: "pea-sized berries (75)", 84: "ripening (84)",
+              94: "leaf fall (94)"}
+    figure, axes = panels(2, 3, width=9.0, height=2.25)
+    for ax, (stage, title) in zip(axes, stages.items()):
+        run = runs.run(f"season_{stage}", f"""
+vinerow: 1
+name: season_{stage}
+duration_s: 0.1
+world: {{type: vineyard, row_count: 3, row_length_m: 24, relief_m: 0, waves_m: 0.1, centre_x_m: 0, centre_y_m: 0, row_bearing_deg: 90,
+  missing_vine_share: 0, sun_azimuth_deg: 160, sun_elevation_deg: 38, vines: {{include: {ASSETS}/vines/nebbiolo.yaml, bbch: {stage}}}}}
+vehicles: {{}}
+pictures: {{width: 960, height: 720, shares: [1.0], cameras: {{view: {{kind: fixed, position_m: [-2.6, -4.6, 1.5], look_at_m: [0.4, -2.5, 1.05], fov_deg: 46}}}}}}
+""", pictures=True)
+        ax.imshow(runs.frame(run, "view", 640))
+        ax.set_title(title)
+        bare(ax)
+    runs.save(figure, "seasons", colours=224, dpi=110)
+
+
 def draw_vehicles(runs: Runs) -> None:
     robot = LISTING.search((ROOT / "docs/tutorial/3_your_robot.md").read_text()).group(1)
     cases = {

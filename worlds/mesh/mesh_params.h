@@ -14,7 +14,7 @@
 #include "worlds/mapping/from_truth/map_parameters.h"
 #include "worlds/parts/common.h"
 #include "worlds/parts/terrain.h"
-#include "worlds/parts/vine_rows.h"
+#include "worlds/plants/vine_rows.h"
 
 namespace vinerow::worlds {
 

@@ -271,7 +271,8 @@ void add_rows(WorldModel& world, const std::vector<mapping::RowCurve>& rows, boo
 
 std::unique_ptr<WorldModel> make_mesh_world(const ParameterSet& parameters,
                                             const WorldContext& context) {
-  const MeshWorldParams params = mesh_world_table().read(parameters, "");
+  MeshWorldParams params = mesh_world_table().read(parameters, "");
+  params.planting = settle_growth(std::move(params.planting));
   if (params.items.empty() && params.sdf_file.empty()) {
     throw ConfigError("mesh: nothing to load, give items (mesh files) or sdf_file");
   }

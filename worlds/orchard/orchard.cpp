@@ -15,7 +15,7 @@
 #include "worlds/parts/common.h"
 #include "worlds/parts/obstacles.h"
 #include "worlds/parts/terrain.h"
-#include "worlds/parts/trees.h"
+#include "worlds/plants/trees.h"
 
 namespace vinerow::worlds {
 namespace {
@@ -67,6 +67,8 @@ const ParameterTable<OrchardParams>& orchard_table() {
                   "radius of tree stems")
           .number("leaf_cards_per_tree", "", inside(&P::trees, &Trees::leaf_cards),
                   between(20.0, 10000.0), "leaves drawn per tree at close range")
+          .group("leaves", inside(&P::trees, &Trees::leaves), tree_leaves_table(),
+                 "leaves and fruit one by one; absent: cards of leaves")
           .integer("plant_seed", inside(&P::trees, &Trees::seed), between(0, 9e15),
                    "seed of trees and ground, apart from the run's seed")
           .include(&P::slope, slope_table())

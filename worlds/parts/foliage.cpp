@@ -9,12 +9,6 @@
 namespace vinerow::worlds {
 namespace {
 
-Eigen::Vector3d random_direction(RandomStream& random) {
-  const double z = random.uniform(-1.0, 1.0), azimuth = random.uniform(0.0, 2.0 * kPi);
-  const double r = std::sqrt(1.0 - z * z);
-  return {r * std::cos(azimuth), r * std::sin(azimuth), z};
-}
-
 /// A leaf at a point of the crown.
 /// @param outward  unit, away from the crown's middle
 /// @param depth    0 at the surface, 1 in the middle

@@ -1,12 +1,20 @@
 #include "worlds/parts/primitives.h"
 
+#include <array>
 #include <cmath>
 
 #include "engine/api/mesh.h"
 #include "engine/core/check.h"
+#include "engine/core/random.h"
 #include "engine/math/angles.h"
 
 namespace vinerow::worlds {
+
+Eigen::Vector3d random_direction(RandomStream& random) {
+  const double z = random.uniform(-1.0, 1.0), azimuth = random.uniform(0.0, 2.0 * kPi);
+  const double r = std::sqrt(1.0 - z * z);
+  return {r * std::cos(azimuth), r * std::sin(azimuth), z};
+}
 
 Eigen::Vector3d any_orthogonal(const Eigen::Vector3d& unit) {
   const Eigen::Vector3d helper =
@@ -61,6 +69,30 @@ void append_tube(TriangleMesh& mesh, std::span<const TubePoint> points, int side
   };
   cap(0, false);
   cap(rings - 1, true);
+}
+
+void append_sphere(TriangleMesh& mesh, const Eigen::Vector3d& centre, double radius_m,
+                   const Eigen::Vector3f& colour) {
+  static const double kPhi = (1.0 + std::sqrt(5.0)) / 2.0;
+  static const std::array<Eigen::Vector3d, 12> kCorners = {
+      Eigen::Vector3d(-1, kPhi, 0),  Eigen::Vector3d(1, kPhi, 0),   Eigen::Vector3d(-1, -kPhi, 0),
+      Eigen::Vector3d(1, -kPhi, 0),  Eigen::Vector3d(0, -1, kPhi),  Eigen::Vector3d(0, 1, kPhi),
+      Eigen::Vector3d(0, -1, -kPhi), Eigen::Vector3d(0, 1, -kPhi),  Eigen::Vector3d(kPhi, 0, -1),
+      Eigen::Vector3d(kPhi, 0, 1),   Eigen::Vector3d(-kPhi, 0, -1), Eigen::Vector3d(-kPhi, 0, 1)};
+  static constexpr std::uint8_t kFaces[20][3] = {
+      {0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+      {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+      {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (const Eigen::Vector3d& corner : kCorners) {
+    const Eigen::Vector3d out = corner.normalized();
+    mesh.vertices.push_back((centre + radius_m * out).cast<float>());
+    mesh.normals.push_back(out.cast<float>());
+    mesh.colours.push_back(colour);
+  }
+  for (const auto& face : kFaces) {
+    mesh.triangles.push_back({first + face[0], first + face[1], first + face[2]});
+  }
 }
 
 void append_card(TriangleMesh& mesh, const LeafCard& card) {

@@ -25,6 +25,10 @@ struct TubePoint {
 void append_tube(TriangleMesh& mesh, std::span<const TubePoint> points, int sides,
                  const Eigen::Vector3f& colour);
 
+/// Appends a sphere of 20 faces with normals and colours.
+void append_sphere(TriangleMesh& mesh, const Eigen::Vector3d& centre, double radius_m,
+                   const Eigen::Vector3f& colour);
+
 /// Flat quad of two triangles with a leaf texture.
 struct LeafCard {
   Eigen::Vector3d stem;    ///< middle of the lower edge (uv 0.5, 0)
@@ -36,6 +40,9 @@ struct LeafCard {
 
 /// Appends uv in [0, 1]^2, v from stem to tip.
 void append_card(TriangleMesh& mesh, const LeafCard& card);
+
+/// Unit vector, any direction alike.
+Eigen::Vector3d random_direction(RandomStream& random);
 
 /// Unit vector perpendicular to a unit vector.
 Eigen::Vector3d any_orthogonal(const Eigen::Vector3d& unit);

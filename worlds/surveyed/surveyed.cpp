@@ -21,7 +21,7 @@
 #include "worlds/parts/common.h"
 #include "worlds/parts/obstacles.h"
 #include "worlds/parts/terrain.h"
-#include "worlds/parts/vine_rows.h"
+#include "worlds/plants/vine_rows.h"
 
 namespace vinerow::worlds {
 namespace {
@@ -199,7 +199,7 @@ void append_points(const std::filesystem::path& file, std::vector<io::GeoFeature
 std::unique_ptr<WorldModel> make_surveyed(const ParameterSet& parameters,
                                           const WorldContext& context) {
   const SurveyedParams params = surveyed_table().read(parameters, "");
-  const VinePlanting& planting = params.planting;
+  const VinePlanting planting = settle_growth(params.planting);
   const std::string file = params.survey_file.string();
   io::SurveyFile survey = io::read_survey(file, params.row_type);
   append_points(params.vines_file, survey.vines);

@@ -194,7 +194,7 @@ std::string mesh_key(const ParameterSet& parameters, double relief_m, const Heig
 std::unique_ptr<WorldModel> make_vineyard(const ParameterSet& parameters,
                                           const WorldContext& context) {
   const VineyardParams params = read_vineyard(parameters);
-  const VinePlanting& planting = params.planting;
+  const VinePlanting planting = settle_growth(params.planting);
   auto world = std::make_unique<WorldModel>();
   world->name = "vineyard";
   world->origin = params.origin;

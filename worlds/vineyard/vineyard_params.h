@@ -11,7 +11,7 @@
 #include "worlds/parts/neighbours.h"
 #include "worlds/parts/obstacles.h"
 #include "worlds/parts/terrain.h"
-#include "worlds/parts/vine_rows.h"
+#include "worlds/plants/vine_rows.h"
 
 namespace vinerow::worlds {
 

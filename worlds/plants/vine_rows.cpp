@@ -1,4 +1,4 @@
-#include "worlds/parts/vine_rows.h"
+#include "worlds/plants/vine_rows.h"
 
 #include <fmt/format.h>
 
@@ -9,6 +9,8 @@
 #include "engine/api/parameter_table.h"
 #include "engine/api/world_model.h"
 #include "worlds/parts/foliage.h"
+#include "worlds/plants/leaf_outline.h"
+#include "worlds/plants/vine_meshes.h"
 
 namespace vinerow::worlds {
 namespace {
@@ -79,19 +81,14 @@ class Planter {
         const std::string chunk_name = fmt::format("{}/chunk_{:02}", row_name, chunk_number++);
         const std::string shape_key = shape_of(chunk, chunk_name);
         stretches.push_back({chunk.start_m, chunk.end_m, &shapes_.at(shape_key)});
-        add_leaves(row, chunk, chunk_name, shape_key);
+        if (planting_.growth) {
+          add_organs(row, chunk, chunk_name, shape_key);
+        } else {
+          add_leaves(row, chunk, chunk_name, shape_key);
+        }
         add_trunks(row, chunk, chunk_name);
       }
-      const std::string name = fmt::format("canopy_hull/{}/run_{}", row_name, run_number++);
-      MeshInstance hull = make_instance(
-          name,
-          store_.get(
-              name,
-              [&] { return make_canopy_hull(row.curve, ground_, stretches, planting_.canopy); }),
-          SurfaceClass::kCanopy);
-      hull.visible = false;
-      hull.light = Light::kMeets;
-      world_.meshes.push_back(std::move(hull));
+      if (planting_.has_leaves) add_hull(row, row_name, run_number++, stretches);
     }
     if (row.post_s_m.size() >= 2) add_posts(row, row_name);
   }
@@ -113,6 +110,54 @@ class Planter {
                                        static_cast<int>(chunk.vine_count), random("shape." + key)));
     }
     return key;
+  }
+
+  void add_hull(const VineRow& row, const std::string& row_name, int number,
+                const std::vector<CanopyStretch>& stretches) {
+    const std::string name = fmt::format("canopy_hull/{}/run_{}", row_name, number);
+    MeshInstance hull = make_instance(
+        name,
+        store_.get(
+            name,
+            [&] { return make_canopy_hull(row.curve, ground_, stretches, planting_.canopy); }),
+        SurfaceClass::kCanopy);
+    hull.visible = false;
+    hull.light = planting_.growth ? Light::kPasses : Light::kMeets;
+    world_.meshes.push_back(std::move(hull));
+  }
+
+  const VineOrgans& organs_of(const std::string& shape_key, const Chunk& chunk) {
+    const auto found = organs_.find(shape_key);
+    if (found != organs_.end()) return found->second;
+    const double length_m = shapes_.at(shape_key).length_m();
+    return organs_
+        .emplace(shape_key, grow_vines(*planting_.growth, planting_.space, length_m,
+                                       static_cast<int>(chunk.vine_count), planting_.seed,
+                                       "world.plants.organs." + shape_key))
+        .first->second;
+  }
+
+  void add_organs(const VineRow& row, const Chunk& chunk, const std::string& chunk_name,
+                  const std::string& shape_key) {
+    const Pose X_WM = mapping::stretch_frame(row.curve, ground_, chunk.start_m, chunk.end_m);
+    const VineOrgans& organs = organs_of(shape_key, chunk);
+    const auto add = [&](const char* what, const auto& list, const auto& make) {
+      if (list.empty()) return;
+      for (int level = 0; level < 3; ++level) {
+        MeshInstance instance =
+            make_instance(fmt::format("{}/{}#lod{}", what, chunk_name, level),
+                          store_.get(fmt::format("{}/{}#lod{}", what, shape_key, level),
+                                     [&] { return make(list, level); }),
+                          SurfaceClass::kCanopy);
+        instance.X_WM = X_WM;
+        instance.collides = false;
+        if (level > 0) instance.light = Light::kPasses;
+        world_.meshes.push_back(std::move(instance));
+      }
+    };
+    add("canopy", organs.leaves, make_leaf_mesh);
+    add("shoots", organs.shoots, make_shoot_mesh);
+    add("bunches", organs.bunches, make_bunch_mesh);
   }
 
   void add_leaves(const VineRow& row, const Chunk& chunk, const std::string& chunk_name,
@@ -176,6 +221,7 @@ class Planter {
   const VinePlanting& planting_;
   MeshStore& store_;
   std::map<std::string, CanopyShape> shapes_;
+  std::map<std::string, VineOrgans> organs_;
 };
 
 }  // namespace
@@ -192,8 +238,45 @@ const ParameterTable<VinePlanting>& planting_table() {
                    "different stretches of foliage that are reused")
           .integer("plant_seed", &P::seed, between(0, 9e15),
                    "seed of plants and ground, apart from the run's seed: the place stays the "
-                   "same");
+                   "same")
+          .group(
+              "vines", &P::growth, growth_table(),
+              "vines that grow organ by organ with the season, within the canopy's width and top; "
+              "absent: cards of leaves, in summer");
   return table;
+}
+
+VinePlanting settle_growth(VinePlanting planting) {
+  if (!planting.growth) return planting;
+  planting.space = {planting.trellis.arm_height_m, planting.canopy.width_m, planting.canopy.top_m};
+  // A stretch that is long enough for percentiles.
+  constexpr double kLength_m = 12.0;
+  constexpr int kVines = 12;
+  const VineOrgans organs = grow_vines(*planting.growth, planting.space, kLength_m, kVines,
+                                       planting.seed, "world.plants.extent");
+  std::vector<double> sides, heights;
+  for (const LeafOrgan& leaf : organs.leaves) {
+    // Half a blade reaches beyond its junction.
+    sides.push_back(std::abs(leaf.junction.y()) +
+                    0.4 * leaf_length_m(LeafKind::kGrapevine, leaf.area_m2));
+    heights.push_back(leaf.junction.z());
+  }
+  planting.has_leaves = heights.size() >= 20;
+  CanopyParams& canopy = planting.canopy;
+  if (!planting.has_leaves) {
+    canopy.width_m = 0.1;
+    canopy.base_m = planting.space.arm_height_m - 0.1;
+    canopy.top_m = std::max(planting.trellis.post_height_m, planting.space.arm_height_m);
+    return planting;
+  }
+  const auto percentile = [](std::vector<double>& values, double share) {
+    std::sort(values.begin(), values.end());
+    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+  };
+  canopy.width_m = std::min(2.0 * percentile(sides, 0.9), planting.space.width_m);
+  canopy.base_m = percentile(heights, 0.03) - 0.05;
+  canopy.top_m = percentile(heights, 0.97) + 0.05;
+  return planting;
 }
 
 double row_end_margin_m(const VinePlanting& planting) {

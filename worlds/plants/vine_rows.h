@@ -4,8 +4,14 @@
 /// Names: "canopy_hull/row_03/run_0" (collides, not drawn), "canopy/row_03/chunk_07#lod0" to
 /// "#lod2" (drawn, one of them by distance), "trunk/row_03/chunk_07#lod0" (collides) and "#lod1",
 /// "post/row_03", "end_post/row_03", "wire/row_03".
+///
+/// Leaves are cards with the picture of a leaf, or organs of VineGrowth: then also
+/// "shoots/row_03/chunk_07#lod0" and "bunches/...", each with its levels, and light meets the
+/// organs instead of the hull. The hull has the extent of the leaves at that stage; without leaves
+/// there is none.
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "engine/api/forward.h"
@@ -13,6 +19,7 @@
 #include "worlds/parts/canopy.h"
 #include "worlds/parts/mesh_store.h"
 #include "worlds/parts/trellis.h"
+#include "worlds/plants/vine_organs.h"
 
 namespace vinerow::worlds {
 
@@ -32,9 +39,16 @@ struct VinePlanting {
   double chunk_m = 7.2;             ///< approximate length of a chunk
   int variants = 6;                 ///< of chunks that are reused
   std::uint64_t seed = 1;
+  std::optional<VineGrowth> growth;  ///< absent: cards of leaves
+  VineSpace space;                   ///< of growing vines; set by settle_growth()
+  bool has_leaves = true;            ///< likewise
 };
 
-/// canopy_table(), trellis_table(), `leaf_cards_per_m`, `plant_variants`, `plant_seed`.
+/// With growing vines, the space for them is that of `canopy`, which becomes the extent of their
+/// leaves: 0.1 m wide from arms to posts without leaves. Call it before the rows are mapped.
+VinePlanting settle_growth(VinePlanting planting);
+
+/// canopy_table(), trellis_table(), `leaf_cards_per_m`, `plant_variants`, `plant_seed`, `vines`.
 const ParameterTable<VinePlanting>& planting_table();
 
 /// Distance by which the map extends a row beyond its ends: half the canopy's width if end posts

@@ -1,4 +1,4 @@
-#include "worlds/parts/trees.h"
+#include "worlds/plants/trees.h"
 
 #include <fmt/format.h>
 
@@ -135,20 +135,27 @@ void plant_tree_row(WorldModel& world, int row_number, const mapping::RowCurve& 
     MeshInstance& hull = add("crown_hull/" + tree, "crown_hull/" + key, SurfaceClass::kCanopy,
                              [&] { return make_crown_hull(crown); });
     hull.visible = false;
-    hull.light = Light::kMeets;
+    hull.light = params.leaves ? Light::kPasses : Light::kMeets;
     add("tree_trunk/" + tree, "tree_trunk/" + key, SurfaceClass::kTrunk,
         [&] { return make_tree_trunk(params, crown, random("tree_trunk." + key)); });
+    const CrownSpace space{crown.centre, crown.half_axes_m};
     for (int level = 0; level < 3; ++level) {
       const std::string mesh_name = fmt::format("crown/{}#lod{}", key, level);
       MeshInstance& leaves =
           add(fmt::format("crown/{}#lod{}", tree, level), mesh_name, SurfaceClass::kCanopy, [&] {
-            return make_crown_foliage(crown.centre, crown.half_axes_m,
-                                      tree_foliage_detail(params.leaf_cards, level),
-                                      random(mesh_name));
+            return params.leaves ? make_tree_leaves(*params.leaves, space, level, random(mesh_name))
+                                 : make_crown_foliage(crown.centre, crown.half_axes_m,
+                                                      tree_foliage_detail(params.leaf_cards, level),
+                                                      random(mesh_name));
           });
-      leaves.material = leaf_material();
       leaves.collides = false;
-      leaves.light = Light::kPasses;
+      if (!params.leaves) leaves.material = leaf_material();
+      if (!params.leaves || level > 0) leaves.light = Light::kPasses;
+    }
+    if (params.leaves && params.leaves->fruits > 0) {
+      add("fruit/" + tree, "fruit/" + key, SurfaceClass::kCanopy, [&] {
+        return make_fruit(*params.leaves, space, random("fruit." + key));
+      }).collides = false;
     }
   }
 }

@@ -1,0 +1,121 @@
+/// Worlds with vines that grow organ by organ: what light meets, the hull, bad input.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "engine/api/map.h"
+#include "engine/core/error.h"
+#include "engine/physics/static_scene.h"
+#include "tests/worlds/world_fixture.h"
+
+namespace vinerow::worlds::vine_world_test {
+namespace {
+
+ParameterSet parameters_at(double bbch) {
+  ParameterSet parameters = test::world_parameters("vineyard");
+  parameters.set("row_count", 3.0).set("row_length_m", 22.0).set("relief_m", 0.0);
+  parameters.set("waves_m", 0.0).set("missing_vine_share", 0.0).set("plant_variants", 2.0);
+  ParameterSet vines = parameters.make_group("vines");
+  vines.set("bbch", bbch);
+  parameters.set("vines", std::vector<ParameterSet>{vines});
+  return parameters;
+}
+
+std::shared_ptr<const WorldModel> world_at(double bbch) {
+  return test::make_world("vineyard", parameters_at(bbch));
+}
+
+int count_named(const WorldModel& world, const std::string& begin) {
+  return static_cast<int>(std::count_if(
+      world.meshes.begin(), world.meshes.end(),
+      [&](const MeshInstance& instance) { return instance.name.rfind(begin, 0) == 0; }));
+}
+
+/// Shares of horizontal rays across the middle row that meet nothing, on its hull and in its
+/// leaves.
+struct Gaps {
+  double hull, light;
+};
+Gaps find_gaps(const std::shared_ptr<const WorldModel>& world) {
+  const physics::StaticScene scene(world);
+  const auto& line = world->rows->rows[1].line_W;
+  const Eigen::Vector3d along = (line.back() - line.front()).normalized();
+  const Eigen::Vector3d across(-along.y(), along.x(), 0.0);
+  int rays = 0, hull = 0, light = 0;
+  for (double s_m = 3.0; s_m < 19.0; s_m += 0.053) {
+    for (double z_m = 0.95; z_m < 1.85; z_m += 0.047) {
+      Eigen::Vector3d p_W = line.front() + s_m * along - across;
+      p_W.z() += z_m;
+      ++rays;
+      hull += scene.queries().cast_ray(p_W, across, 2.0, mask_of(SurfaceClass::kCanopy)) ? 0 : 1;
+      light += scene.light().cast_ray(p_W, across, 2.0, mask_of(SurfaceClass::kCanopy)) ? 0 : 1;
+    }
+  }
+  return {static_cast<double>(hull) / rays, static_cast<double>(light) / rays};
+}
+
+TEST(VineWorld, LightPassesBetweenLeavesWhereTheHullIsClosed) {
+  const Gaps summer = find_gaps(world_at(75));
+  EXPECT_EQ(summer.hull, 0.0);
+  EXPECT_GT(summer.light, 0.15);
+  EXPECT_LT(summer.light, 0.45);
+  std::printf("BBCH 75: %.0f %% of rays pass\n", 100 * summer.light);
+  const Gaps spring = find_gaps(world_at(57));
+  EXPECT_GT(spring.light, summer.light);
+  const Gaps winter = find_gaps(world_at(0));
+  EXPECT_EQ(winter.hull, 1.0);
+  EXPECT_EQ(winter.light, 1.0);
+}
+
+TEST(VineWorld, HullHasTheExtentOfTheLeaves) {
+  double last_top_m = 0.0;
+  for (const double bbch : {15.0, 57.0, 75.0}) {
+    const auto world = world_at(bbch);
+    const PlantRow& row = world->rows->rows[1];
+    EXPECT_GT(row.canopy_top_m, last_top_m) << bbch;
+    EXPECT_LT(row.canopy_top_m, 2.3);
+    EXPECT_GT(row.canopy_base_m, 0.5);
+    last_top_m = row.canopy_top_m;
+    EXPECT_EQ(count_named(*world, "canopy_hull/"), 3);
+    EXPECT_GT(count_named(*world, "shoots/"), 0);
+  }
+  const auto winter = world_at(0);
+  EXPECT_EQ(count_named(*winter, "canopy"), 0);
+  EXPECT_GT(count_named(*winter, "trunk/"), 0);
+  EXPECT_NEAR(winter->rows->rows[1].canopy_width_m, 0.1, 1e-9);
+}
+
+TEST(VineWorld, AnOrganHasOneMeshForLight) {
+  const auto world = world_at(85);
+  for (const char* organ : {"canopy/", "shoots/", "bunches/"}) {
+    int met = 0, levels = 0;
+    for (const MeshInstance& instance : world->meshes) {
+      if (instance.name.rfind(organ, 0) != 0) continue;
+      EXPECT_FALSE(instance.collides) << "vehicles meet the hull";
+      EXPECT_TRUE(instance.visible);
+      met += instance.light == Light::kAsDrawn ? 1 : 0;
+      ++levels;
+    }
+    EXPECT_EQ(levels, 3 * met) << organ;
+    EXPECT_GT(met, 0) << organ;
+  }
+}
+
+TEST(VineWorld, StagesThatDoNotExistAreRefused) {
+  const auto message_at = [](double bbch) -> std::string {
+    try {
+      world_at(bbch);
+    } catch (const ConfigError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(message_at(30.0).find("bbch = 30: grapevines have no stages between 19"),
+            std::string::npos)
+      << message_at(30.0);
+  EXPECT_NE(message_at(120.0).find("bbch"), std::string::npos) << message_at(120.0);
+}
+
+}  // namespace
+}  // namespace vinerow::worlds::vine_world_test

@@ -1,0 +1,313 @@
+#include "worlds/plants/vine_organs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "engine/api/parameter_table.h"
+#include "engine/math/angles.h"
+#include "worlds/plants/leaf_outline.h"
+#include "worlds/plants/vine_shoot.h"
+
+namespace vinerow::worlds {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kTip_m = 0.02;
+constexpr int kFirstBunch = 2;  // the third node
+const Vector3d kUp = Vector3d::UnitZ();
+// Linear RGB.
+const Vector3d kYoungLeaf(0.16, 0.26, 0.05), kOldLeaf(0.055, 0.135, 0.032);
+const Vector3d kYellowLeaf(0.46, 0.32, 0.035), kRedLeaf(0.3, 0.045, 0.03);
+
+/// Random numbers of a node; all are drawn, whatever grows there.
+struct NodeDraws {
+  explicit NodeDraws(RandomStream& random) {
+    for (double& value : normals) value = std::clamp(random.normal(), -2.5, 2.5);
+    for (double& value : uniforms) value = random.uniform();
+  }
+  double normals[18];
+  double uniforms[10];
+};
+
+/// A node that trimming has left.
+struct PlacedNode {
+  Vector3d p;
+  Vector3d dir;  ///< of the shoot below it
+  NodeDraws draws;
+};
+
+/// Share of sums 0.45 a + 0.55 b of two uniform numbers that are below x.
+double share_below(double x) {
+  constexpr double a = 0.45, b = 0.55;
+  if (x <= a) return x * x / (2 * a * b);
+  if (x <= b) return (x - 0.5 * a) / b;
+  return 1.0 - (1.0 - x) * (1.0 - x) / (2 * a * b);
+}
+
+/// Where a shoot starts, and the way it takes.
+struct ShootStart {
+  Vector3d p;
+  Vector3d dir;
+  double side = 1.0;  ///< of a pergola: +1 left, -1 right
+};
+
+class VineGrower {
+ public:
+  VineGrower(const VineGrowth& growth, const VineSpace& space, std::uint64_t seed, std::string name)
+      : growth_(growth),
+        space_(space),
+        stage_(vine_stage(growth.variety, growth.bbch)),
+        seed_(seed),
+        name_(std::move(name)) {}
+
+  void grow(double length_m, int vine_count) {
+    const double spacing_m = length_m / vine_count;
+    for (int vine = 0; vine < vine_count; ++vine) {
+      RandomStream random = stream(fmt::format("vine_{}", vine));
+      const bool is_young = random.uniform() < growth_.young_share;
+      const double own_vigour = 1.0 + 0.5 * growth_.vigour_std * cut(random.normal());
+      const int buds = std::max(1, static_cast<int>(std::lround(growth_.shoots_per_m * spacing_m)));
+      for (int bud = 0; bud < buds; ++bud) {
+        // Always draw: a young vine keeps its neighbours' shoots as they are.
+        // A cordon's shoots grow in pairs from its spurs.
+        const int place = growth_.pruning == Pruning::kCordon ? bud / 2 * 2 : bud;
+        const double along = (vine + (place + random.uniform(0.25, 0.75)) / buds) * spacing_m;
+        const double vigour =
+            own_vigour * std::max(0.3, 1.0 + growth_.vigour_std * cut(random.normal()));
+        const double lean_along = 0.22 * cut(random.normal());
+        const double lean_across = 0.16 * cut(random.normal());
+        const bool has_bud = random.uniform() < 0.95;  // some stay blind
+        if (!has_bud || (is_young && bud != buds / 2)) continue;
+        ShootStart start;
+        start.p = {along, 0.0, space_.arm_height_m + 0.02};
+        start.dir = Vector3d(lean_along, lean_across, 1.0).normalized();
+        start.side = bud % 2 == 0 ? 1.0 : -1.0;
+        if (growth_.pruning == Pruning::kPergola) {
+          start.dir = Vector3d(lean_along, start.side, 0.35 + lean_across).normalized();
+        }
+        grow_shoot_at(start, is_young ? 0.45 * vigour : vigour,
+                      stream(fmt::format("vine_{}.shoot_{}", vine, bud)));
+      }
+    }
+  }
+
+  VineOrgans organs;
+
+ private:
+  static double cut(double normal) { return std::clamp(normal, -2.0, 2.0); }
+  RandomStream stream(const std::string& part) const {
+    return RandomStream(seed_, "", name_ + "." + part);
+  }
+
+  void grow_shoot_at(const ShootStart& start, double vigour, RandomStream random) {
+    if (stage_.is_pruned) return;
+    const std::vector<ShootNode> nodes = grow_shoot(growth_.variety, stage_, vigour);
+    if (nodes.empty()) return;
+    const double plane_rad = 0.5 * kPi + 0.6 * cut(random.normal());  // of its leaves, from x
+    const double top_m = space_.top_m + 0.05 * cut(random.normal());
+    const double bunch_draw = random.uniform();
+    const int bunches = static_cast<int>(growth_.variety.bunches_per_shoot + bunch_draw);
+    ShootOrgan shoot;
+    shoot.points.push_back(start.p);
+    shoot.radius_m =
+        0.0045 * std::sqrt(vigour) * std::clamp(shoot_length_m(nodes) / 1.0, 0.35, 1.0);
+    shoot.is_brown = stage_.are_shoots_brown;
+    Vector3d p = start.p, dir = start.dir;
+    const auto count = static_cast<int>(nodes.size());
+    std::vector<PlacedNode> placed;
+    for (int k = 0; k < count; ++k) {
+      const NodeDraws draws(random);
+      p += nodes[k].internode_m * dir;
+      if (is_beyond(p, top_m)) break;  // trimmed
+      shoot.points.push_back(p);
+      placed.push_back({p, dir, draws});
+      dir = turn(dir, p, start, draws);
+    }
+    for (int k = 0; k < static_cast<int>(placed.size()); ++k) {
+      const double position = (k + 0.5) / static_cast<double>(placed.size());
+      add_leaves(nodes[k], k, count, position, placed[k], plane_rad);
+      const bool bears = stage_.has_bunches && k >= kFirstBunch && k - kFirstBunch < bunches;
+      if (bears) add_bunch(placed[k].p, plane_rad, k, placed[k].draws);
+    }
+    // The tip, whose leaves are not unfolded yet.
+    const bool is_growing = static_cast<int>(shoot.points.size()) == count + 1;
+    if (is_growing) shoot.points.push_back(p + kTip_m * dir);
+    if (shoot.points.size() >= 2) organs.shoots.push_back(std::move(shoot));
+  }
+
+  /// Summer trimming cuts what grows beyond the trellis, from fruit set on.
+  bool is_beyond(const Vector3d& p, double top_m) const {
+    constexpr double kTrimmedFrom = 70.0;
+    if (growth_.bbch < kTrimmedFrom) return p.z() > top_m + 0.5;
+    if (growth_.pruning == Pruning::kPergola) return std::abs(p.y()) > 0.5 * space_.width_m;
+    return p.z() > top_m;
+  }
+
+  /// Shoots grow up and wander; catch wires hold them near the row's plane, those of a pergola lie
+  /// on its roof.
+  Vector3d turn(const Vector3d& dir, const Vector3d& p, const ShootStart& start,
+                const NodeDraws& draws) const {
+    Vector3d next = dir + 0.17 * Vector3d(draws.normals[0], draws.normals[1], 0.0);
+    if (growth_.pruning == Pruning::kPergola) {
+      const double roof_m = space_.top_m - 0.25;
+      next += Vector3d(0.0, 0.25 * start.side, 0.8 * (roof_m - p.z()) - 0.5 * dir.z());
+    } else {
+      const double catch_m = 0.22 * space_.width_m;
+      const double out_m = std::abs(p.y()) - catch_m;
+      next += 0.22 * kUp;
+      if (out_m > 0.0) next.y() -= std::copysign(std::min(0.6, 4.0 * out_m), p.y());
+      // Free tips bend over.
+      if (p.z() > space_.top_m) next.z() -= 1.2 * (p.z() - space_.top_m);
+    }
+    return next.normalized();
+  }
+
+  /// @param count     nodes of the shoot if it were not trimmed
+  /// @param position  of the node in the trimmed shoot, 0 to 1
+  void add_leaves(const ShootNode& node, int k, int count, double position, const PlacedNode& at,
+                  double plane_rad) {
+    const Vector3d &p = at.p, &dir = at.dir;
+    const NodeDraws& draws = at.draws;
+    // Two ranks of leaves on opposite sides of the shoot.
+    const double azimuth = plane_rad + (k % 2 == 0 ? 0.0 : kPi) + 0.45 * draws.normals[2];
+    const double from_tip = count - 1 - k;
+    add_leaf(p, dir, azimuth, node.leaf_area_m2, from_tip < 4 ? 0.35 : 1.0, node.leaf_age, position,
+             draws, 0);
+    // Leaves of lateral shoots: a third of a main leaf, from the eighth phyllochron on.
+    constexpr double kShareOfMain = 0.35;
+    const double grown = std::clamp((from_tip - 8.0) / 10.0, 0.0, 1.0);
+    const double mean = grown * growth_.variety.lateral_share / kShareOfMain;
+    const int laterals = std::min(3, static_cast<int>(mean + draws.uniforms[0]));
+    for (int i = 0; i < laterals; ++i) {
+      const double own = azimuth + 0.7 + 1.9 * i;
+      const double reach_m = 0.03 + 0.03 * i + 0.04 * draws.uniforms[1];
+      const Vector3d out(std::cos(own), std::sin(own), 0.5);
+      add_leaf(p + reach_m * out, dir, own, kShareOfMain * node.leaf_area_m2, 0.8,
+               0.8 * node.leaf_age, position, draws, 1 + i);
+    }
+  }
+
+  /// @param droop  0: a young leaf that stands up, 1: its blade hangs
+  /// @param which  0: the main leaf, 1 to 3: of its lateral
+  void add_leaf(const Vector3d& p, const Vector3d& dir, double azimuth, double area_m2,
+                double droop, double age, double position, const NodeDraws& draws, int which) {
+    const double* own = draws.normals + 3 + 3 * which;  // three for each leaf
+    // The oldest leaves turn and fall first.
+    const double order = share_below(0.45 * position + 0.55 * draws.uniforms[2 + which]);
+    if (order < stage_.fallen_share || area_m2 < 1e-5) return;
+    LeafOrgan leaf;
+    leaf.area_m2 = area_m2;
+    leaf.node = p;
+    const double length_m = leaf_length_m(LeafKind::kGrapevine, area_m2);
+    Vector3d out(std::cos(azimuth), std::sin(azimuth), 0.0);
+    const Vector3d stalk = (out + 0.55 * dir + 0.12 * own[0] * kUp).normalized();
+    leaf.junction = p + 0.75 * length_m * stalk;
+    keep_inside(leaf.junction);
+    // Blades face outward and up to the light; more upright ones inside.
+    const Vector3d away = towards_light(leaf.junction, out);
+    leaf.normal = (0.42 * away + 0.5 * kUp + 0.5 * Vector3d(own[0], own[1], own[2])).normalized();
+    Vector3d along = 0.6 * out + 0.2 * dir - 1.1 * droop * kUp;
+    along -= along.dot(leaf.normal) * leaf.normal;
+    if (along.norm() < 0.1) along = leaf.normal.unitOrthogonal();
+    leaf.along = along.normalized();
+    leaf.colour = leaf_colour(age, order, draws.uniforms[6 + which % 4]).cast<float>();
+    organs.leaves.push_back(leaf);
+  }
+
+  Vector3d towards_light(const Vector3d& p, const Vector3d& out) const {
+    if (growth_.pruning == Pruning::kPergola) return kUp;
+    const Vector3d side(0.0, std::copysign(1.0, p.y()), 0.0);
+    return (0.65 * side + 0.35 * out).normalized();
+  }
+
+  /// Trimmed sides.
+  void keep_inside(Vector3d& p) const {
+    if (growth_.pruning == Pruning::kPergola) return;
+    const double half_m = 0.5 * space_.width_m - 0.03;
+    p.y() = std::clamp(p.y(), -half_m, half_m);
+  }
+
+  Vector3d leaf_colour(double age, double order, double draw) const {
+    Vector3d colour = (1.0 - age) * kYoungLeaf + age * kOldLeaf;
+    if (order < stage_.discoloured_share) {
+      // From yellow at the edge of green to the variety's own colour.
+      const double turned = std::min(1.0, (stage_.discoloured_share - order) / 0.3);
+      const bool is_red = growth_.variety.autumn_colour == LeafColour::kRed;
+      colour = (1.0 - turned) * colour + turned * (is_red ? kRedLeaf : kYellowLeaf);
+    }
+    return (0.8 + 0.4 * draw) * colour;
+  }
+
+  void add_bunch(const Vector3d& p, double plane_rad, int k, const NodeDraws& draws) {
+    BunchOrgan bunch;
+    // Opposite to the leaf of its node.
+    const double azimuth = plane_rad + (k % 2 == 0 ? kPi : 0.0);
+    const Vector3d out(std::cos(azimuth), std::sin(azimuth), 0.0);
+    bunch.stalk = p + 0.035 * out;
+    // Inflorescences stand up, bunches hang by their weight.
+    const double hang = std::clamp((growth_.bbch - 65.0) / 8.0, -0.6, 1.0);
+    bunch.axis =
+        (-hang * kUp + 0.25 * out + 0.06 * Vector3d(draws.normals[15], draws.normals[16], 0))
+            .normalized();
+    bunch.length_m =
+        stage_.bunch_length * growth_.variety.bunch_length_m * (1.0 + 0.12 * draws.normals[17]);
+    bunch.berries = std::max(8, static_cast<int>(std::lround(growth_.variety.berries *
+                                                             (0.75 + 0.5 * draws.uniforms[9]))));
+    bunch.berry_radius_m = 0.5 * stage_.berry_diameter * growth_.variety.berry_diameter_m;
+    bunch.ripe_share = stage_.ripe_share;
+    bunch.is_black = growth_.variety.berry_colour == BerryColour::kBlack;
+    bunch.seed = static_cast<std::uint64_t>(draws.uniforms[8] * 9e15);
+    organs.bunches.push_back(bunch);
+  }
+
+  const VineGrowth& growth_;
+  const VineSpace& space_;
+  VineStage stage_;
+  std::uint64_t seed_;
+  std::string name_;
+};
+
+std::string find_fault_in_growth(const VineGrowth& growth) {
+  const std::string fault = find_fault_in_bbch(growth.bbch);
+  return fault.empty() ? "" : fmt::format("bbch = {:g}: {}", growth.bbch, fault);
+}
+
+}  // namespace
+
+const ParameterTable<VineGrowth>& growth_table() {
+  using P = VineGrowth;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .number(
+              "bbch", "", &P::bbch, between(0.0, 99.0),
+              "growth stage: 0 winter, 15 five leaves, 65 flowering, 75 berries of pea size, 85 "
+              "ripening, 93 leaf fall begins, 97 it ends")
+          .choice("pruning", &P::pruning,
+                  {{"guyot", Pruning::kGuyot},
+                   {"cordon", Pruning::kCordon},
+                   {"pergola", Pruning::kPergola}},
+                  "shoots from a cane, in pairs from spurs, or under a roof of wires")
+          .number("shoots_per_m", "1/m", &P::shoots_per_m, between(1.0, 60.0),
+                  "shoots per metre of row")
+          .number("vigour_std", "", &P::vigour_std, between(0.0, 0.5),
+                  "standard deviation of shoot length and leaf size, as a share")
+          .number("young_vine_share", "", &P::young_share, between(0.0, 1.0),
+                  "share of vines in their second year")
+          .include(&P::variety, variety_table())
+          .rule(find_fault_in_growth);
+  return table;
+}
+
+VineOrgans grow_vines(const VineGrowth& growth, const VineSpace& space, double length_m,
+                      int vine_count, std::uint64_t seed, const std::string& name) {
+  VineGrower grower(growth, space, seed, name);
+  grower.grow(length_m, vine_count);
+  return std::move(grower.organs);
+}
+
+}  // namespace vinerow::worlds

@@ -46,6 +46,24 @@ float64 y
 float64 z
 """
 
+CLOUD = """std_msgs/Header header
+uint32 height
+uint32 width
+sensor_msgs/PointField[] fields
+bool is_bigendian
+uint32 point_step
+uint32 row_step
+uint8[] data
+bool is_dense
+================================================================================
+MSG: sensor_msgs/PointField
+uint8 INT8=1
+string name
+uint32 offset
+uint8 datatype
+uint32 count
+""" + HEADER.lstrip("\n")
+
 KINDS = """std_msgs/Header header
 # a comment
 int8 LIMIT=-128  # a constant
@@ -208,6 +226,37 @@ class Export(unittest.TestCase):
         self.assertEqual([(r["time_s"], r["element"], r["name"], r["value"]) for r in long],
                          [("1.0", "0", "left_radps", "1"), ("1.0", "1", "time_s", "9"),
                           ("2.0", "0", "right_radps", "-2.5"), ("2.0", "1", "left_radps", "3")])  # fmt: skip
+
+    def test_a_cloud_gives_a_row_for_each_point_and_a_column_for_each_field(self):
+        # As numpy lays out such a point, with a gap; two lines of two points with bytes to spare.
+        point = numpy.dtype({"names": ["x", "ring", "t"], "formats": ["<f4", "<u2", "<f8"], "offsets": [0, 4, 8], "itemsize": 20})
+        points = numpy.array([[(1.5, 3, 0.25), (2.5, 65535, -1.0)], [(-4.0, 0, 1e300), (0.125, 7, 2.0)]], dtype=point)
+
+        def cloud(stamp_ns, data, width=2, height=2, step=20, row_step=44, big_endian=False):
+            message = Cdr().header(stamp_ns).add("I", height, width, 4)
+            for name, offset, kind, count in (("x", 0, 7, 1), ("ring", 4, 4, 1), ("t", 8, 8, 1), ("spare", 16, 2, 4)):
+                message.text(name).add("I", offset).add("B", kind).add("I", count)
+            message.add("?", big_endian).add("I", step, row_step, len(data))
+            message.data += data
+            return message.add("?", True).message()
+
+        data = b"".join(line.tobytes() + bytes(4) for line in points)
+        log = Log()
+        channel = log.channel("/lidar", "sensor_msgs/msg/PointCloud2", CLOUD)
+        log.message(channel, 10**9, cloud(10**9, data))
+        log.message(channel, 2 * 10**9, cloud(2 * 10**9, b"", width=0))
+        for wrong in ({"row_step": 39}, {"row_step": 0, "height": 2**32 - 1}, {"step": 12}, {"width": 2**31}, {"big_endian": True}, {"step": 0}):
+            log.message(channel, 3 * 10**9, cloud(3 * 10**9, data, **wrong))
+        log.write(self.log)
+        rows = self.table("/lidar")
+        self.assertEqual(list(rows[0]), ["time_s", "logged_s", "element", "header.frame_id", "x", "ring", "t"])
+        self.assertEqual([(r["time_s"], r["element"], r["ring"]) for r in rows],
+                         [("1.0", "0", "3"), ("1.0", "1", "65535"), ("1.0", "2", "0"), ("1.0", "3", "7"), ("2.0", "0", "")])  # fmt: skip
+        arrays = self.arrays("/lidar")
+        for name in ("x", "t"):
+            numpy.testing.assert_array_equal(arrays[name][:4], points[name].ravel())
+        run = self.run_export("--topic", "/lidar", "-o", "-")
+        self.assertIn("6 messages of topic '/lidar' are not of type", run.stderr)
 
     def test_a_sequence_of_messages_gives_a_row_for_each_element(self):
         log = Log()

@@ -86,7 +86,8 @@ MessageTable::MessageTable(record::RosSchema schema, bool long_form) : schema_(s
   const std::vector<RosField>& fields = type(0).fields;
   has_header_ = !fields.empty() && fields[0].kind == RosKind::kMessage &&
                 fields[0].shape == Shape::kOne && is_header(type(fields[0].message));
-  rows_of_elements_ = has_sequence(0, long_form);
+  is_cloud_ = has_header_ && type(0).name == "sensor_msgs/PointCloud2";
+  rows_of_elements_ = is_cloud_ || has_sequence(0, long_form);
   named_values_ = !rows_of_elements_ && has_header_ && fields.size() == 3 &&
                   is_sequence(fields[1], "name", RosKind::kText) &&
                   is_sequence(fields[2], "value", RosKind::kFloat64);
@@ -105,7 +106,8 @@ bool MessageTable::has_sequence(std::size_t type_index, bool of_numbers_too) con
 }
 
 /// Adds columns in the order of the definition, so that a topic without messages has columns too.
-/// Columns with an index in their name, and those of named values, are added with the messages.
+/// Columns with an index in their name, and those of named values and clouds, are added with the
+/// messages.
 void MessageTable::announce(std::size_t type_index, const std::string& prefix, bool in_element) {
   const std::vector<RosField>& fields = type(type_index).fields;
   for (std::size_t i = 0; i < fields.size(); ++i) {
@@ -114,7 +116,7 @@ void MessageTable::announce(std::size_t type_index, const std::string& prefix, b
     const bool goes_along = rows_of_elements_ && !in_element && field.shape == Shape::kSequence;
     if (prefix.empty() && i == 0 && has_header_) {
       column(name + ".frame_id", RosKind::kText, false);
-    } else if (prefix.empty() && named_values_) {
+    } else if (prefix.empty() && (named_values_ || is_cloud_)) {
       continue;
     } else if (field.kind != RosKind::kMessage) {
       column(name, field.kind, field.shape != Shape::kOne && !goes_along);
@@ -148,6 +150,8 @@ bool MessageTable::add(std::int64_t stamp_ns, std::int64_t logged_ns,
   if (has_header_) stamp_ns = decode_header(in);
   if (named_values_) {
     decode_named_values(in);
+  } else if (is_cloud_) {
+    if (!decode_cloud(in)) return false;
   } else {
     decode(in, 0, "", kEveryRow);
   }

@@ -6,7 +6,8 @@
 /// sequence of messages (a path, transforms) gives one row per element, as pandas' explode() does:
 /// its sequences advance together, and all other values repeat in each of these rows. Instants and
 /// durations are in seconds. Names and values in two sequences (NamedValues) give one column per
-/// name.
+/// name. A cloud (PointCloud2) gives one row per point and one column for each field that it
+/// describes.
 
 #include <cstdint>
 #include <map>
@@ -68,6 +69,8 @@ class MessageTable {
   /// @returns the stamp
   std::int64_t decode_header(record::CdrReader& in);
   void decode_named_values(record::CdrReader& in);
+  /// @returns false if its description does not fit its bytes
+  bool decode_cloud(record::CdrReader& in);
   void decode(record::CdrReader& in, std::size_t type_index, const std::string& prefix, int row);
   void decode_messages(record::CdrReader& in, const record::RosField& field,
                        const std::string& name, int row);
@@ -81,6 +84,7 @@ class MessageTable {
   bool has_header_ = false;
   bool rows_of_elements_ = false;
   bool named_values_ = false;
+  bool is_cloud_ = false;
   std::vector<TableColumn> columns_;
   std::map<std::string, std::size_t> places_;  ///< indices of columns by name
   std::vector<TableRow> rows_;

@@ -190,6 +190,35 @@ RANGERS = "\n".join(f"      us_{name}: {{include: {SENSORS}/hc_sr04.yaml, positi
                     for name, x, y, turn in (("fl", 0.4, 0.2, 45), ("fr", 0.4, -0.2, -45), ("rl", -0.4, 0.2, 135), ("rr", -0.4, -0.2, -135)))
 
 
+def draw_clouds(runs: Runs) -> None:
+    """A frame of a VLP-16 in an alley before flowering and in summer: the row on its left."""
+    figure, axes = panels(2, 1, width=9.0, height=1.7)
+    for ax, (stage, title) in zip(axes, {57: "before flowering (57)", 75: "pea-sized berries (75)"}.items()):
+        run = runs.run(f"cloud_{stage}", f"""
+vinerow: 1
+name: cloud_{stage}
+duration_s: 0.3
+world: {{type: vineyard, row_count: 4, row_length_m: 30, relief_m: 0, row_bearing_deg: 90, vines: {{include: {ASSETS}/vines/nebbiolo.yaml,
+  bbch: {stage}}}}}
+vehicles:
+  rover:
+    include: {ASSETS}/vehicles/rover_paper_b.yaml
+    spawn: {{alley: 1, offset_m: -15}}
+    sensors: {{lidar: {{include: {SENSORS}/vlp16.yaml, position_m: [0.3, 0, 0.9]}}}}
+""")
+        cloud = runs.arrays(run, "/rover/lidar")
+        last = cloud["time_s"] == cloud["time_s"][-1]
+        x, y, z, intensity = (cloud[name][last] for name in ("x", "y", "z", "intensity"))
+        shown = (y > 0.6) & (y < 2.0) & (np.abs(x) < 7)
+        points = ax.scatter(x[shown], z[shown], c=intensity[shown], s=1.5, cmap="viridis", vmin=0, vmax=45, linewidths=0)
+        ax.set_aspect("equal")
+        ax.set_title(title)
+        ax.set_ylabel("above the scanner, m")
+    axes[-1].set_xlabel("along the row, m")
+    figure.colorbar(points, ax=list(axes), label="intensity, %", fraction=0.02, pad=0.01)
+    runs.save(figure, "clouds")
+
+
 def draw_estimators(runs: Runs) -> None:
     run = runs.run("estimators", f"""
 vinerow: 1

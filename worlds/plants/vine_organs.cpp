@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "engine/api/parameter_table.h"
+#include "engine/core/random.h"
 #include "engine/math/angles.h"
 #include "worlds/plants/leaf_outline.h"
 #include "worlds/plants/vine_shoot.h"
@@ -73,8 +74,8 @@ class VineGrower {
       const double own_vigour = 1.0 + 0.5 * growth_.vigour_std * cut(random.normal());
       const int buds = std::max(1, static_cast<int>(std::lround(growth_.shoots_per_m * spacing_m)));
       for (int bud = 0; bud < buds; ++bud) {
-        // Always draw: a young vine keeps its neighbours' shoots as they are.
-        // A cordon's shoots grow in pairs from its spurs.
+        // All is drawn, whatever grows, so that each bud has numbers of its own. A cordon's shoots
+        // grow in pairs from its spurs.
         const int place = growth_.pruning == Pruning::kCordon ? bud / 2 * 2 : bud;
         const double along = (vine + (place + random.uniform(0.25, 0.75)) / buds) * spacing_m;
         const double vigour =

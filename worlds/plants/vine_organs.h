@@ -6,10 +6,11 @@
 /// through the season.
 
 #include <Eigen/Core>
+#include <cstdint>
+#include <string>
 #include <vector>
 
 #include "engine/api/parameter_table_fwd.h"
-#include "engine/core/random.h"
 #include "worlds/plants/leaf_mesh.h"
 #include "worlds/plants/vine_stage.h"
 #include "worlds/plants/vine_variety.h"

@@ -5,7 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <filesystem>
+#include <string>
 
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
@@ -299,6 +303,33 @@ TEST(Vineyard, TooMuchGroundIsRefusedBeforeTheSlopeIsFitted) {
       test::config_error_of([&] { test::make_world("vineyard", parameters); });
   EXPECT_EQ(error.find("terrain_cell_m = 0.5 m gives "), 0u) << error;
   EXPECT_NE(error.find("must be at most 25 million: take cells of "), std::string::npos) << error;
+}
+
+/// Mesh files are read back as long as the generator's version is the same. If this test fails,
+/// raise kGeneratorVersion in vineyard.cpp and take over the new digests: otherwise old files would
+/// be read for new meshes, on machines that have them.
+TEST(Vineyard, MeshesAreThoseOfTheGeneratorsVersion) {
+  const auto digest_of = [](bool with_vines) {
+    ParameterSet parameters = test::world_parameters("vineyard");
+    parameters.set("row_count", std::int64_t{1}).set("row_length_m", 8.0).set("relief_m", 1.0);
+    parameters.set("leaf_cards_per_m", 10.0);
+    if (with_vines) {
+      ParameterSet vines = parameters.make_group("vines");
+      vines.set("bbch", 85.0).set("berries", std::int64_t{5});
+      parameters.set("vines", std::vector<ParameterSet>{vines});
+    }
+    // Not a folder of earlier builds.
+    const auto folder = std::filesystem::temp_directory_path() /
+                        ("vinerow_generator_" + std::to_string(::getpid()));
+    parameters.set("mesh_folder", folder.string());
+    const auto world = test::make_world("vineyard", parameters);
+    std::filesystem::remove_all(folder);
+    Hasher hasher;
+    for (const MeshInstance& instance : world->meshes) hasher.add(mesh_digest(*instance.mesh));
+    return hasher.hex();
+  };
+  EXPECT_EQ(digest_of(false), "6920c84292f957e3ae6fa42dbf25ff7d");
+  EXPECT_EQ(digest_of(true), "e6534e7e63136a9db64f2c57b1ea8eed");
 }
 
 }  // namespace

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "engine/api/parameter_table.h"
 #include "engine/core/random.h"
@@ -18,21 +18,59 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kTip_m = 0.02;
-constexpr int kFirstBunch = 2;  // the third node
 const Vector3d kUp = Vector3d::UnitZ();
-// Linear RGB.
+
+// Chosen, where nothing else is stated. The turn of blades was adjusted to the measured midribs and
+// to 20 to 40 % of gaps across the row (docs/models/vines.md).
+constexpr double kOpenBuds = 0.95;     ///< share of buds that open
+constexpr double kYoungVigour = 0.45;  ///< of a vine in its second year
+constexpr double kTip_m = 0.02;        ///< beyond the last unfolded leaf
+constexpr int kFirstBunch = 2;         ///< the third node (Barbera, growers' catalogue)
+constexpr double kTrimmedFrom = 70.0;  ///< stage at which shoots are first trimmed: fruit set
+constexpr double kUntrimmed_m = 0.5;   ///< how far free tips reach above the trellis before that
+constexpr double kStalk = 0.75;        ///< of a leaf, per length of its blade; 8 cm in HydroShoot
+constexpr int kMaxLaterals = 3;        ///< leaves of a node's lateral shoot
+constexpr double kLateralArea = 0.35;  ///< of one of them, per area of the main leaf
+constexpr double kRoofBelowTop_m = 0.25;  ///< of a pergola's wires
+
+// Linear RGB, chosen.
 const Vector3d kYoungLeaf(0.16, 0.26, 0.05), kOldLeaf(0.055, 0.135, 0.032);
 const Vector3d kYellowLeaf(0.46, 0.32, 0.035), kRedLeaf(0.3, 0.045, 0.03);
 
+double cut(double normal) {
+  return std::clamp(normal, -2.0, 2.0);
+}
+
+struct LeafDraws {
+  explicit LeafDraws(RandomStream& random) {
+    for (double& value : turn) value = cut(random.normal());
+    order = random.uniform();
+    shade = random.uniform();
+  }
+  Vector3d turn;
+  double order;  ///< in which leaves turn and fall
+  double shade;
+};
+
 /// Random numbers of a node; all are drawn, whatever grows there.
 struct NodeDraws {
-  explicit NodeDraws(RandomStream& random) {
-    for (double& value : normals) value = std::clamp(random.normal(), -2.5, 2.5);
-    for (double& value : uniforms) value = random.uniform();
-  }
-  double normals[18];
-  double uniforms[10];
+  explicit NodeDraws(RandomStream& random)
+      : wander_along(cut(random.normal())),
+        wander_across(cut(random.normal())),
+        azimuth(cut(random.normal())),
+        laterals(random.uniform()),
+        reach(random.uniform()),
+        leaves{LeafDraws(random), LeafDraws(random), LeafDraws(random), LeafDraws(random)},
+        bunch_lean_x(cut(random.normal())),
+        bunch_lean_y(cut(random.normal())),
+        bunch_length(cut(random.normal())),
+        berries(random.uniform()),
+        bunch_seed(random.next_u64()) {}
+  double wander_along, wander_across, azimuth;
+  double laterals, reach;
+  std::array<LeafDraws, 1 + kMaxLaterals> leaves;  ///< the main one first
+  double bunch_lean_x, bunch_lean_y, bunch_length, berries;
+  std::uint64_t bunch_seed;
 };
 
 /// A node that trimming has left.
@@ -40,6 +78,17 @@ struct PlacedNode {
   Vector3d p;
   Vector3d dir;  ///< of the shoot below it
   NodeDraws draws;
+};
+
+/// A leaf before its own random turn.
+struct LeafPlace {
+  Vector3d node;
+  Vector3d dir;  ///< of the shoot
+  double azimuth;
+  double area_m2;
+  double droop;     ///< 0: a young leaf that stands up, 1: its blade hangs
+  double age;       ///< 0: unfolds, 1: of full size
+  double position;  ///< in the trimmed shoot, 0 at its base
 };
 
 /// Share of sums 0.45 a + 0.55 b of two uniform numbers that are below x.
@@ -68,30 +117,27 @@ class VineGrower {
 
   void grow(double length_m, int vine_count) {
     const double spacing_m = length_m / vine_count;
+    const double buds_per_vine = growth_.shoots_per_m * spacing_m / kOpenBuds;
     for (int vine = 0; vine < vine_count; ++vine) {
       RandomStream random = stream(fmt::format("vine_{}", vine));
       const bool is_young = random.uniform() < growth_.young_share;
       const double own_vigour = 1.0 + 0.5 * growth_.vigour_std * cut(random.normal());
-      const int buds = std::max(1, static_cast<int>(std::lround(growth_.shoots_per_m * spacing_m)));
+      // Whole buds whose sum over the vines is right.
+      const auto buds = static_cast<int>(std::lround((vine + 1) * buds_per_vine) -
+                                         std::lround(vine * buds_per_vine));
       for (int bud = 0; bud < buds; ++bud) {
         // All is drawn, whatever grows, so that each bud has numbers of its own. A cordon's shoots
         // grow in pairs from its spurs.
         const int place = growth_.pruning == Pruning::kCordon ? bud / 2 * 2 : bud;
-        const double along = (vine + (place + random.uniform(0.25, 0.75)) / buds) * spacing_m;
+        const double along_m = (vine + (place + random.uniform(0.25, 0.75)) / buds) * spacing_m;
         const double vigour =
             own_vigour * std::max(0.3, 1.0 + growth_.vigour_std * cut(random.normal()));
         const double lean_along = 0.22 * cut(random.normal());
         const double lean_across = 0.16 * cut(random.normal());
-        const bool has_bud = random.uniform() < 0.95;  // some stay blind
-        if (!has_bud || (is_young && bud != buds / 2)) continue;
-        ShootStart start;
-        start.p = {along, 0.0, space_.arm_height_m + 0.02};
-        start.dir = Vector3d(lean_along, lean_across, 1.0).normalized();
-        start.side = bud % 2 == 0 ? 1.0 : -1.0;
-        if (growth_.pruning == Pruning::kPergola) {
-          start.dir = Vector3d(lean_along, start.side, 0.35 + lean_across).normalized();
-        }
-        grow_shoot_at(start, is_young ? 0.45 * vigour : vigour,
+        const bool is_open = random.uniform() < kOpenBuds;
+        if (!is_open || (is_young && bud != buds / 2)) continue;
+        grow_shoot_at(start_of(along_m, lean_along, lean_across, bud % 2 == 0 ? 1.0 : -1.0),
+                      is_young ? kYoungVigour * vigour : vigour,
                       stream(fmt::format("vine_{}.shoot_{}", vine, bud)));
       }
     }
@@ -100,7 +146,17 @@ class VineGrower {
   VineOrgans organs;
 
  private:
-  static double cut(double normal) { return std::clamp(normal, -2.0, 2.0); }
+  ShootStart start_of(double along_m, double lean_along, double lean_across, double side) const {
+    ShootStart start;
+    start.p = {along_m, 0.0, space_.arm_height_m + 0.02};
+    const bool is_pergola = growth_.pruning == Pruning::kPergola;
+    start.dir = is_pergola ? Vector3d(lean_along, side, 0.35 + lean_across)
+                           : Vector3d(lean_along, lean_across, 1.0);
+    start.dir.normalize();
+    start.side = side;
+    return start;
+  }
+
   RandomStream stream(const std::string& part) const {
     return RandomStream(seed_, "", name_ + "." + part);
   }
@@ -143,8 +199,7 @@ class VineGrower {
 
   /// Summer trimming cuts what grows beyond the trellis, from fruit set on.
   bool is_beyond(const Vector3d& p, double top_m) const {
-    constexpr double kTrimmedFrom = 70.0;
-    if (growth_.bbch < kTrimmedFrom) return p.z() > top_m + 0.5;
+    if (growth_.bbch < kTrimmedFrom) return p.z() > top_m + kUntrimmed_m;
     if (growth_.pruning == Pruning::kPergola) return std::abs(p.y()) > 0.5 * space_.width_m;
     return p.z() > top_m;
   }
@@ -153,9 +208,9 @@ class VineGrower {
   /// on its roof.
   Vector3d turn(const Vector3d& dir, const Vector3d& p, const ShootStart& start,
                 const NodeDraws& draws) const {
-    Vector3d next = dir + 0.17 * Vector3d(draws.normals[0], draws.normals[1], 0.0);
+    Vector3d next = dir + 0.17 * Vector3d(draws.wander_along, draws.wander_across, 0.0);
     if (growth_.pruning == Pruning::kPergola) {
-      const double roof_m = space_.top_m - 0.25;
+      const double roof_m = space_.top_m - kRoofBelowTop_m;
       next += Vector3d(0.0, 0.25 * start.side, 0.8 * (roof_m - p.z()) - 0.5 * dir.z());
     } else {
       const double catch_m = 0.22 * space_.width_m;
@@ -172,51 +227,48 @@ class VineGrower {
   /// @param position  of the node in the trimmed shoot, 0 to 1
   void add_leaves(const ShootNode& node, int k, int count, double position, const PlacedNode& at,
                   double plane_rad) {
-    const Vector3d &p = at.p, &dir = at.dir;
     const NodeDraws& draws = at.draws;
     // Two ranks of leaves on opposite sides of the shoot.
-    const double azimuth = plane_rad + (k % 2 == 0 ? 0.0 : kPi) + 0.45 * draws.normals[2];
-    const double from_tip = count - 1 - k;
-    add_leaf(p, dir, azimuth, node.leaf_area_m2, from_tip < 4 ? 0.35 : 1.0, node.leaf_age, position,
-             draws, 0);
-    // Leaves of lateral shoots: a third of a main leaf, from the eighth phyllochron on.
-    constexpr double kShareOfMain = 0.35;
+    const double azimuth = plane_rad + (k % 2 == 0 ? 0.0 : kPi) + 0.45 * draws.azimuth;
+    const int from_tip = count - 1 - k;
+    add_leaf({at.p, at.dir, azimuth, node.leaf_area_m2, from_tip < 4 ? 0.35 : 1.0, node.leaf_age,
+              position},
+             draws.leaves[0]);
+    // Lateral shoots fill up from the eighth leaf below the tip on.
     const double grown = std::clamp((from_tip - 8.0) / 10.0, 0.0, 1.0);
-    const double mean = grown * growth_.variety.lateral_share / kShareOfMain;
-    const int laterals = std::min(3, static_cast<int>(mean + draws.uniforms[0]));
+    const double mean = grown * growth_.variety.lateral_share / kLateralArea;
+    const int laterals = std::min(kMaxLaterals, static_cast<int>(mean + draws.laterals));
     for (int i = 0; i < laterals; ++i) {
-      const double own = azimuth + 0.7 + 1.9 * i;
-      const double reach_m = 0.03 + 0.03 * i + 0.04 * draws.uniforms[1];
-      const Vector3d out(std::cos(own), std::sin(own), 0.5);
-      add_leaf(p + reach_m * out, dir, own, kShareOfMain * node.leaf_area_m2, 0.8,
-               0.8 * node.leaf_age, position, draws, 1 + i);
+      const double own_azimuth = azimuth + 0.7 + 1.9 * i;
+      const double reach_m = 0.03 + 0.03 * i + 0.04 * draws.reach;
+      const Vector3d out(std::cos(own_azimuth), std::sin(own_azimuth), 0.5);
+      add_leaf({at.p + reach_m * out, at.dir, own_azimuth, kLateralArea * node.leaf_area_m2, 0.8,
+                0.8 * node.leaf_age, position},
+               draws.leaves[1 + i]);
     }
   }
 
-  /// @param droop  0: a young leaf that stands up, 1: its blade hangs
-  /// @param which  0: the main leaf, 1 to 3: of its lateral
-  void add_leaf(const Vector3d& p, const Vector3d& dir, double azimuth, double area_m2,
-                double droop, double age, double position, const NodeDraws& draws, int which) {
-    const double* own = draws.normals + 3 + 3 * which;  // three for each leaf
-    // The oldest leaves turn and fall first.
-    const double order = share_below(0.45 * position + 0.55 * draws.uniforms[2 + which]);
-    if (order < stage_.fallen_share || area_m2 < 1e-5) return;
+  void add_leaf(const LeafPlace& place, const LeafDraws& draws) {
+    constexpr double kSmallest_m2 = 1e-5;
+    // The oldest leaves turn and fall first, with scatter.
+    const double order = share_below(0.45 * place.position + 0.55 * draws.order);
+    if (order < stage_.fallen_share || place.area_m2 < kSmallest_m2) return;
     LeafOrgan leaf;
-    leaf.area_m2 = area_m2;
-    leaf.node = p;
-    const double length_m = leaf_length_m(LeafKind::kGrapevine, area_m2);
-    Vector3d out(std::cos(azimuth), std::sin(azimuth), 0.0);
-    const Vector3d stalk = (out + 0.55 * dir + 0.12 * own[0] * kUp).normalized();
-    leaf.junction = p + 0.75 * length_m * stalk;
+    leaf.area_m2 = place.area_m2;
+    leaf.node = place.node;
+    const double length_m = leaf_length_m(LeafKind::kGrapevine, place.area_m2);
+    const Vector3d out(std::cos(place.azimuth), std::sin(place.azimuth), 0.0);
+    const Vector3d stalk = (out + 0.55 * place.dir + 0.12 * draws.turn.x() * kUp).normalized();
+    leaf.junction = place.node + kStalk * length_m * stalk;
     keep_inside(leaf.junction);
-    // Blades face outward and up to the light; more upright ones inside.
+    // Blades face outward and up to the light.
     const Vector3d away = towards_light(leaf.junction, out);
-    leaf.normal = (0.42 * away + 0.5 * kUp + 0.5 * Vector3d(own[0], own[1], own[2])).normalized();
-    Vector3d along = 0.6 * out + 0.2 * dir - 1.1 * droop * kUp;
+    leaf.normal = (0.42 * away + 0.5 * kUp + 0.5 * draws.turn).normalized();
+    Vector3d along = 0.6 * out + 0.2 * place.dir - 1.1 * place.droop * kUp;
     along -= along.dot(leaf.normal) * leaf.normal;
     if (along.norm() < 0.1) along = leaf.normal.unitOrthogonal();
     leaf.along = along.normalized();
-    leaf.colour = leaf_colour(age, order, draws.uniforms[6 + which % 4]).cast<float>();
+    leaf.colour = leaf_colour(place.age, order, draws.shade).cast<float>();
     organs.leaves.push_back(leaf);
   }
 
@@ -249,20 +301,21 @@ class VineGrower {
     // Opposite to the leaf of its node.
     const double azimuth = plane_rad + (k % 2 == 0 ? kPi : 0.0);
     const Vector3d out(std::cos(azimuth), std::sin(azimuth), 0.0);
-    bunch.stalk = p + 0.035 * out;
+    constexpr double kStalkOfBunch_m = 0.035;
+    bunch.stalk = p + kStalkOfBunch_m * out;
     // Inflorescences stand up, bunches hang by their weight.
     const double hang = std::clamp((growth_.bbch - 65.0) / 8.0, -0.6, 1.0);
     bunch.axis =
-        (-hang * kUp + 0.25 * out + 0.06 * Vector3d(draws.normals[15], draws.normals[16], 0))
+        (-hang * kUp + 0.25 * out + 0.06 * Vector3d(draws.bunch_lean_x, draws.bunch_lean_y, 0))
             .normalized();
     bunch.length_m =
-        stage_.bunch_length * growth_.variety.bunch_length_m * (1.0 + 0.12 * draws.normals[17]);
-    bunch.berries = std::max(8, static_cast<int>(std::lround(growth_.variety.berries *
-                                                             (0.75 + 0.5 * draws.uniforms[9]))));
+        stage_.bunch_length * growth_.variety.bunch_length_m * (1.0 + 0.12 * draws.bunch_length);
+    bunch.berries = std::max(
+        1, static_cast<int>(std::lround(growth_.variety.berries * (0.75 + 0.5 * draws.berries))));
     bunch.berry_radius_m = 0.5 * stage_.berry_diameter * growth_.variety.berry_diameter_m;
     bunch.ripe_share = stage_.ripe_share;
     bunch.is_black = growth_.variety.berry_colour == BerryColour::kBlack;
-    bunch.seed = static_cast<std::uint64_t>(draws.uniforms[8] * 9e15);
+    bunch.seed = draws.bunch_seed;
     organs.bunches.push_back(bunch);
   }
 

@@ -242,7 +242,13 @@ const ParameterTable<VinePlanting>& planting_table() {
           .group(
               "vines", &P::growth, growth_table(),
               "vines that grow organ by organ with the season, within the canopy's width and top; "
-              "absent: cards of leaves, in summer");
+              "absent: cards of leaves, in summer")
+          .rule([](const P& p) -> std::string {
+            if (!p.growth || p.trellis.arm_height_m < p.canopy.top_m) return "";
+            return fmt::format(
+                "arm_height_m = {} m, must be < canopy_top_m = {} m for growing vines",
+                p.trellis.arm_height_m, p.canopy.top_m);
+          });
   return table;
 }
 

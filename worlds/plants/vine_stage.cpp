@@ -41,9 +41,9 @@ constexpr std::array<Point, 12> kLeaves = {{{11, 1},
 /// Degree days above 10 C since bud burst, chosen within what is published: flowering 313 (STICS,
 /// Grenache) to 500 (Ventoux), fruit set 363 to 600, veraison 1014 (Burgundy) to 1400, ripe 1250
 /// (Burgundy) to 1800, 1500 to 1600 for late varieties in Chile (Villaseca et al.).
-constexpr std::array<Point, 9> kThermalTime = {{{60, 340},
-                                                {65, 380},
-                                                {69, 430},
+constexpr std::array<Point, 9> kThermalTime = {{{60, 330},
+                                                {65, 365},
+                                                {69, 420},
                                                 {71, 460},
                                                 {75, 620},
                                                 {79, 870},

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "engine/api/map.h"
 #include "engine/core/error.h"
+#include "engine/core/random.h"
 #include "engine/physics/static_scene.h"
 #include "tests/worlds/world_fixture.h"
 
@@ -68,6 +70,63 @@ TEST(VineWorld, LightPassesBetweenLeavesWhereTheHullIsClosed) {
   EXPECT_EQ(winter.light, 1.0);
 }
 
+/// Distance to the nearest triangle that light meets, each tested alone (Moeller and Trumbore
+/// 1997).
+double nearest_m(const WorldModel& world, const Eigen::Vector3d& p_W,
+                 const Eigen::Vector3d& dir_W) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const MeshInstance& instance : world.meshes) {
+    const bool is_met =
+        instance.light == Light::kMeets || (instance.light == Light::kAsDrawn && instance.visible);
+    if (!is_met) continue;
+    const Eigen::Vector3d p = instance.X_WM.q.conjugate() * (p_W - instance.X_WM.p);
+    const Eigen::Vector3d dir = instance.X_WM.q.conjugate() * dir_W;
+    for (const auto& t : instance.mesh->triangles) {
+      const auto corner = [&](int k) {
+        return Eigen::Vector3d(instance.mesh->vertices[t[k]].cast<double>());
+      };
+      const Eigen::Vector3d a = corner(0), ab = corner(1) - a, ac = corner(2) - a;
+      const Eigen::Vector3d h = dir.cross(ac), s = p - a, q = s.cross(ab);
+      const double det = ab.dot(h);
+      if (det == 0.0) continue;
+      const double u = s.dot(h) / det, v = dir.dot(q) / det, distance = ac.dot(q) / det;
+      if (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && distance >= 0.0) {
+        nearest = std::min(nearest, distance);
+      }
+    }
+  }
+  return nearest;
+}
+
+TEST(VineWorld, RaysAgreeWithACastOfTheirOwn) {
+  const auto world = world_at(18);
+  const physics::StaticScene scene(world);
+  const auto& line = world->rows->rows[1].line_W;
+  RandomStream random(1, "", "rays");
+  std::vector<SceneRay> rays;
+  for (int i = 0; i < 200; ++i) {
+    SceneRay ray;
+    ray.p_W = line.front() + random.uniform() * (line.back() - line.front());
+    ray.p_W += Eigen::Vector3d(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), 0.9);
+    ray.dir_W =
+        Eigen::Vector3d(random.normal(), random.normal(), 0.1 * random.normal()).normalized();
+    ray.max_distance_m = 40.0;
+    rays.push_back(ray);
+  }
+  std::vector<std::optional<RayHit>> hits(rays.size());
+  const SurfaceMask meshes = kAllSurfaces & ~mask_of(SurfaceClass::kTerrain);
+  scene.light().cast_rays(rays, hits, meshes);
+  int met = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const double expected_m = nearest_m(*world, rays[i].p_W, rays[i].dir_W);
+    ASSERT_EQ(hits[i].has_value(), expected_m <= 40.0) << i;
+    if (!hits[i]) continue;
+    EXPECT_NEAR(hits[i]->distance_m, expected_m, 1e-6) << i;
+    ++met;
+  }
+  EXPECT_GT(met, 80);
+}
+
 TEST(VineWorld, HullHasTheExtentOfTheLeaves) {
   double last_top_m = 0.0;
   for (const double bbch : {15.0, 57.0, 75.0}) {
@@ -99,6 +158,18 @@ TEST(VineWorld, AnOrganHasOneMeshForLight) {
     }
     EXPECT_EQ(levels, 3 * met) << organ;
     EXPECT_GT(met, 0) << organ;
+  }
+}
+
+TEST(VineWorld, ArmsAboveTheTrimmingAreRefused) {
+  ParameterSet parameters = parameters_at(75);
+  parameters.set("arm_height_m", 2.5);
+  try {
+    test::make_world("vineyard", parameters);
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(),
+                 "arm_height_m = 2.5 m, must be < canopy_top_m = 2 m for growing vines");
   }
 }
 

@@ -9,10 +9,11 @@
 namespace vinerow {
 namespace {
 
-/// True if the sentence starts with one of the parameters: "terrain_cell_m = 0.5 m gives ...".
+/// True if the sentence starts with one of the parameters, "terrain_cell_m = 0.5 m gives ...", or
+/// with a group of them, "vines: bbch = 30: ...".
 bool begins_with_key(const std::string& text, const ParameterSet& parameters) {
   for (const ParameterSpec& spec : parameters.specs()) {
-    if (text.starts_with(spec.name + " ")) return true;
+    if (text.starts_with(spec.name + " ") || text.starts_with(spec.name + ":")) return true;
   }
   return false;
 }

@@ -16,9 +16,27 @@
 namespace vinerow::conformance_test {
 namespace {
 
+// Worlds with plants organ by organ, beside those of each type.
+constexpr const char* kVines = "vineyard_with_vines";
+constexpr const char* kTreeLeaves = "orchard_with_leaves";
+
+std::string type_of(const std::string& world) {
+  return world == kVines ? "vineyard" : world == kTreeLeaves ? "orchard" : world;
+}
+
 /// Parameters that make a small world of each kind.
-ParameterSet small_parameters(const std::string& type) {
+ParameterSet small_parameters(const std::string& world) {
+  const std::string type = type_of(world);
   ParameterSet parameters = test::world_parameters(type);
+  if (world == kVines) {
+    ParameterSet vines = parameters.make_group("vines");
+    vines.set("bbch", 85.0).set("young_vine_share", 0.1);
+    parameters.set("vines", std::vector<ParameterSet>{vines}).set("plant_variants", 2.0);
+  } else if (world == kTreeLeaves) {
+    ParameterSet leaves = parameters.make_group("leaves");
+    leaves.set("leaf_area_per_m3", 1.0);
+    parameters.set("leaves", std::vector<ParameterSet>{leaves});
+  }
   if (type == "vineyard") {
     parameters.set("row_count", 4.0).set("row_length_m", 30.0).set("relief_m", 5.0);
     parameters.set("missing_vine_share", 0.05).set("clods_m", 0.01);
@@ -33,17 +51,17 @@ ParameterSet small_parameters(const std::string& type) {
 }
 
 /// Another run's world of the same parameters.
-std::unique_ptr<WorldModel> make_with_seed(const std::string& type, std::uint64_t seed) {
+std::unique_ptr<WorldModel> make_with_seed(const std::string& world, std::uint64_t seed) {
   WorldContext context;
   context.part = "world";
   context.seed = seed;
-  ParameterSet parameters = small_parameters(type);
+  ParameterSet parameters = small_parameters(world);
   ParameterSet wind = parameters.make_group("wind");
   ParameterSet gusts = wind.make_group("random_gusts");
   gusts.set("interval_s", 5.0);
   wind.set("random_gusts", std::vector<ParameterSet>{gusts});
   parameters.set("wind", std::vector<ParameterSet>{wind});
-  return test::world_registry().make_world(type, parameters, context);
+  return test::world_registry().make_world(type_of(world), parameters, context);
 }
 
 std::string digest_of(const WorldModel& world) {
@@ -73,7 +91,8 @@ std::string digest_of(const WorldModel& world) {
 
 class WorldConformance : public ::testing::TestWithParam<std::string> {
  protected:
-  WorldConformance() : world_(test::make_world(GetParam(), small_parameters(GetParam()))) {}
+  WorldConformance()
+      : world_(test::make_world(type_of(GetParam()), small_parameters(GetParam()))) {}
   double ground_m(double x, double y) const {
     return world_->terrain ? world_->terrain->height_m(x, y) : 0.0;
   }
@@ -81,7 +100,7 @@ class WorldConformance : public ::testing::TestWithParam<std::string> {
 };
 
 TEST_P(WorldConformance, SameParametersGiveTheSameBits) {
-  const auto again = test::make_world(GetParam(), small_parameters(GetParam()));
+  const auto again = test::make_world(type_of(GetParam()), small_parameters(GetParam()));
   EXPECT_EQ(digest_of(*world_), digest_of(*again));
 }
 
@@ -243,8 +262,24 @@ TEST_P(WorldConformance, CanopyHullsAreClosedAndOutward) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(AllWorlds, WorldConformance,
-                         ::testing::ValuesIn(test::world_registry().names(PartKind::kWorld)),
+std::vector<std::string> all_worlds() {
+  std::vector<std::string> names = test::world_registry().names(PartKind::kWorld);
+  names.insert(names.end(), {kVines, kTreeLeaves});
+  return names;
+}
+
+/// What light meets of an object is one of its levels of detail, or what stands for all of them.
+TEST_P(WorldConformance, LightMeetsNoObjectTwice) {
+  for (const MeshInstance& instance : world_->meshes) {
+    const bool is_coarse = instance.name.find("#lod") != std::string::npos &&
+                           instance.name.find("#lod0") == std::string::npos;
+    if (is_coarse || instance.material.leaf_cards) {
+      EXPECT_EQ(instance.light, Light::kPasses) << instance.name;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(AllWorlds, WorldConformance, ::testing::ValuesIn(all_worlds()),
                          [](const auto& test_info) { return test_info.param; });
 
 }  // namespace

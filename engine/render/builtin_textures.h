@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "engine/render/pixels.h"
+#include "engine/imaging/pixels.h"
 
 namespace vinerow::render {
 
@@ -20,18 +20,18 @@ constexpr int kGrassLayers = 4;
 constexpr int kCardLayers = kGrassLayer + kGrassLayers;
 
 /// kCardLayers square pictures of equal size.
-const std::vector<Pixels>& card_textures();
+const std::vector<imaging::Pixels>& card_textures();
 
 /// Ground tile seen from above. R grass brightness, G grass dryness, B soil brightness, A height
 /// (of clods and blades).
-const Pixels& ground_texture();
+const imaging::Pixels& ground_texture();
 
 /// Four smooth noises, tileable. R and G: value noise of 4 and 8 cells; B: soft clouds; A:
 /// blotches.
-const Pixels& noise_texture();
+const imaging::Pixels& noise_texture();
 
 /// Wood with grain along v. RGB colour.
-const Pixels& wood_texture();
-const Pixels& bark_texture();
+const imaging::Pixels& wood_texture();
+const imaging::Pixels& bark_texture();
 
 }  // namespace vinerow::render

@@ -80,14 +80,14 @@ float soil_value(float u, float v, float& height) {
 
 }  // namespace
 
-const Pixels& ground_texture() {
-  static const Pixels texture = [] {
+const imaging::Pixels& ground_texture() {
+  static const imaging::Pixels texture = [] {
     constexpr int kSize = 512;
     GreyPlane grass(kSize, 0.12f);
     GreyPlane dry(kSize, 0.3f);
     GreyPlane height(kSize, 0.1f);
     paint_grass(grass, dry, height);
-    Pixels pixels(kSize, kSize);
+    imaging::Pixels pixels(kSize, kSize);
     for (int y = 0; y < kSize; ++y) {
       for (int x = 0; x < kSize; ++x) {
         float soil_height = 0.0f;
@@ -105,10 +105,10 @@ const Pixels& ground_texture() {
   return texture;
 }
 
-const Pixels& noise_texture() {
-  static const Pixels texture = [] {
+const imaging::Pixels& noise_texture() {
+  static const imaging::Pixels texture = [] {
     constexpr int kSize = 512;
-    Pixels pixels(kSize, kSize);
+    imaging::Pixels pixels(kSize, kSize);
     // Stretches the narrow range of a sum of octaves to the full range.
     const auto stretch = [](float v) { return (v - 0.5f) * 1.7f + 0.5f; };
     for (int y = 0; y < kSize; ++y) {
@@ -133,10 +133,10 @@ const Pixels& noise_texture() {
 namespace {
 
 /// @param stretch  cells across for each cell along the grain
-Pixels grain(const float (&dark)[3], const float (&light)[3], int across, int along,
-             std::uint32_t seed) {
+imaging::Pixels grain(const float (&dark)[3], const float (&light)[3], int across, int along,
+                      std::uint32_t seed) {
   constexpr int kSize = 256;
-  Pixels pixels(kSize, kSize);
+  imaging::Pixels pixels(kSize, kSize);
   for (int y = 0; y < kSize; ++y) {
     for (int x = 0; x < kSize; ++x) {
       const float u = (static_cast<float>(x) + 0.5f) / kSize;
@@ -160,13 +160,15 @@ Pixels grain(const float (&dark)[3], const float (&light)[3], int across, int al
 
 }  // namespace
 
-const Pixels& wood_texture() {
-  static const Pixels texture = grain({0.20f, 0.15f, 0.11f}, {0.62f, 0.53f, 0.43f}, 24, 3, 401);
+const imaging::Pixels& wood_texture() {
+  static const imaging::Pixels texture =
+      grain({0.20f, 0.15f, 0.11f}, {0.62f, 0.53f, 0.43f}, 24, 3, 401);
   return texture;
 }
 
-const Pixels& bark_texture() {
-  static const Pixels texture = grain({0.07f, 0.05f, 0.035f}, {0.42f, 0.32f, 0.24f}, 14, 6, 431);
+const imaging::Pixels& bark_texture() {
+  static const imaging::Pixels texture =
+      grain({0.07f, 0.05f, 0.035f}, {0.42f, 0.32f, 0.24f}, 14, 6, 431);
   return texture;
 }
 

@@ -63,7 +63,7 @@ void set_pixel(std::uint8_t* p, float brightness, float tilt_x, float tilt_y, fl
 }
 
 /// Paints one leaf over the present content.
-void paint_leaf(Pixels& card, const Leaf& leaf, bool vine) {
+void paint_leaf(imaging::Pixels& card, const Leaf& leaf, bool vine) {
   const float reach = leaf.radius * 1.12f;
   const auto low = [&](float c) { return std::max(0, static_cast<int>((c - reach) * kSize)); };
   const auto high = [&](float c) {
@@ -109,7 +109,7 @@ void paint_leaf(Pixels& card, const Leaf& leaf, bool vine) {
 }
 
 /// Paints a thin green shoot or stalk.
-void paint_shoot(Pixels& card, float x0, float y0, float x1, float y1, float width) {
+void paint_shoot(imaging::Pixels& card, float x0, float y0, float x1, float y1, float width) {
   const int steps = static_cast<int>(std::hypot(x1 - x0, y1 - y0) * kSize * 1.5f) + 1;
   for (int i = 0; i <= steps; ++i) {
     const float t = static_cast<float>(i) / static_cast<float>(steps);
@@ -128,8 +128,8 @@ void paint_shoot(Pixels& card, float x0, float y0, float x1, float y1, float wid
 }
 
 /// Paints leaves scattered over the card; the lowest are painted first and are darkest.
-Pixels leaf_card(bool vine, int count, float radius, std::uint32_t seed) {
-  Pixels card(kSize, kSize);
+imaging::Pixels leaf_card(bool vine, int count, float radius, std::uint32_t seed) {
+  imaging::Pixels card(kSize, kSize);
   Scatter scatter(seed);
   if (count == 1) {
     paint_shoot(card, 0.5f, 0.02f, 0.5f, 0.3f, 0.008f);
@@ -167,8 +167,8 @@ Pixels leaf_card(bool vine, int count, float radius, std::uint32_t seed) {
 }
 
 /// Paints grass blades that grow from the lower edge.
-Pixels grass_card(std::uint32_t seed) {
-  Pixels card(kSize, kSize);
+imaging::Pixels grass_card(std::uint32_t seed) {
+  imaging::Pixels card(kSize, kSize);
   Scatter scatter(seed);
   constexpr int kBlades = 34;
   for (int i = 0; i < kBlades; ++i) {
@@ -200,9 +200,9 @@ Pixels grass_card(std::uint32_t seed) {
 
 }  // namespace
 
-const std::vector<Pixels>& card_textures() {
-  static const std::vector<Pixels> cards = [] {
-    std::vector<Pixels> made;
+const std::vector<imaging::Pixels>& card_textures() {
+  static const std::vector<imaging::Pixels> cards = [] {
+    std::vector<imaging::Pixels> made;
     for (const bool vine : {true, false}) {
       const std::uint32_t seed = vine ? 100u : 900u;
       for (std::uint32_t i = 0; i < 2; ++i)

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/imaging/png.h"
 #include "engine/render/builtin_textures.h"
-#include "engine/render/png.h"
 
 namespace vinerow::render {
 
@@ -32,18 +32,18 @@ GLuint DrawableStore::find_image(const std::string& name) {
   if (known != images_.end()) return known->second;
   GLuint texture = 0;
   if (name == "builtin:wood") {
-    texture = upload_texture(gl_, mip_chain(wood_texture()), false);
+    texture = upload_texture(gl_, imaging::mip_chain(wood_texture()), false);
   } else if (name == "builtin:bark") {
-    texture = upload_texture(gl_, mip_chain(bark_texture()), false);
+    texture = upload_texture(gl_, imaging::mip_chain(bark_texture()), false);
   } else if (!name.starts_with("builtin:")) {
-    Result<Pixels> pixels = read_png(name);
+    Result<imaging::Pixels> pixels = imaging::read_png(name);
     if (pixels) {
       // OpenGL's first row is the lowest.
-      Pixels flipped(pixels->width, pixels->height);
+      imaging::Pixels flipped(pixels->width, pixels->height);
       for (int y = 0; y < flipped.height; ++y) {
         std::copy_n(pixels->at(0, flipped.height - 1 - y), 4 * flipped.width, flipped.at(0, y));
       }
-      texture = upload_texture(gl_, mip_chain(flipped), false);
+      texture = upload_texture(gl_, imaging::mip_chain(flipped), false);
     }
   }
   return images_[name] = texture;

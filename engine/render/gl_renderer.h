@@ -7,13 +7,13 @@
 #include <optional>
 #include <vector>
 
+#include "engine/imaging/daylight.h"
+#include "engine/imaging/ground_look.h"
+#include "engine/imaging/ground_mask.h"
 #include "engine/render/drawables.h"
 #include "engine/render/frame_target.h"
 #include "engine/render/grid_overlay.h"
-#include "engine/render/ground_look.h"
-#include "engine/render/ground_mask.h"
 #include "engine/render/land_use.h"
-#include "engine/render/light.h"
 #include "engine/render/offscreen_context.h"
 #include "engine/render/ribbons.h"
 #include "engine/render/shaders.h"
@@ -77,9 +77,9 @@ class GlRenderer final : public Renderer {
   std::unique_ptr<OffscreenContext> context_;
   const RendererSettings settings_;
   Gl gl_;
-  Light light_;
-  GroundMask mask_;
-  GroundLook look_;
+  imaging::SceneLight light_;
+  imaging::GroundMask mask_;
+  imaging::GroundLook look_;
   std::vector<SceneryTrack> tracks_;
   std::optional<HeightField> terrain_;
   DrawableStore store_;

@@ -15,9 +15,9 @@ GlRenderer::GlRenderer(std::unique_ptr<OffscreenContext> context, const WorldMod
     : context_(std::move(context)),
       settings_(settings),
       gl_(load_gl([this](const char* name) { return context_->find_function(name); })),
-      light_(make_light(world.daylight)),
-      mask_(make_ground_mask(world.rows)),
-      look_(look_of(world.soil)),
+      light_(imaging::make_light(world.daylight)),
+      mask_(imaging::make_ground_mask(world.rows)),
+      look_(imaging::look_of(world.soil)),
       tracks_(world.scenery.tracks),
       terrain_(world.terrain),
       store_(gl_),
@@ -93,22 +93,25 @@ void GlRenderer::make_programs(const Scenery& scenery) {
 void GlRenderer::make_textures() {
   const auto unit = [&](TextureUnit u) { gl_.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(u)); };
   unit(kUnitNoise);
-  upload_texture(gl_, mip_chain(noise_texture()), false);
+  upload_texture(gl_, imaging::mip_chain(noise_texture()), false);
   unit(kUnitGround);
-  upload_texture(gl_, mip_chain(ground_texture()), false);
+  upload_texture(gl_, imaging::mip_chain(ground_texture()), false);
   unit(kUnitMask);
-  upload_texture(gl_, mip_chain(mask_.pixels), true);
+  upload_texture(gl_, imaging::mip_chain(mask_.pixels), true);
   unit(kUnitLeaves);
-  std::vector<std::vector<Pixels>> layers;
-  for (const Pixels& card : card_textures()) layers.push_back(mip_chain_with_coverage(card));
+  std::vector<std::vector<imaging::Pixels>> layers;
+  for (const imaging::Pixels& card : card_textures()) {
+    layers.push_back(imaging::mip_chain_with_coverage(card));
+  }
   upload_texture_array(gl_, layers);
 
   unit(kUnitSky);
   GLuint sky = 0;
   gl_.GenTextures(1, &sky);
   gl_.BindTexture(GL_TEXTURE_2D, sky);
-  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGB32F, Atmosphere::kAzimuths, Atmosphere::kElevations, 0,
-                 GL_RGB, GL_FLOAT, light_.atmosphere.sky.data());
+  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGB32F, imaging::Atmosphere::kAzimuths,
+                 imaging::Atmosphere::kElevations, 0, GL_RGB, GL_FLOAT,
+                 light_.atmosphere.sky.data());
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);

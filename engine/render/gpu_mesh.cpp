@@ -59,7 +59,7 @@ GpuMesh upload_mesh(const Gl& gl, const PreparedMesh& prepared) {
   return mesh;
 }
 
-GLuint upload_texture(const Gl& gl, const std::vector<Pixels>& levels, bool clamp) {
+GLuint upload_texture(const Gl& gl, const std::vector<imaging::Pixels>& levels, bool clamp) {
   GLuint texture = 0;
   gl.GenTextures(1, &texture);
   gl.BindTexture(GL_TEXTURE_2D, texture);
@@ -78,13 +78,13 @@ GLuint upload_texture(const Gl& gl, const std::vector<Pixels>& levels, bool clam
   return texture;
 }
 
-GLuint upload_texture_array(const Gl& gl, const std::vector<std::vector<Pixels>>& layers) {
+GLuint upload_texture_array(const Gl& gl, const std::vector<std::vector<imaging::Pixels>>& layers) {
   GLuint texture = 0;
   gl.GenTextures(1, &texture);
   gl.BindTexture(GL_TEXTURE_2D_ARRAY, texture);
   const auto count = static_cast<GLsizei>(layers.size());
   for (std::size_t level = 0; level < layers[0].size(); ++level) {
-    const Pixels& first = layers[0][level];
+    const imaging::Pixels& first = layers[0][level];
     gl.TexImage3D(GL_TEXTURE_2D_ARRAY, static_cast<GLint>(level), GL_RGBA8, first.width,
                   first.height, count, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
     for (GLsizei i = 0; i < count; ++i) {

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/imaging/pixels.h"
 #include "engine/render/gl.h"
 #include "engine/render/mesh_preparation.h"
-#include "engine/render/pixels.h"
 
 namespace vinerow::render {
 
@@ -29,8 +29,8 @@ void fill_indices(const Gl& gl, GpuMesh& mesh, const std::vector<std::uint32_t>&
 GpuMesh upload_mesh(const Gl& gl, const PreparedMesh& prepared);
 
 /// Uploads a mipmapped texture and binds it to the active unit. It repeats unless `clamp`.
-GLuint upload_texture(const Gl& gl, const std::vector<Pixels>& levels, bool clamp);
+GLuint upload_texture(const Gl& gl, const std::vector<imaging::Pixels>& levels, bool clamp);
 /// Uploads layers of equal size, each with a full mipmap chain.
-GLuint upload_texture_array(const Gl& gl, const std::vector<std::vector<Pixels>>& layers);
+GLuint upload_texture_array(const Gl& gl, const std::vector<std::vector<imaging::Pixels>>& layers);
 
 }  // namespace vinerow::render

@@ -74,7 +74,7 @@ void make_grass_tufts(const GrassGround& ground, const Camera& camera, const Fru
                       double seen_scale, std::vector<GpuVertex>& vertices,
                       std::vector<std::uint32_t>& indices) {
   const HeightField& field = ground.field;
-  const GroundMask& mask = ground.mask;
+  const imaging::GroundMask& mask = ground.mask;
   vertices.clear();
   indices.clear();
   constexpr double kCell_m = 0.21;

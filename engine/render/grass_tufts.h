@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "engine/api/scenery.h"
+#include "engine/imaging/ground_mask.h"
 #include "engine/render/culling.h"
-#include "engine/render/ground_mask.h"
 #include "engine/render/mesh_preparation.h"
 
 namespace vinerow::render {
@@ -14,7 +14,7 @@ namespace vinerow::render {
 /// Ground on which grass grows.
 struct GrassGround {
   const HeightField& field;
-  const GroundMask& mask;
+  const imaging::GroundMask& mask;
   std::span<const SceneryTrack> tracks;  ///< without grass
   double bare = 0.0;                     ///< share of the ground without grass (GroundLook)
 };

@@ -127,8 +127,8 @@ LandUse make_land_use(const Scenery& scenery, const HeightField& terrain,
   land.corner_W = terrain.corner_W;
   land.size_m = {terrain.width_m(), terrain.depth_m()};
   constexpr double kWantedCell_m = 0.5;
-  land.pixels = Pixels(texture_side(land.size_m.x() / kWantedCell_m),
-                       texture_side(land.size_m.y() / kWantedCell_m));
+  land.pixels = imaging::Pixels(imaging::texture_side(land.size_m.x() / kWantedCell_m),
+                                imaging::texture_side(land.size_m.y() / kWantedCell_m));
   for (std::size_t i = 1; i < land.pixels.rgba.size(); i += 4) land.pixels.rgba[i] = 255;
   const std::size_t count = std::min(scenery.fields.size(), kMaxFields);
   for (std::size_t i = 0; i < count; ++i) {

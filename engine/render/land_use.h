@@ -6,7 +6,7 @@
 
 #include "engine/api/forward.h"
 #include "engine/api/scenery.h"
-#include "engine/render/pixels.h"
+#include "engine/imaging/pixels.h"
 
 namespace vinerow::render {
 
@@ -15,9 +15,9 @@ struct LandUse {
 
   Eigen::Vector2d corner_W = {0, 0};
   Eigen::Vector2d size_m = {1, 1};
-  Pixels pixels;  ///< R number of the field at or next to the pixel, 0: none; G distance to the
-                  ///< middle of a track / 5.1 m; B 128 in a field, 255 in its rows; A shade of
-                  ///< trees; row 0 is south
+  imaging::Pixels pixels;  ///< R number of the field at or next to the pixel, 0: none; G distance
+                           ///< to the middle of a track / 5.1 m; B 128 in a field, 255 in its rows;
+                           ///< A shade of trees; row 0 is south
   /// Three texels of four numbers per field: normal of its rows (2), their offset along it and
   /// pitch (0: no rows); dryness, tilled, stubble, brightness; half width, foot and top of rows, 0.
   std::vector<float> table;

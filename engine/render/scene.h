@@ -130,7 +130,7 @@ Result<std::unique_ptr<Renderer>> make_renderer(const WorldModel& world,
 /// Writes a PNG atomically, with fast compression and without time stamps: equal images give equal
 /// files.
 /// @throws WriteError, ConfigError if the file cannot be written
-/// @param words  stored with the picture (chunks tEXt), by keyword; see read_png_words() in png.h
+/// @param words  stored with the picture (chunks tEXt), by keyword; see engine/imaging/png.h
 void write_png(const std::string& file, const Image& image,
                const std::map<std::string, std::string>& words = {});
 

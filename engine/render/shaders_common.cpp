@@ -118,7 +118,7 @@ vec3 grass_albedo(float brightness, float dryness, vec2 macro) {
 namespace {
 
 /// The mean of a texture as GLSL text "vec4(...)".
-std::string mean_of(const Pixels& texture) {
+std::string mean_of(const imaging::Pixels& texture) {
   std::array<double, 4> sum{};
   for (std::size_t i = 0; i < texture.rgba.size(); ++i) sum[i % 4] += texture.rgba[i];
   const double scale = 4.0 / 255.0 / static_cast<double>(texture.rgba.size());

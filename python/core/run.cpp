@@ -5,8 +5,8 @@
 
 #include "engine/core/error.h"
 #include "engine/core/whole_file.h"
+#include "engine/imaging/png.h"
 #include "engine/playback/run_frames.h"
-#include "engine/render/png.h"
 #include "engine/render/scene.h"
 #include "engine/run/run.h"
 #include "python/core/arguments.h"
@@ -108,7 +108,7 @@ void write_replay(const PathArgument& path) {
 }
 
 py::array_t<std::uint8_t> read_picture(const PathArgument& file) {
-  const Result<render::Pixels> read = render::read_png(file.value("file").string());
+  const Result<imaging::Pixels> read = imaging::read_png(file.value("file").string());
   if (!read) throw ConfigError(read.reason());
   const py::ssize_t height = read->height, width = read->width;
   py::array_t<std::uint8_t> picture({height, width, py::ssize_t{3}});
@@ -125,13 +125,13 @@ py::bytes encode_picture(
   if (picture.ndim() != 3 || picture.shape(2) != 3 || picture.size() == 0) {
     throw ConfigError("picture must have the shape (h, w, 3)");
   }
-  render::Pixels pixels(static_cast<int>(picture.shape(1)), static_cast<int>(picture.shape(0)));
+  imaging::Pixels pixels(static_cast<int>(picture.shape(1)), static_cast<int>(picture.shape(0)));
   const std::uint8_t* from = picture.data();
   for (std::size_t at = 0; at < pixels.rgba.size(); at += 4, from += 3) {
     std::copy(from, from + 3, &pixels.rgba[at]);
     pixels.rgba[at + 3] = 255;
   }
-  return render::encode_png(pixels);
+  return imaging::encode_png(pixels);
 }
 
 /// Makes the wish for a camera part of the options.

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/imaging/png.h"
 #include "engine/io/grids/ros_map.h"
-#include "engine/render/png.h"
 #include "tests/scenarios/command.h"
 
 namespace vinerow::grid_test {
@@ -32,7 +32,7 @@ TEST(GridCommand, WritesMapAndPictureAndTellsWhatIsOnIt) {
   const OccupancyGrid grid = io::load_ros_map(out + "/map.yaml").grid;
   EXPECT_EQ(test::value_in(result.output, "cells").substr(0, 10),
             std::to_string(grid.columns) + " x " + std::to_string(grid.rows));
-  const auto picture = render::read_png(out + "/grid.png");
+  const auto picture = imaging::read_png(out + "/grid.png");
   ASSERT_TRUE(picture);
   // Rows are green, walls blue, turning areas yellow: each colour has its share.
   int green = 0, blue = 0, yellow = 0;

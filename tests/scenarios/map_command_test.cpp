@@ -8,8 +8,8 @@
 #include <random>
 
 #include "engine/api/world_model.h"
+#include "engine/imaging/png.h"
 #include "engine/math/polygon.h"
-#include "engine/render/png.h"
 #include "tests/scenarios/small_vineyard_map.h"
 #include "tests/support/paths.h"
 #include "worlds/mapping/folder/map_folder.h"
@@ -152,7 +152,7 @@ TEST_F(MapCommand, ThePageIsWellFormed) {
 
 TEST_F(MapCommand, PicturesShowGroundRowsAndGrid) {
   const auto count = [&](const char* name, auto&& is) {
-    const auto picture = render::read_png((out() / "pictures" / name).string());
+    const auto picture = imaging::read_png((out() / "pictures" / name).string());
     EXPECT_TRUE(picture.ok()) << name;
     int pixels = 0;
     for (int y = 0; y < picture->height; ++y) {

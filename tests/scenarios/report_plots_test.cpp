@@ -12,9 +12,9 @@
 #include <sstream>
 
 #include "engine/core/error.h"
+#include "engine/imaging/png.h"
 #include "engine/math/deviation.h"
 #include "engine/playback/vehicle_colours.h"
-#include "engine/render/png.h"
 #include "tests/scenarios/command.h"
 #include "tools/replay/page_text.h"
 #include "tools/replay/simplify_line.h"
@@ -172,7 +172,7 @@ TEST(ReportMap, SimplifiesALineWithinItsTolerance) {
 
 TEST(ReportPictures, ShrinkByTheMeanAndComeBackAsTheyWere) {
   const test::ScratchFolder folder("report_png");
-  render::Pixels pixels(4, 2);
+  imaging::Pixels pixels(4, 2);
   for (int y = 0; y < 2; ++y) {
     for (int x = 0; x < 4; ++x) {
       const std::uint8_t value = static_cast<std::uint8_t>(10 * (x + 4 * y));
@@ -180,7 +180,7 @@ TEST(ReportPictures, ShrinkByTheMeanAndComeBackAsTheyWere) {
       at[0] = value, at[1] = 100, at[2] = static_cast<std::uint8_t>(255 - value), at[3] = 255;
     }
   }
-  const render::Pixels small = shrunk(pixels, 2);
+  const imaging::Pixels small = shrunk(pixels, 2);
   ASSERT_EQ(small.width, 2);
   ASSERT_EQ(small.height, 1);
   EXPECT_EQ(small.at(0, 0)[0], (0 + 10 + 40 + 50) / 4);
@@ -188,17 +188,17 @@ TEST(ReportPictures, ShrinkByTheMeanAndComeBackAsTheyWere) {
   EXPECT_EQ(small.at(1, 0)[1], 100);
   for (const std::uint8_t alpha : {255, 7}) {
     pixels.at(1, 1)[3] = alpha;
-    const std::string bytes = render::encode_png(pixels);
-    EXPECT_EQ(bytes, render::encode_png(pixels));
-    const auto back = render::read_png(folder.file("x.png", bytes));
+    const std::string bytes = imaging::encode_png(pixels);
+    EXPECT_EQ(bytes, imaging::encode_png(pixels));
+    const auto back = imaging::read_png(folder.file("x.png", bytes));
     ASSERT_TRUE(back);
     EXPECT_EQ(back->rgba, pixels.rgba);
   }
 }
 
 /// The picture through a browser's decoder: what it shows at each pixel, or nothing without one.
-std::optional<render::Pixels> seen_by_browser(const test::ScratchFolder& folder,
-                                              const std::string& jpeg, int width, int height) {
+std::optional<imaging::Pixels> seen_by_browser(const test::ScratchFolder& folder,
+                                               const std::string& jpeg, int width, int height) {
   if (std::system("command -v chromium > /dev/null") != 0) return std::nullopt;
   const std::string page = folder.file(
       "jpeg.html",
@@ -212,13 +212,13 @@ std::optional<render::Pixels> seen_by_browser(const test::ScratchFolder& folder,
       (folder.path() / "profile").string() + " --screenshot=" + shot +
       fmt::format(" --window-size={},{} 'file://{}' > /dev/null 2>&1", width, height, page);
   if (std::system(command.c_str()) != 0) return std::nullopt;
-  const auto pixels = render::read_png(shot);
+  const auto pixels = imaging::read_png(shot);
   return pixels ? std::optional(*pixels) : std::nullopt;
 }
 
 /// Leaves and sky: a smooth part, edges, and sides that are no multiples of 16.
-render::Pixels test_photo() {
-  render::Pixels pixels(531, 317);
+imaging::Pixels test_photo() {
+  imaging::Pixels pixels(531, 317);
   for (int y = 0; y < pixels.height; ++y) {
     for (int x = 0; x < pixels.width; ++x) {
       std::uint8_t* p = pixels.at(x, y);
@@ -233,14 +233,14 @@ render::Pixels test_photo() {
 }
 
 TEST(ReportPictures, AreJpegThatABrowserShowsAsTheyWere) {
-  const render::Pixels pixels = test_photo();
+  const imaging::Pixels pixels = test_photo();
   const std::string fine = encode_jpeg(pixels, 95), coarse = encode_jpeg(pixels, 40);
   EXPECT_EQ(fine, encode_jpeg(pixels, 95));
   EXPECT_LT(coarse.size(), fine.size() / 2);
   // T.81: start of image, end of image; a frame header with the size.
   EXPECT_EQ(fine.substr(0, 4), "\xFF\xD8\xFF\xE0");
   EXPECT_EQ(fine.substr(fine.size() - 2), "\xFF\xD9");
-  EXPECT_EQ(encode_jpeg(render::Pixels(1, 1), 90).substr(0, 2), "\xFF\xD8");
+  EXPECT_EQ(encode_jpeg(imaging::Pixels(1, 1), 90).substr(0, 2), "\xFF\xD8");
 
   const test::ScratchFolder folder("report_jpeg");
   const auto seen = seen_by_browser(folder, fine, pixels.width, pixels.height);

@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "engine/api/height_field.h"
+#include "engine/imaging/png.h"
 #include "engine/io/geo/height_raster.h"
 #include "engine/io/missions/mission_file.h"
 #include "engine/math/angles.h"
-#include "engine/render/png.h"
 #include "tests/scenarios/command.h"
 #include "tests/support/data.h"
 #include "tests/support/paths.h"
@@ -66,7 +66,7 @@ TEST(SurveyCommand, PlansAPolygonAndWritesMissionsWaypointsAndAPicture) {
   EXPECT_EQ(table.find("waypoint,kind,lane,x_m,y_m,z_m,above_ground_m,latitude_deg"), 0u);
 
   // The picture has lanes from violet to green, and the orange footprint of a picture.
-  const auto picture = render::read_png(out + "/survey.png");
+  const auto picture = imaging::read_png(out + "/survey.png");
   ASSERT_TRUE(picture);
   int violet = 0, green = 0, orange = 0;
   for (int y = 0; y < picture->height; ++y) {

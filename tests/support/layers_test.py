@@ -10,7 +10,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 CORE, MATH, API = "engine/core", "engine/math", "engine/api"
 BASE = [CORE, MATH, API]
 PHYSICS, IO, SCENARIO, SENSORS = "engine/physics", "engine/io", "engine/scenario", "engine/sensors"
-RENDER, RECORD, METRICS = "engine/render", "engine/record", "engine/metrics"
+IMAGING, RENDER, RECORD, METRICS = "engine/imaging", "engine/render", "engine/record", "engine/metrics"
 SIM, PLAYBACK, RUN = "engine/sim", "engine/playback", "engine/run"
 ROS2, LIVE, MAVLINK = "engine/ros2", "engine/live", "engine/mavlink"
 FILES, GEO, CLOUDS = "engine/io/files", "engine/io/geo", "engine/io/clouds"
@@ -31,6 +31,7 @@ ALLOWED = {
     CORE: [],
     MATH: [CORE],
     API: [CORE, MATH],
+    IMAGING: BASE,
     PHYSICS: BASE,
     FILES: BASE,
     GEO: BASE + [FILES],
@@ -40,12 +41,12 @@ ALLOWED = {
     "engine/io/grids": BASE + [FILES],
     "engine/io/robots": BASE,
     SCENARIO: BASE + [FILES],
-    SENSORS: BASE,
-    RENDER: BASE,
-    RECORD: BASE,
+    SENSORS: BASE + [IMAGING],
+    RENDER: BASE + [IMAGING],
+    RECORD: BASE + [IMAGING],
     METRICS: BASE,
     SIM: BASE + [PHYSICS, IO, SCENARIO, SENSORS, METRICS],
-    PLAYBACK: BASE + [PHYSICS, IO, SCENARIO, RENDER, RECORD, METRICS, SIM],
+    PLAYBACK: BASE + [IMAGING, PHYSICS, IO, SCENARIO, RENDER, RECORD, METRICS, SIM],
     RUN: BASE + [IO, SCENARIO, RECORD, SIM, PLAYBACK],
     ROS2: BASE + [RECORD],
     MAVLINK: [CORE],
@@ -119,7 +120,7 @@ NAMESPACE = {
     **{room: "vinerow" for room in (CORE, MATH, API, SIM, "tools/parts")},
     "tools/testing": "vinerow",
     **{room: "vinerow::" + room.split("/")[1]
-       for room in (PHYSICS, IO, SCENARIO, SENSORS, RENDER, RECORD, METRICS, PLAYBACK, RUN)},
+       for room in (IMAGING, PHYSICS, IO, SCENARIO, SENSORS, RENDER, RECORD, METRICS, PLAYBACK, RUN)},
     "vehicles": "vinerow::vehicles",
     "worlds": "vinerow::worlds",
     MAPPING: "vinerow::mapping",
@@ -141,7 +142,7 @@ OUTSIDE = {
     r"urdf": ["engine/io/robots"],
     r"tinyxml2": ["engine/io/robots", "engine/io/meshes"],
     r"GL/": [RENDER],
-    r"png\.h": [RENDER, "tests"],
+    r"png\.h": [IMAGING, "tests"],
     r"jpeglib": ["tools/report"],
     r"ft2build|freetype": [RENDER],
     r"zstd|lz4|zlib": [RECORD],

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "engine/api/messages/event.h"
-#include "engine/render/png.h"
+#include "engine/imaging/png.h"
 #include "tests/scenarios/command.h"
 #include "tools/replay/replay.h"
 
@@ -129,7 +129,7 @@ TEST_F(ReplayBrowser, DrawsTheSceneWithoutComplaint) {
       browser_call(browser_, folder_,
                    "--screenshot=" + picture + " 'file://" + page + "#replay:t=9;follow=drone'"));
   EXPECT_EQ(complaints(output), "");
-  const auto pixels = render::read_png(picture);
+  const auto pixels = imaging::read_png(picture);
   ASSERT_TRUE(pixels) << output;
   // Between the panels: grass and leaves, not one colour. The vehicle's name lies above the middle.
   std::set<std::uint32_t> colours;

@@ -9,7 +9,7 @@
 #include "engine/core/error.h"
 #include "engine/io/files/output_folder.h"
 #include "engine/playback/frame_words.h"
-#include "engine/render/png.h"
+#include "engine/render/scene.h"
 #include "tools/pictures/map_pictures.h"
 #include "worlds/mapping/folder/map_folder.h"
 #include "worlds/mapping/folder/map_points.h"

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/imaging/daylight.h"
 #include "engine/render/builtin_textures.h"
-#include "engine/render/light.h"
 
 namespace vinerow::tools {
 namespace {
 
+using imaging::Pixels;
 using nlohmann::json;
-using render::Pixels;
 
 constexpr int kCardSize = 128;
 constexpr int kTileSize = 256;
@@ -50,19 +50,19 @@ ReplayTextures make_replay_textures(const Daylight& daylight) {
       {"leaf", render::kLeafSingle}, {"spray", render::kLeafSpray}, {"clump", render::kLeafClump}};
   for (const auto& [name, layer] : pictures) {
     const Pixels& card = cards[static_cast<std::size_t>(layer)];
-    add_texture(textures, name, levels_from(render::mip_chain_with_coverage(card), kCardSize),
+    add_texture(textures, name, levels_from(imaging::mip_chain_with_coverage(card), kCardSize),
                 {0, 3});
   }
   const std::pair<const char*, const Pixels&> tiles[] = {{"ground", render::ground_texture()},
                                                          {"noise", render::noise_texture()}};
   for (const auto& [name, tile] : tiles) {
-    add_texture(textures, name, {levels_from(render::mip_chain(tile), kTileSize).front()},
+    add_texture(textures, name, {levels_from(imaging::mip_chain(tile), kTileSize).front()},
                 {0, 1, 2, 3});
   }
 
-  const render::Light light = render::make_light(daylight);
-  static_assert(render::Atmosphere::kAzimuths == render::Atmosphere::kElevations);
-  Pixels sky(render::Atmosphere::kAzimuths, render::Atmosphere::kElevations);
+  const imaging::SceneLight light = imaging::make_light(daylight);
+  static_assert(imaging::Atmosphere::kAzimuths == imaging::Atmosphere::kElevations);
+  Pixels sky(imaging::Atmosphere::kAzimuths, imaging::Atmosphere::kElevations);
   for (std::size_t i = 0; i < light.atmosphere.sky.size(); ++i) {
     for (int c = 0; c < 3; ++c) {
       const double exposed = light.exposure * light.atmosphere.sky[i][c];
@@ -75,7 +75,7 @@ ReplayTextures make_replay_textures(const Daylight& daylight) {
 }
 
 json replay_light(const Daylight& daylight) {
-  const render::Light light = render::make_light(daylight);
+  const imaging::SceneLight light = imaging::make_light(daylight);
   const double scale = light.exposure / EIGEN_PI;  // a diffuse white surface
   return {
       {"sun_W", array_of(light.sun_direction_W)},

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "engine/core/error.h"
-#include "engine/render/png.h"
+#include "engine/imaging/png.h"
 #include "tools/pictures/colour_scale.h"
 #include "tools/report/axis.h"
 #include "tools/report/html.h"
@@ -58,9 +58,9 @@ void paint(double share, std::uint8_t* rgba) {
 }
 
 /// One pixel per patch, transparent where the row has no canopy.
-render::Pixels strip_pixels(const std::vector<const CanopyPatchAmount*>& patches, int columns,
-                            int bands, double full) {
-  render::Pixels pixels(columns, bands);
+imaging::Pixels strip_pixels(const std::vector<const CanopyPatchAmount*>& patches, int columns,
+                             int bands, double full) {
+  imaging::Pixels pixels(columns, bands);
   for (const CanopyPatchAmount* patch : patches) {
     const double share = full > 0.0 ? patch->amount / full : 0.0;
     paint(share, pixels.at(patch->along, bands - 1 - patch->band));
@@ -95,18 +95,18 @@ std::string strips_svg(const CanopyFile& canopy, double full) {
     svg.text(kStripLeft - 8, y + 17,
              fmt::format("row {}, {}", key.first, key.second == 0 ? "left" : "right"), "tick end");
     svg.image(x.from_px(), y, x.to_px() - x.from_px(), kStrip,
-              render::encode_png(strip_pixels(patches, columns, bands, full)));
+              imaging::encode_png(strip_pixels(patches, columns, bands, full)));
     y += kStrip + kStripGap;
   }
   return svg.finish();
 }
 
 std::string colour_legend(const CanopyFile& canopy, double full) {
-  render::Pixels bar(64, 1);
+  imaging::Pixels bar(64, 1);
   for (int i = 0; i < 64; ++i) paint(i / 63.0, bar.at(i, 0));
   Svg svg(kWideChart, 34, "canopy", "colour scale");
   svg.text(kStripLeft, 22, "0", "tick end");
-  svg.image(kStripLeft + 8, 8, 260, 18, render::encode_png(bar));
+  svg.image(kStripLeft + 8, 8, 260, 18, imaging::encode_png(bar));
   const bool is_wanted = canopy.wanted > 0.0;
   svg.text(kStripLeft + 276, 22,
            fmt::format("{} {}", amount_text(full, canopy.unit),

@@ -24,7 +24,7 @@ struct JpegErrors {
 
 /// libjpeg returns from errors by longjmp, so this function's frame must not hold objects with
 /// destructors.
-bool compress(jpeg_compress_struct& jpeg, JpegErrors& errors, const render::Pixels& pixels,
+bool compress(jpeg_compress_struct& jpeg, JpegErrors& errors, const imaging::Pixels& pixels,
               int quality, unsigned char** bytes, unsigned long* size) {
   if (setjmp(errors.back) != 0) return false;
   jpeg_create_compress(&jpeg);
@@ -48,7 +48,7 @@ bool compress(jpeg_compress_struct& jpeg, JpegErrors& errors, const render::Pixe
 
 }  // namespace
 
-std::string encode_jpeg(const render::Pixels& pixels, int quality) {
+std::string encode_jpeg(const imaging::Pixels& pixels, int quality) {
   VINEROW_DEMAND(pixels.width > 0 && pixels.height > 0 && pixels.width < 65'536 &&
                  pixels.height < 65'536 && quality >= 1 && quality <= 100);
   jpeg_compress_struct jpeg{};

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "engine/render/pixels.h"
+#include "engine/imaging/pixels.h"
 
 namespace vinerow::tools::report {
 
@@ -13,6 +13,6 @@ namespace vinerow::tools::report {
 /// @param quality  1 to 100, as of libjpeg
 /// @pre width, height from 1 to 65535
 /// @throws std::runtime_error if memory is exhausted
-std::string encode_jpeg(const render::Pixels& pixels, int quality);
+std::string encode_jpeg(const imaging::Pixels& pixels, int quality);
 
 }  // namespace vinerow::tools::report

@@ -10,9 +10,9 @@
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "engine/core/files.h"
+#include "engine/imaging/png.h"
 #include "engine/math/polyline.h"
 #include "engine/playback/frame_words.h"
-#include "engine/render/png.h"
 #include "tools/replay/page_text.h"
 #include "tools/report/html.h"
 #include "tools/report/jpeg.h"
@@ -73,7 +73,7 @@ std::string frame_caption(const RunFolder& run, const fs::path& file) {
 /// Share of a frame that shows each vehicle, read from its file; empty if the file has no such
 /// data.
 std::map<std::string, double> seen_in(const fs::path& file) {
-  const std::map<std::string, std::string> words = render::read_png_words(file.string());
+  const std::map<std::string, std::string> words = imaging::read_png_words(file.string());
   const auto text = words.find(playback::kSeenKey);
   return text == words.end() ? std::map<std::string, double>() : playback::parse_seen(text->second);
 }
@@ -201,17 +201,17 @@ int fitting_width(const std::vector<Picture>& pictures, std::size_t budget_bytes
 }
 
 std::string embedded(const Picture& picture, int max_width) {
-  auto pixels = render::read_png(picture.file.string());
+  auto pixels = imaging::read_png(picture.file.string());
   if (!pixels) throw ConfigError(pixels.reason());
   const bool is_wide = pixels->width > max_width;
-  const render::Pixels shown = is_wide ? shrunk(*pixels, max_width) : std::move(*pixels);
+  const imaging::Pixels shown = is_wide ? shrunk(*pixels, max_width) : std::move(*pixels);
   const bool as_it_is = !is_wide && fs::file_size(picture.file) <= kSmall_bytes;
   std::string bytes, type = "png";
   if (picture.is_photo) {
     type = "jpeg";
     bytes = encode_jpeg(shown, kPhotoQuality);
   } else {
-    bytes = as_it_is ? read_bytes(picture.file).value() : render::encode_png(shown);
+    bytes = as_it_is ? read_bytes(picture.file).value() : imaging::encode_png(shown);
   }
   return fmt::format("<img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"data:image/{};base64,{}\"/>",
                      shown.width, shown.height, escaped(picture.caption), type, base64(bytes));
@@ -222,11 +222,11 @@ std::string picture_figure(const Picture& picture, int max_width) {
                      embedded(picture, max_width), escaped(sentence_case(picture.caption)));
 }
 
-render::Pixels shrunk(const render::Pixels& pixels, int width) {
+imaging::Pixels shrunk(const imaging::Pixels& pixels, int width) {
   const double scale = static_cast<double>(pixels.width) / width;
   const int height = std::max(1, static_cast<int>(std::lround(pixels.height / scale)));
   const double scale_y = static_cast<double>(pixels.height) / height;
-  render::Pixels out(width, height);
+  imaging::Pixels out(width, height);
   for (int j = 0; j < height; ++j) {
     for (int i = 0; i < width; ++i) {
       double sum[4] = {0, 0, 0, 0}, area = 0.0;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/render/pixels.h"
+#include "engine/imaging/pixels.h"
 #include "engine/scenario/scenario.h"
 #include "tools/report/run_folder.h"
 #include "tools/report/vehicle_log.h"
@@ -45,6 +45,6 @@ std::string embedded(const Picture& picture, int max_width);
 std::string picture_figure(const Picture& picture, int max_width);
 
 /// Picture scaled down by averaging over each target pixel. @pre 1 <= width <= pixels.width
-render::Pixels shrunk(const render::Pixels& pixels, int width);
+imaging::Pixels shrunk(const imaging::Pixels& pixels, int width);
 
 }  // namespace vinerow::tools::report

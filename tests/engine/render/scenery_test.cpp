@@ -143,7 +143,7 @@ TEST(Scenery, TrunksOfTreesAreSeenFromAfar) {
 
 TEST(GrassTufts, GrowNeitherOnTracksNorOnBareGround) {
   const HeightField field = test::make_level_ground(100.0);
-  const GroundMask mask = make_ground_mask({});
+  const imaging::GroundMask mask = imaging::make_ground_mask({});
   const SceneryTrack track{{-50, 3}, {50, 3}};
   const Camera camera = look_at({0, 0, 2}, {10, 3, 0}, 1.0);
   const Frustum frustum(calc_clip_from_world(camera, 1.6, 0.1, 100.0));

@@ -4,9 +4,9 @@
 #include <Eigen/Geometry>
 
 #include "engine/api/forward.h"
-#include "engine/render/pixels.h"
+#include "engine/imaging/pixels.h"
 
-namespace vinerow::render {
+namespace vinerow::imaging {
 
 struct GroundMask {
   static constexpr double kReach_m = 2.55;  ///< distances are stored up to here, in steps of 1 cm
@@ -27,4 +27,4 @@ struct GroundMask {
 /// Sizes are powers of two up to 2048; without rows, a single pixel with maximum distances.
 GroundMask make_ground_mask(const RowMap& rows);
 
-}  // namespace vinerow::render
+}  // namespace vinerow::imaging

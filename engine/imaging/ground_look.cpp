@@ -1,9 +1,9 @@
-#include "engine/render/ground_look.h"
+#include "engine/imaging/ground_look.h"
 
 #include <map>
 #include <string>
 
-namespace vinerow::render {
+namespace vinerow::imaging {
 
 GroundLook look_of(const Soil& soil) {
   // Wet soil reflects about half as much as dry soil; gravel and asphalt have almost no grass.
@@ -19,4 +19,4 @@ GroundLook look_of(const Soil& soil) {
   return found == kLooks.end() ? GroundLook{} : found->second;
 }
 
-}  // namespace vinerow::render
+}  // namespace vinerow::imaging

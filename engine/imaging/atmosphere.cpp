@@ -1,11 +1,11 @@
-#include "engine/render/atmosphere.h"
+#include "engine/imaging/atmosphere.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "engine/math/angles.h"
 
-namespace vinerow::render {
+namespace vinerow::imaging {
 
 namespace {
 
@@ -118,4 +118,4 @@ Atmosphere calc_atmosphere(double sun_elevation_rad) {
   return result;
 }
 
-}  // namespace vinerow::render
+}  // namespace vinerow::imaging

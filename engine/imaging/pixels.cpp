@@ -1,9 +1,9 @@
-#include "engine/render/pixels.h"
+#include "engine/imaging/pixels.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace vinerow::render {
+namespace vinerow::imaging {
 
 namespace {
 
@@ -78,4 +78,4 @@ std::vector<Pixels> mip_chain_with_coverage(const Pixels& base) {
   return levels;
 }
 
-}  // namespace vinerow::render
+}  // namespace vinerow::imaging

@@ -1,16 +1,16 @@
 #pragma once
-/// Light of the scene by the sun's position, in the renderer's scale.
+/// Light of the scene by the sun's position, in the scale of atmosphere.h.
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
 #include "engine/api/world_model.h"
-#include "engine/render/atmosphere.h"
+#include "engine/imaging/atmosphere.h"
 
-namespace vinerow::render {
+namespace vinerow::imaging {
 
-struct Light {
+struct SceneLight {
   Eigen::Vector3d sun_direction_W;  ///< unit, towards the sun
   Atmosphere atmosphere;
   Eigen::Vector3d sun_irradiance;
@@ -19,8 +19,8 @@ struct Light {
   double exposure = 1.0;              ///< factor from radiance to the input of the tone curve
 };
 
-inline Light make_light(const Daylight& daylight) {
-  Light light;
+inline SceneLight make_light(const Daylight& daylight) {
+  SceneLight light;
   const double elevation = std::max(daylight.sun_elevation_rad, 0.035);
   const double azimuth = daylight.sun_azimuth_rad;  // from north, clockwise
   light.sun_direction_W = {std::sin(azimuth) * std::cos(elevation),
@@ -43,4 +43,4 @@ inline Light make_light(const Daylight& daylight) {
   return light;
 }
 
-}  // namespace vinerow::render
+}  // namespace vinerow::imaging

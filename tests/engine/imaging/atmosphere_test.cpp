@@ -1,10 +1,10 @@
-#include "engine/render/atmosphere.h"
+#include "engine/imaging/atmosphere.h"
 
 #include <gtest/gtest.h>
 
 #include "engine/math/angles.h"
 
-namespace vinerow::render::atmosphere_test {
+namespace vinerow::imaging::atmosphere_test {
 namespace {
 
 TEST(Atmosphere, SunlightFollowsTheAirMass) {
@@ -40,4 +40,4 @@ TEST(Atmosphere, LightIsFiniteAndSkyIsDimmerThanSun) {
 }
 
 }  // namespace
-}  // namespace vinerow::render::atmosphere_test
+}  // namespace vinerow::imaging::atmosphere_test

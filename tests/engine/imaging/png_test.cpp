@@ -1,4 +1,4 @@
-#include "engine/render/png.h"
+#include "engine/imaging/png.h"
 
 #include <gtest/gtest.h>
 #include <png.h>
@@ -8,12 +8,12 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <vector>
 
 #include "engine/core/random.h"
-#include "engine/render/scene.h"
 #include "tests/support/paths.h"
 
-namespace vinerow::render::png_test {
+namespace vinerow::imaging::png_test {
 namespace {
 
 std::string temporary_file(const std::string& name) {
@@ -27,19 +27,19 @@ std::string bytes_of(const std::string& file) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-Image random_image(int width, int height) {
+std::vector<std::uint8_t> random_rgb(int width, int height) {
   RandomStream random(7, "test", "png");
-  Image image{width, height, {}};
+  std::vector<std::uint8_t> rgb;
   for (int i = 0; i < width * height * 3; ++i) {
-    image.rgb.push_back(static_cast<std::uint8_t>(random.uniform(0.0, 256.0)));
+    rgb.push_back(static_cast<std::uint8_t>(random.uniform(0.0, 256.0)));
   }
-  return image;
+  return rgb;
 }
 
 TEST(Png, LibpngReadsBackEveryPixel) {
-  const Image image = random_image(37, 23);
+  const std::vector<std::uint8_t> rgb = random_rgb(37, 23);
   const std::string file = temporary_file("round_trip.png");
-  write_png(file, image);
+  write_png(file, 37, 23, rgb);
   // The decoder is libpng's own, used directly.
   png_image header{};
   header.version = PNG_IMAGE_VERSION;
@@ -49,22 +49,22 @@ TEST(Png, LibpngReadsBackEveryPixel) {
   ASSERT_EQ(header.height, 23u);
   std::vector<std::uint8_t> read(37 * 23 * 3);
   ASSERT_TRUE(png_image_finish_read(&header, nullptr, read.data(), 0, nullptr));
-  EXPECT_EQ(read, image.rgb);
+  EXPECT_EQ(read, rgb);
 }
 
 TEST(Png, WordsStandInTheFileAndAreReadBack) {
-  const Image image = random_image(9, 5);
+  const std::vector<std::uint8_t> rgb = random_rgb(9, 5);
   const std::string file = temporary_file("words.png");
   const std::map<std::string, std::string> words = {{"vinerow:seen", "rover 0.25\ndrone 0\n"},
                                                     {"Comment", "two"}};
-  write_png(file, image, words);
+  write_png(file, 9, 5, rgb, words);
   EXPECT_EQ(read_png_words(file), words);
   // As the format has it: keyword, a zero byte, the text (PNG specification 11.3.4.3).
   EXPECT_NE(bytes_of(file).find(std::string("tEXtComment\0two", 15)), std::string::npos);
   const auto pixels = read_png(file);
   ASSERT_TRUE(pixels.ok());
-  EXPECT_EQ(pixels->at(3, 2)[0], image.rgb[(2 * 9 + 3) * 3]);
-  write_png(file, image);
+  EXPECT_EQ(pixels->at(3, 2)[0], rgb[(2 * 9 + 3) * 3]);
+  write_png(file, 9, 5, rgb);
   EXPECT_TRUE(read_png_words(file).empty());
 }
 
@@ -78,24 +78,24 @@ TEST(Png, AFileThatIsNoPngHasNoWords) {
 }
 
 TEST(Png, SameImageGivesTheSameFileWithoutTimeStamp) {
-  const Image image = random_image(16, 16);
-  write_png(temporary_file("a.png"), image);
-  write_png(temporary_file("b.png"), image);
+  const std::vector<std::uint8_t> rgb = random_rgb(16, 16);
+  write_png(temporary_file("a.png"), 16, 16, rgb);
+  write_png(temporary_file("b.png"), 16, 16, rgb);
   const std::string bytes = bytes_of(temporary_file("a.png"));
   EXPECT_EQ(bytes, bytes_of(temporary_file("b.png")));
   EXPECT_EQ(bytes.find("tIME"), std::string::npos);
 }
 
 TEST(Png, ReadsWhatItWrites) {
-  const Image image = random_image(5, 9);
+  const std::vector<std::uint8_t> rgb = random_rgb(5, 9);
   const std::string file = temporary_file("small.png");
-  write_png(file, image);
+  write_png(file, 5, 9, rgb);
   const Result<Pixels> pixels = read_png(file);
   ASSERT_TRUE(pixels.ok()) << pixels.reason();
   for (int y = 0; y < 9; ++y) {
     for (int x = 0; x < 5; ++x) {
       for (int c = 0; c < 3; ++c) {
-        EXPECT_EQ(pixels->at(x, y)[c], image.rgb[static_cast<std::size_t>(y * 5 + x) * 3 + c]);
+        EXPECT_EQ(pixels->at(x, y)[c], rgb[static_cast<std::size_t>(y * 5 + x) * 3 + c]);
       }
       EXPECT_EQ(pixels->at(x, y)[3], 255);
     }
@@ -103,16 +103,16 @@ TEST(Png, ReadsWhatItWrites) {
 }
 
 TEST(Png, FailuresNameTheFile) {
-  const Image image = random_image(2, 2);
+  const std::vector<std::uint8_t> rgb = random_rgb(2, 2);
   try {
-    write_png("/nonexistent_folder/x.png", image);
+    write_png("/nonexistent_folder/x.png", 2, 2, rgb);
     FAIL() << "no exception";
   } catch (const std::runtime_error& error) {
     EXPECT_STREQ(error.what(),
                  "'/nonexistent_folder/x.png' cannot be written: No such file or directory");
   }
   try {
-    write_png(temporary_file("x.png"), Image{3, 3, {1, 2, 3}});
+    write_png(temporary_file("x.png"), 3, 3, std::vector<std::uint8_t>{1, 2, 3});
     FAIL() << "no exception";
   } catch (const std::runtime_error& error) {
     EXPECT_NE(std::string(error.what()).find("3 x 3 pixels with 3 bytes are not a valid image"),
@@ -123,17 +123,5 @@ TEST(Png, FailuresNameTheFile) {
   EXPECT_EQ(missing.reason().find("/nonexistent_folder/x.png: "), 0u);
 }
 
-TEST(ImageDigest, TellsSizeAndEveryPixel) {
-  Image image = random_image(4, 6);
-  const std::string digest = image_digest(image);
-  EXPECT_EQ(digest.size(), 32u);
-  EXPECT_EQ(digest, image_digest(random_image(4, 6)));
-  std::swap(image.width, image.height);
-  EXPECT_NE(digest, image_digest(image));
-  std::swap(image.width, image.height);
-  image.rgb[71] ^= 1;
-  EXPECT_NE(digest, image_digest(image));
-}
-
 }  // namespace
-}  // namespace vinerow::render::png_test
+}  // namespace vinerow::imaging::png_test

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace vinerow::render {
+namespace vinerow::imaging {
 
 struct Pixels {
   int width = 0;
@@ -35,4 +35,4 @@ std::vector<Pixels> mip_chain_with_coverage(const Pixels& base);
 /// Share of pixels with alpha >= 0.5 after alpha is multiplied by `scale`.
 double alpha_coverage(const Pixels& pixels, double scale = 1.0);
 
-}  // namespace vinerow::render
+}  // namespace vinerow::imaging

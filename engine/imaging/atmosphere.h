@@ -12,7 +12,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace vinerow::render {
+namespace vinerow::imaging {
 
 struct Atmosphere {
   static constexpr int kAzimuths = 48;    ///< relative to the sun, 0 .. pi
@@ -28,4 +28,4 @@ struct Atmosphere {
 /// @param sun_elevation_rad  clamped to at least 2 deg; night is not modelled
 Atmosphere calc_atmosphere(double sun_elevation_rad);
 
-}  // namespace vinerow::render
+}  // namespace vinerow::imaging

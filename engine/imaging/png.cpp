@@ -1,4 +1,4 @@
-#include "engine/render/png.h"
+#include "engine/imaging/png.h"
 
 #include <fmt/format.h>
 #include <png.h>
@@ -10,11 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/hash.h"
 #include "engine/core/whole_file.h"
-#include "engine/render/scene.h"
 
-namespace vinerow::render {
+namespace vinerow::imaging {
 
 namespace {
 
@@ -24,21 +22,21 @@ void append_bytes(png_structp png, png_bytep bytes, std::size_t count) {
 
 /// libpng returns from errors by longjmp, so this function's frame must not hold objects with
 /// destructors.
-bool encode(png_structp png, png_infop info, std::string* out, const Image& image, png_textp words,
-            int count) {
+bool encode(png_structp png, png_infop info, std::string* out, int width, int height,
+            const std::uint8_t* rgb, png_textp words, int count) {
   if (setjmp(png_jmpbuf(png))) return false;
   png_set_write_fn(png, out, &append_bytes, nullptr);
   // Level 2 with the SUB filter: a quarter of the default's time at about the same size for
   // rendered pictures.
   png_set_compression_level(png, 2);
   png_set_filter(png, 0, PNG_FILTER_SUB);
-  png_set_IHDR(png, info, static_cast<png_uint_32>(image.width),
-               static_cast<png_uint_32>(image.height), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
-               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), 8,
+               PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+               PNG_FILTER_TYPE_DEFAULT);
   if (count > 0) png_set_text(png, info, words, count);
   png_write_info(png, info);
-  for (int y = 0; y < image.height; ++y) {
-    png_write_row(png, &image.rgb[static_cast<std::size_t>(y) * image.width * 3]);
+  for (int y = 0; y < height; ++y) {
+    png_write_row(png, &rgb[static_cast<std::size_t>(y) * width * 3]);
   }
   png_write_end(png, nullptr);
   return true;
@@ -76,12 +74,11 @@ std::map<std::string, std::string> read_png_words(const std::string& file) {
   return read;
 }
 
-void write_png(const std::string& file, const Image& image,
+void write_png(const std::string& file, int width, int height, std::span<const std::uint8_t> rgb,
                const std::map<std::string, std::string>& words) {
-  if (image.width < 1 || image.height < 1 ||
-      image.rgb.size() != static_cast<std::size_t>(image.width) * image.height * 3) {
+  if (width < 1 || height < 1 || rgb.size() != static_cast<std::size_t>(width) * height * 3) {
     throw std::runtime_error(fmt::format("{}: {} x {} pixels with {} bytes are not a valid image",
-                                         file, image.width, image.height, image.rgb.size()));
+                                         file, width, height, rgb.size()));
   }
   std::string bytes;
   std::vector<png_text> texts;
@@ -96,8 +93,8 @@ void write_png(const std::string& file, const Image& image,
   }
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
   png_infop info = png_create_info_struct(png);
-  const bool encoded =
-      encode(png, info, &bytes, image, texts.data(), static_cast<int>(texts.size()));
+  const bool encoded = encode(png, info, &bytes, width, height, rgb.data(), texts.data(),
+                              static_cast<int>(texts.size()));
   png_destroy_write_struct(&png, &info);
   if (!encoded) throw std::runtime_error(fmt::format("{}: cannot be encoded", file));
   write_whole_file(file, bytes);
@@ -143,12 +140,4 @@ std::string encode_png(const Pixels& pixels) {
   return bytes;
 }
 
-std::string image_digest(const Image& image) {
-  Hasher hasher;
-  hasher.add(image.width);
-  hasher.add(image.height);
-  hasher.add_bytes(image.rgb.data(), image.rgb.size());
-  return hasher.hex();
-}
-
-}  // namespace vinerow::render
+}  // namespace vinerow::imaging

@@ -1,11 +1,11 @@
-#include "engine/render/ground_mask.h"
+#include "engine/imaging/ground_mask.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "engine/api/map.h"
 
-namespace vinerow::render {
+namespace vinerow::imaging {
 
 namespace {
 
@@ -97,4 +97,4 @@ GroundMask make_ground_mask(const RowMap& rows) {
   return mask;
 }
 
-}  // namespace vinerow::render
+}  // namespace vinerow::imaging

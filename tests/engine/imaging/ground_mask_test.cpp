@@ -1,9 +1,9 @@
+#include "engine/imaging/ground_mask.h"
 #include "engine/api/map.h"
-#include "engine/render/ground_mask.h"
 
 #include <gtest/gtest.h>
 
-namespace vinerow::render::ground_mask_test {
+namespace vinerow::imaging::ground_mask_test {
 namespace {
 
 TEST(GroundMask, HoldsDistancesToRowsAndAlleys) {
@@ -30,4 +30,4 @@ TEST(GroundMask, WithoutRowsEverythingIsFar) {
 }
 
 }  // namespace
-}  // namespace vinerow::render::ground_mask_test
+}  // namespace vinerow::imaging::ground_mask_test

@@ -5,7 +5,7 @@
 
 #include "engine/api/soil.h"
 
-namespace vinerow::render {
+namespace vinerow::imaging {
 
 /// Appearance relative to dry grass, for which the textures are made.
 struct GroundLook {
@@ -18,4 +18,4 @@ struct GroundLook {
 /// Appearance by the soil's name; that of dry grass for soils that are not built in.
 GroundLook look_of(const Soil& soil);
 
-}  // namespace vinerow::render
+}  // namespace vinerow::imaging

@@ -20,7 +20,7 @@
 #define VINEROW_ABI_TYPES(F)                                                                     \
   F(Odometry) F(ImuSample) F(GnssFix) F(GnssHeading) F(RangeSample) F(PressureSample)            \
   F(MagneticSample) F(PoseTarget)                                                                \
-  F(LaserScan) F(PointCloud) F(PositionEllipsoid) F(VelocityCommand) F(LocalCommand) F(LineList) \
+  F(LaserScan) F(PointCloud) F(Picture) F(CameraInfo) F(PositionEllipsoid) F(VelocityCommand) F(LocalCommand) F(LineList) \
   F(OccupancyGrid) F(NamedValues) F(LinkPoses) F(PathPoint) F(PlannedPath) F(FollowerState)      \
   F(MovementAuthority) F(TrajectoryPoint) F(ReferenceTrajectory) F(AirReference) F(AirData)      \
   F(CameraShot) F(BatteryState) F(Event) F(Pose) F(Signal<Odometry>) F(SignalBus) F(Ports)       \

@@ -11,6 +11,7 @@ class SceneQuery;
 class SignalBase;
 class SignalBus;
 class Vehicle;
+class VehicleScene;
 struct HeightField;
 struct LinkPoses;
 struct MeshInstance;

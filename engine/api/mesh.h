@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,9 @@ struct TriangleMesh {
   std::vector<Eigen::Vector3f> normals;  ///< per vertex, or empty
   std::vector<Eigen::Vector2f> uvs;      ///< per vertex, or empty
   std::vector<Eigen::Vector3f> colours;  ///< per vertex, linear RGB in [0, 1], or empty
+  /// First triangle of each separate thing, as a leaf, a bunch or a post: ascending, from 0. Empty:
+  /// the mesh is one thing.
+  std::vector<std::uint32_t> things;
 
   Eigen::AlignedBox3d bounds() const {
     Eigen::AlignedBox3d box;
@@ -46,6 +50,7 @@ struct MeshInstance {
   bool collides = true;  ///< used by physics and rays
   bool visible = true;   ///< shown in pictures
   Light light = Light::kAsDrawn;
+  std::optional<Label> label;  ///< absent: label_of(surface)
 };
 
 }  // namespace vinerow

@@ -9,6 +9,7 @@
 /// Plug-ins include this header, which has all messages. The project's own sources include only the
 /// topics that they use.
 
+#include "engine/api/messages/camera.h"
 #include "engine/api/messages/commands.h"
 #include "engine/api/messages/event.h"
 #include "engine/api/messages/flight.h"
@@ -32,6 +33,8 @@ void for_each_message_type(F&& f) {
   f(static_cast<MagneticSample*>(nullptr));
   f(static_cast<LaserScan*>(nullptr));
   f(static_cast<PointCloud*>(nullptr));
+  f(static_cast<Picture*>(nullptr));
+  f(static_cast<CameraInfo*>(nullptr));
   f(static_cast<PositionEllipsoid*>(nullptr));
   f(static_cast<PoseTarget*>(nullptr));
   f(static_cast<VelocityCommand*>(nullptr));

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 
+#include "engine/api/forward.h"
 #include "engine/api/surface.h"
 #include "engine/math/pose.h"
 
@@ -27,7 +28,8 @@ struct RayHit {
   double distance_m = 0.0;
   Eigen::Vector3d normal_W = Eigen::Vector3d::UnitZ();  ///< unit, towards the ray's origin
   SurfaceClass surface = SurfaceClass::kTerrain;
-  int mesh = -1;  ///< index into WorldModel::meshes, -1 for the height field
+  int mesh = -1;      ///< index into WorldModel::meshes, -1 for the height field
+  int triangle = -1;  ///< of the mesh, -1 for the height field
 };
 
 /// A ray of cast_rays().
@@ -55,6 +57,17 @@ class RayScene {
       hits[i] = cast_ray(rays[i].p_W, rays[i].dir_W, rays[i].max_distance_m, mask);
     }
   }
+};
+
+/// Rays on the vehicles of a run, link by link. RayHit::mesh is an index into links().
+class VehicleScene : public RayScene {
+ public:
+  /// Moves the links to where they are now. Call it before the rays of an instant.
+  virtual void update() = 0;
+  /// Links of all vehicles, in the order of the vehicles.
+  virtual std::span<const MeshInstance> links() const = 0;
+  /// Number of the link's vehicle, in the order of the scenario file.
+  virtual int vehicle_of(int link) const = 0;
 };
 
 /// Rays on closed hulls of plants, without wires; distances and ground.

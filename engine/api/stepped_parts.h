@@ -64,6 +64,9 @@ struct SensorContext : PartContext {
   /// Surfaces as light meets them: leaves one by one where the world has them, and wires. Built at
   /// the first call, which takes time and memory; call it in the constructor.
   std::function<const RayScene&()> light;
+  /// Vehicles as cameras see them. Built at the first call; call it at the first step, when all
+  /// vehicles exist. Empty function: there are none.
+  std::function<VehicleScene&()> vehicles;
   const WorldModel* world = nullptr;
   const Vehicle* vehicle_truth = nullptr;  ///< for inertial sensors
 };

@@ -22,6 +22,29 @@ enum class SurfaceClass : std::uint8_t {
 /// Name for events and errors: "post".
 const char* to_string(SurfaceClass surface);
 
+/// What a camera's semantic picture calls a surface. The numbers are those in the picture; new ones
+/// go to the end.
+enum class Label : std::uint8_t {
+  kSky = 0,
+  kGround = 1,
+  kLeaf = 2,
+  kWood = 3,  ///< trunks, arms, canes and shoots
+  kBunch = 4,
+  kFruit = 5,
+  kPost = 6,
+  kWire = 7,
+  kObstacle = 8,
+  kVehicle = 9,
+  kPerson = 10,
+  kWeed = 11,
+};
+inline constexpr int kLabelCount = 12;
+
+/// Name for datasets and messages: "leaf".
+const char* to_string(Label label);
+/// Label of what has no own: leaf for the canopy, wood for trunks.
+Label label_of(SurfaceClass surface);
+
 /// Appearance of a surface.
 struct Material {
   std::string name;

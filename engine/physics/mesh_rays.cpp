@@ -182,6 +182,7 @@ struct MeshRays::Impl {
     hit.normal_W = normal_W.dot(lane.dir_W) > 0.0 ? Vector3d(-normal_W) : normal_W;
     hit.surface = met.instance->surface;
     hit.mesh = met.mesh_index;
+    hit.triangle = static_cast<int>(lane.best_triangle);
     return hit;
   }
 
@@ -189,7 +190,8 @@ struct MeshRays::Impl {
   RTCScene scene = nullptr;
   std::map<const TriangleMesh*, RTCScene> shared;
   std::vector<Placed> placed;
-  std::deque<Boxes> boxes;  // geometries point to the elements
+  std::deque<Boxes> boxes;                                      // geometries point to the elements
+  std::map<const TriangleMesh*, Eigen::AlignedBox3d> moving_M;  ///< boxes of meshes that move
   Eigen::AlignedBox3d bounds_W;
   double margin_m = 0.0;
 
@@ -232,9 +234,7 @@ struct MeshRays::Impl {
     return result;
   }
 
-  RTCGeometry new_instance(const MeshInstance& instance) {
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
-    rtcSetGeometryInstancedScene(geometry, scene_of(*instance.mesh));
+  static void set_transform(RTCGeometry geometry, const MeshInstance& instance) {
     const Eigen::Matrix3d R_WM = instance.X_WM.q.toRotationMatrix();
     float columns[12];
     for (int column = 0; column < 3; ++column) {
@@ -244,6 +244,12 @@ struct MeshRays::Impl {
     }
     for (int row = 0; row < 3; ++row) columns[9 + row] = static_cast<float>(instance.X_WM.p[row]);
     rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+  }
+
+  RTCGeometry new_instance(const MeshInstance& instance) {
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(geometry, scene_of(*instance.mesh));
+    set_transform(geometry, instance);
     rtcSetGeometryMask(geometry, mask_of(instance.surface));
     rtcCommitGeometry(geometry);
     return geometry;
@@ -258,8 +264,42 @@ struct MeshRays::Impl {
     const unsigned id = rtcAttachGeometry(scene, geometry);
     rtcReleaseGeometry(geometry);
     VINEROW_DEMAND(id == placed.size());
-    const Eigen::Matrix3d R_MW = instance.X_WM.q.toRotationMatrix().transpose();
-    placed.push_back({&instance, mesh_index, R_MW, -(R_MW * instance.X_WM.p)});
+    Placed entry{&instance, mesh_index, Eigen::Matrix3d::Identity(), Vector3d::Zero()};
+    settle(entry);
+    placed.push_back(entry);
+  }
+
+  /// Takes over where the instance is.
+  static void settle(Placed& entry) {
+    entry.R_MW = entry.instance->X_WM.q.toRotationMatrix().transpose();
+    entry.p_MW = -(entry.R_MW * entry.instance->X_WM.p);
+  }
+
+  void open_device() {
+    device = rtcNewDevice("threads=1,set_affinity=0");
+    if (!device) throw ConfigError("Embree could not be started: no device for ray casts");
+    if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_RAY_MASK_SUPPORTED) == 0) {
+      throw ConfigError(
+          "this Embree was built without ray masks, which ray casts need "
+          "(EMBREE_RAY_MASK=ON)");
+    }
+    scene = new_scene();
+  }
+
+  /// Bounds of all instances, widened by the margin: rays in the plane of a box's side enter it
+  /// too, whatever the rounding.
+  void calc_bounds(const std::map<const TriangleMesh*, Eigen::AlignedBox3d>& boxes_M) {
+    bounds_W.setEmpty();
+    for (const Placed& entry : placed) {
+      const Eigen::AlignedBox3d& box = boxes_M.at(entry.instance->mesh.get());
+      if (box.isEmpty()) continue;
+      for (int corner = 0; corner < 8; ++corner) {
+        bounds_W.extend(entry.instance->X_WM *
+                        box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
+      }
+    }
+    bounds_W.min().array() -= margin_m;
+    bounds_W.max().array() += margin_m;
   }
 };
 
@@ -278,28 +318,43 @@ MeshRays::MeshRays(const WorldModel& world, bool (*is_met)(const MeshInstance&))
     for (int corner = 0; corner < 8; ++corner) {
       const Vector3d p_M = box->second.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
       const Vector3d p_W = instance.X_WM * p_M;
-      impl_->bounds_W.extend(p_W);
       reach_m = std::max({reach_m, p_M.cwiseAbs().maxCoeff(), p_W.cwiseAbs().maxCoeff()});
     }
   }
   if (uses.empty()) return;
   impl_->margin_m = calc_margin_m(reach_m);
-  // Rays in the plane of a box's side enter it too, whatever the rounding.
-  impl_->bounds_W.min().array() -= impl_->margin_m;
-  impl_->bounds_W.max().array() += impl_->margin_m;
-  impl_->device = rtcNewDevice("threads=1,set_affinity=0");
-  if (!impl_->device) throw ConfigError("Embree could not be started: no device for ray casts");
-  if (rtcGetDeviceProperty(impl_->device, RTC_DEVICE_PROPERTY_RAY_MASK_SUPPORTED) == 0) {
-    throw ConfigError(
-        "this Embree was built without ray masks, which ray casts need "
-        "(EMBREE_RAY_MASK=ON)");
-  }
-  impl_->scene = impl_->new_scene();
+  impl_->open_device();
   for (std::size_t i = 0; i < world.meshes.size(); ++i) {
     const MeshInstance& instance = world.meshes[i];
     if (!is_met(instance)) continue;
     impl_->add(instance, static_cast<int>(i), uses[instance.mesh.get()] == 1);
   }
+  impl_->calc_bounds(boxes_M);
+  rtcCommitScene(impl_->scene);
+}
+
+MeshRays::MeshRays(std::span<const MeshInstance> meshes, double reach_m)
+    : impl_(std::make_unique<Impl>()) {
+  if (meshes.empty()) return;
+  impl_->margin_m = calc_margin_m(reach_m);
+  impl_->open_device();
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    impl_->moving_M.try_emplace(meshes[i].mesh.get(), meshes[i].mesh->bounds());
+    impl_->add(meshes[i], static_cast<int>(i), false);
+  }
+  move();
+}
+
+void MeshRays::move() {
+  if (impl_->placed.empty()) return;
+  for (std::size_t i = 0; i < impl_->placed.size(); ++i) {
+    Impl::Placed& entry = impl_->placed[i];
+    RTCGeometry geometry = rtcGetGeometry(impl_->scene, static_cast<unsigned>(i));
+    Impl::set_transform(geometry, *entry.instance);
+    rtcCommitGeometry(geometry);
+    Impl::settle(entry);
+  }
+  impl_->calc_bounds(impl_->moving_M);
   rtcCommitScene(impl_->scene);
 }
 

@@ -5,7 +5,7 @@
 /// whose box the ray may meet. `TriangleRay` decides in double precision, from the triangle's own
 /// vertices. The hit therefore does not depend on Embree's code, which differs between processors,
 /// and a parcel hundreds of metres wide costs no accuracy. A mesh with several instances is stored
-/// once.
+/// once. A mesh that moves is an instance too.
 
 #include <Eigen/Core>
 #include <memory>
@@ -22,7 +22,14 @@ class MeshRays {
   /// @param world   checked (check_world.h); outlives this object
   /// @param is_met  of check_world.h
   MeshRays(const WorldModel& world, bool (*is_met)(const MeshInstance&));
+  /// Meshes that move: each is at X_WM until move().
+  /// @param meshes   not empty ones; outlive this object
+  /// @param reach_m  bound of the coordinates that they reach
+  MeshRays(std::span<const MeshInstance> meshes, double reach_m);
   ~MeshRays();
+
+  /// Moves all meshes of the second constructor to their X_WM.
+  void move();
 
   bool empty() const;
   /// First hit. @param dir_W unit. No heap, thread safe.

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "engine/api/map.h"
+#include "engine/api/messages/camera.h"
 #include "engine/api/vehicle.h"
 #include "engine/api/world_model.h"
 #include "engine/math/srgb.h"
@@ -311,13 +312,39 @@ std::string sensor_frame(const std::string& vehicle, const std::string& sensor,
   return fmt::format("{}/{}{}", vehicle, sensor, is_link ? "_sensor" : "");
 }
 
+namespace {
+
+/// End of the name of a camera's optical frame.
+constexpr const char* kOptical = "_optical";
+
+/// Signals of pictures are in the optical frame of their camera (ROS REP 103).
+bool is_optical(const SignalBase& signal) {
+  const std::string_view type = signal.type();
+  return type == Picture::kType || type == CameraInfo::kType;
+}
+
+std::string writer_of(const VehicleRuntime& vehicle, const std::string& sensor) {
+  return fmt::format("{}.sensors.{}", vehicle.name(), sensor);
+}
+
+}  // namespace
+
 std::vector<record::StaticTransform> sensor_transforms(const Simulation& simulation) {
+  // x to the right, y down, z along the axis, in S with x along the axis and z up.
+  Pose X_SC;
+  X_SC.q = Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5);
   std::vector<record::StaticTransform> transforms;
   for (const auto& vehicle : simulation.vehicles()) {
     for (const SensorMounting& sensor : vehicle->mountings()) {
-      transforms.push_back({vehicle->name() + "/base_link",
-                            sensor_frame(vehicle->name(), sensor.name, vehicle->vehicle().links()),
-                            sensor.X_BS});
+      const std::string frame =
+          sensor_frame(vehicle->name(), sensor.name, vehicle->vehicle().links());
+      transforms.push_back({vehicle->name() + "/base_link", frame, sensor.X_BS});
+      const std::string writer = writer_of(*vehicle, sensor.name);
+      const auto& signals = simulation.bus().signals();
+      const bool is_camera = std::any_of(signals.begin(), signals.end(), [&](const auto& signal) {
+        return signal->writer() == writer && is_optical(*signal);
+      });
+      if (is_camera) transforms.push_back({frame, frame + kOptical, X_SC});
     }
   }
   return transforms;
@@ -328,8 +355,15 @@ std::map<std::string, std::string> frames_of_readings(const Simulation& simulati
   for (const auto& vehicle : simulation.vehicles()) {
     for (const SensorMounting& sensor : vehicle->mountings()) {
       const std::string signal = vehicle->name() + "/" + sensor.name;
-      frames[signal] = frames[signal + "_truth"] =
+      const std::string frame =
           sensor_frame(vehicle->name(), sensor.name, vehicle->vehicle().links());
+      frames[signal] = frames[signal + "_truth"] = frame;
+      const std::string writer = writer_of(*vehicle, sensor.name);
+      for (const auto& other : simulation.bus().signals()) {
+        if (other->writer() == writer && is_optical(*other)) {
+          frames[other->name()] = frame + kOptical;
+        }
+      }
     }
   }
   return frames;

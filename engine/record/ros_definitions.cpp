@@ -84,6 +84,18 @@ constexpr std::array kDefinitions = {
                "std_msgs/Header header\nuint32 height\nuint32 width\n"
                "sensor_msgs/PointField[] fields\nbool is_bigendian\n# bytes of a point\n"
                "uint32 point_step\nuint32 row_step\nuint8[] data\nbool is_dense\n"},
+    Definition{"sensor_msgs/CompressedImage",
+               "std_msgs/Header header\n# \"rgb8; png compressed bgr8\" and the like\n"
+               "string format\nuint8[] data\n"},
+    Definition{"sensor_msgs/RegionOfInterest",
+               "uint32 x_offset\nuint32 y_offset\nuint32 height\nuint32 width\n"
+               "bool do_rectify\n"},
+    Definition{"sensor_msgs/CameraInfo",
+               "std_msgs/Header header\nuint32 height\nuint32 width\n"
+               "# plumb_bob: k1, k2, p1, p2, k3; equidistant: k1, k2, k3, k4\n"
+               "string distortion_model\nfloat64[] d\nfloat64[9] k\nfloat64[9] r\n"
+               "float64[12] p\nuint32 binning_x\nuint32 binning_y\n"
+               "sensor_msgs/RegionOfInterest roi\n"},
     Definition{"geometry_msgs/PoseWithCovarianceStamped",
                "std_msgs/Header header\ngeometry_msgs/PoseWithCovariance pose\n"},
     Definition{"sensor_msgs/Range",

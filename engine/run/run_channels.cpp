@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/api/messages/camera.h"
 #include "engine/api/messages/event.h"
 #include "engine/api/messages/flight.h"
 #include "engine/api/messages/motion.h"
@@ -20,6 +21,11 @@ namespace {
 /// need them with full precision.
 bool is_true_scan(const SignalBase& signal) {
   return std::string_view(signal.type()) == LaserScan::kType && signal.name().ends_with("_truth");
+}
+
+/// True for the pictures of a camera without noise: as large as those with noise.
+bool is_true_picture(const SignalBase& signal) {
+  return std::string_view(signal.type()) == Picture::kType && signal.name().ends_with("_truth");
 }
 
 Duration shortest_period(const SignalBase& signal, const scenario::RecordConfig& config) {
@@ -49,7 +55,7 @@ void add_run_channels(const Simulation& simulation, record::SignalChannels& chan
   const scenario::RecordConfig& config = simulation.scenario().record;
   const std::map<std::string, std::string> frames = playback::frames_of_readings(simulation);
   for (const auto& signal : simulation.bus().signals()) {
-    if (signal->writer().empty()) continue;
+    if (signal->writer().empty() || is_true_picture(*signal)) continue;
     const auto frame = frames.find(signal->name());
     channels.add_signal(*signal, shortest_period(*signal, config),
                         frame != frames.end() ? frame->second : "", is_true_scan(*signal));

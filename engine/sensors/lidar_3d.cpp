@@ -68,6 +68,7 @@ class Lidar3d final : public MountedSensor<PointCloud> {
       : MountedSensor(parameters, context),
         params_(params),
         light_(&context.light()),
+        find_vehicles_(context.vehicles),
         period_(context.period),
         sampling_{context.period.ns / params.slices},
         pattern_(make_scan_pattern(params.pattern, context.period.s())),
@@ -95,6 +96,7 @@ class Lidar3d final : public MountedSensor<PointCloud> {
     const std::size_t pulses = pattern_->pulses(0).size();
     rays_.reserve(pulses * static_cast<std::size_t>(params.sub_rays));
     hits_.reserve(rays_.capacity());
+    vehicle_hits_.reserve(rays_.capacity());
     order_.reserve(pulses);
     first_ray_.reserve(pulses);
     resize(cloud_, params.returns == Returns::kDual ? 2 * pulses : pulses);
@@ -166,8 +168,24 @@ class Lidar3d final : public MountedSensor<PointCloud> {
     }
     hits_.resize(rays_.size());
     light_->cast_rays(rays_, hits_);
+    look_at_vehicles();
     for (std::size_t number = first; number < next_pulse_; ++number) {
       receive(pulses_[number], first_ray_[number - first]);
+    }
+  }
+
+  /// Replaces hits by nearer ones on vehicles, which are where they are at the slice's end.
+  void look_at_vehicles() {
+    if (!find_vehicles_) return;
+    if (!vehicles_) vehicles_ = &find_vehicles_();
+    vehicles_->update();
+    for (std::size_t i = 0; i < rays_.size(); ++i) {
+      if (hits_[i]) rays_[i].max_distance_m = hits_[i]->distance_m;
+    }
+    vehicle_hits_.resize(rays_.size());
+    vehicles_->cast_rays(rays_, vehicle_hits_);
+    for (std::size_t i = 0; i < rays_.size(); ++i) {
+      if (vehicle_hits_[i]) hits_[i] = vehicle_hits_[i];
     }
   }
 
@@ -265,6 +283,8 @@ class Lidar3d final : public MountedSensor<PointCloud> {
 
   Lidar3dParams params_;
   const RayScene* light_;
+  std::function<VehicleScene&()> find_vehicles_;  ///< empty: there are none
+  VehicleScene* vehicles_ = nullptr;              ///< from the first slice on
   Duration period_, sampling_;
   std::unique_ptr<ScanPattern> pattern_;
   LaserOptics optics_;
@@ -278,7 +298,7 @@ class Lidar3d final : public MountedSensor<PointCloud> {
   std::vector<Eigen::Vector2d> asides_;  ///< of the rays on the circle, per length
   double aside_scale_ = 1.0;             ///< makes their directions unit vectors
   std::vector<SceneRay> rays_;           ///< of a slice
-  std::vector<std::optional<RayHit>> hits_;
+  std::vector<std::optional<RayHit>> hits_, vehicle_hits_;
   std::vector<std::size_t> order_;      ///< in which the pulses of a slice are cast
   std::vector<std::size_t> first_ray_;  ///< of each pulse of a slice: the beam's middle
   std::array<Echo3d, kMaxSubRays3d> echoes_;

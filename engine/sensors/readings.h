@@ -38,8 +38,10 @@ class Readings {
   /// @param parameters  with those of reading_table()
   Readings(const ParameterSet& parameters, const SensorContext& context)
       : Readings(reading_table().read(parameters, context.part), context) {}
-  Readings(const ReadingParams& params, const SensorContext& context)
-      : name_(context.name),
+  /// @param has_truth  false: the readings have no error, and no truth is written
+  Readings(const ReadingParams& params, const SensorContext& context, bool has_truth = true)
+      : has_truth_(has_truth),
+        name_(context.name),
         outages_(windows_of(params.outages)),
         dropout_share_(params.dropout_share),
         line_(duration_from_s(params.delay_s), context.period),
@@ -47,7 +49,7 @@ class Readings {
 
   void connect(Ports& ports) {
     out_ = ports.write<T>(name_);
-    truth_out_ = ports.write<T>(name_ + "_truth");
+    if (has_truth_) truth_out_ = ports.write<T>(name_ + "_truth");
   }
   /// For readings that own memory; see DelayLine.
   void prefill(const T& reading) { line_.prefill(reading); }
@@ -58,7 +60,7 @@ class Readings {
 
   /// Called once per tick, outages included. The truth is written even if the reading is lost.
   void push(Time now, const T& reading, const T& truth) {
-    truth_out_.write(now, truth);
+    if (has_truth_) truth_out_.write(now, truth);
     const bool is_lost = dropout_share_ > 0.0 && random_.uniform() < dropout_share_;
     if (is_lost) {
       line_.push_lost();
@@ -70,7 +72,7 @@ class Readings {
   /// For an outage of a sensor whose message cannot express "invalid": no reading is written, but
   /// the truth is. The random numbers of later dropouts stay the same.
   void push_silence(Time now, const T& truth) {
-    truth_out_.write(now, truth);
+    if (has_truth_) truth_out_.write(now, truth);
     if (dropout_share_ > 0.0) random_.uniform();
     line_.push_lost();
   }
@@ -87,6 +89,7 @@ class Readings {
   void push_nothing() { line_.push_lost(); }
 
  private:
+  bool has_truth_;
   std::string name_;
   std::vector<TimeWindow> outages_;
   double dropout_share_;

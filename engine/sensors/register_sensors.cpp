@@ -2,6 +2,7 @@
 
 #include "engine/sensors/air_data.h"
 #include "engine/sensors/barometer.h"
+#include "engine/sensors/camera/camera.h"
 #include "engine/sensors/camera_trigger.h"
 #include "engine/sensors/encoders.h"
 #include "engine/sensors/gnss.h"
@@ -19,6 +20,7 @@ namespace vinerow::sensors {
 void register_sensors(Registry& registry) {
   registry.add_sensor(air_data_spec(), make_air_data);
   registry.add_sensor(barometer_spec(), make_barometer);
+  registry.add_sensor(camera_spec(), make_camera);
   registry.add_sensor(camera_trigger_spec(), make_camera_trigger);
   registry.add_sensor(encoders_spec(), make_encoders);
   registry.add_sensor(gnss_spec(), make_gnss);

@@ -15,6 +15,7 @@
 #include "engine/sim/mission.h"
 #include "engine/sim/separation.h"
 #include "engine/sim/traffic_control.h"
+#include "engine/sim/vehicle_rays.h"
 #include "engine/sim/vehicle_runtime.h"
 
 namespace vinerow {
@@ -78,6 +79,12 @@ Simulation::Simulation(const scenario::Scenario& scenario, const Registry& regis
                        scheduler_,
                        setup.shelf,
                        setup.products,
+                       [this]() -> VehicleScene& {
+                         if (!vehicle_rays_) {
+                           vehicle_rays_ = std::make_unique<VehicleRays>(vehicles_);
+                         }
+                         return *vehicle_rays_;
+                       },
                        [this](Event::Level level, const std::string& source,
                               const std::string& text) { emit(level, source, text); }};
   std::vector<StartBox> starts;

@@ -30,6 +30,7 @@ class Mission;
 class Separation;
 class TrafficControl;
 struct RunContext;
+class VehicleRays;
 class VehicleRuntime;
 
 /// Inputs of a run besides its scenario.
@@ -122,6 +123,7 @@ class Simulation {
   OutsideCommands outside_;
   Scheduler scheduler_;
   std::vector<std::unique_ptr<VehicleRuntime>> vehicles_;
+  std::unique_ptr<VehicleRays> vehicle_rays_;  // null until a camera asks
   std::filesystem::path own_products_;       // temporary folder; empty if the caller gave one
   std::unique_ptr<Mission> mission_;         // null: no phases
   std::unique_ptr<TrafficControl> traffic_;  // null: alleys are not reserved

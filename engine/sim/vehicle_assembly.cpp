@@ -172,6 +172,7 @@ void VehicleAssembly::add_sensors() {
     sensor_context.light = [&physics = run_.physics]() -> const RayScene& {
       return physics.light_scene();
     };
+    sensor_context.vehicles = run_.vehicles;
     sensor_context.world = &run_.world;
     sensor_context.vehicle_truth = &vehicle_;
     parts_.sensors.push_back(with_place(sensor.part.where, config_.name, [&] {

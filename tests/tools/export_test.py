@@ -14,6 +14,7 @@ import sys
 import tempfile
 import unittest
 import zipfile
+import zlib
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
@@ -257,6 +258,34 @@ class Export(unittest.TestCase):
             numpy.testing.assert_array_equal(arrays[name][:4], points[name].ravel())
         run = self.run_export("--topic", "/lidar", "-o", "-")
         self.assertIn("6 messages of topic '/lidar' are not of type", run.stderr)
+
+    def test_pictures_become_files_with_a_list_of_them(self):
+        # A PNG of one grey pixel by hand, by the letter of its specification.
+        def chunk(kind, data):
+            return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+        png = b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 1, 1, 8, 0, 0, 0, 0))
+        png += chunk(b"IDAT", zlib.compress(b"\0\x7f")) + chunk(b"IEND", b"")
+        log = Log()
+        channel = log.channel("/rover/front", "sensor_msgs/msg/CompressedImage", "std_msgs/Header header\nstring format\nuint8[] data\n" + HEADER)
+        for stamp, data in ((10**9, png), (1_500_000_000, b"\xff\xd8\xff\xe0 as a JPEG begins"), (2 * 10**9, b"neither")):
+            message = Cdr().header(stamp).text('mono8; "png"').add("I", len(data))
+            message.data += data
+            log.message(channel, stamp, message.message())
+        log.write(self.log)
+        folder = self.log.parent / "pictures"
+        run = self.run_export("--topic", "/rover/front", "-o", folder)
+        self.assertIn("2 pictures", run.stdout)
+        self.assertIn("1 messages of topic '/rover/front' are not of type", run.stderr)
+        with open(folder / "rover_front.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([(r["time_s"], r["format"], r["file"]) for r in rows],
+                         [("1", 'mono8; "png"', "rover_front/000001000000000.png"), ("1.5", 'mono8; "png"', "rover_front/000001500000000.jpg")])  # fmt: skip
+        self.assertEqual((folder / rows[0]["file"]).read_bytes(), png)
+        self.assertEqual(len(list((folder / "rover_front").iterdir())), 2)
+        refused = self.run_export("--topic", "/rover/front", "-o", folder / "one.csv", status=2).stderr
+        self.assertIn("topic '/rover/front' has pictures, -o must be a folder", refused)
+        self.assertEqual(self.arrays("/rover/front")["data"].shape, (3, len(png)))
 
     def test_a_sequence_of_messages_gives_a_row_for_each_element(self):
         log = Log()

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -6,10 +7,11 @@
 #include "engine/api/map.h"
 #include "engine/math/angles.h"
 #include "tests/worlds/world_fixture.h"
+#include "worlds/mapping/model/row_map.h"
 #include "worlds/parts/canopy.h"
 #include "worlds/parts/foliage.h"
+#include "worlds/parts/mesh_store.h"
 #include "worlds/parts/primitives.h"
-#include "worlds/mapping/model/row_map.h"
 #include "worlds/parts/soil_types.h"
 #include "worlds/parts/terrain.h"
 #include "worlds/parts/trellis.h"
@@ -153,6 +155,34 @@ TEST(Trellis, PostsAreSpreadEvenlyAndNotTooFarApart) {
   EXPECT_EQ(spread_posts(0, 10, 5), (std::vector<double>{0, 5, 10}));
   EXPECT_EQ(spread_posts(0, 11, 5).size(), 4u);
   EXPECT_EQ(spread_posts(0, 2, 5), (std::vector<double>{0, 2}));
+}
+
+TEST(MeshStore, FilesKeepTheThingsOfAMesh) {
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("vinerow_mesh_store_" + std::to_string(::getpid()));
+  const auto make = [] {
+    TriangleMesh mesh;
+    for (const double x : {0.0, 1.0, 2.0}) {
+      mesh.things.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
+      const std::array<TubePoint, 2> post = {TubePoint{{x, 0.0, 0.0}, 0.1},
+                                             TubePoint{{x, 0.0, 1.0}, 0.1}};
+      append_tube(mesh, post, 4, {0.5f, 0.5f, 0.5f});
+      // A triangle without area, which files leave out.
+      mesh.triangles.push_back({0, 0, 1});
+    }
+    return mesh;
+  };
+  const TriangleMesh fresh = make();
+  const auto written = FileMeshStore(folder).get("posts", make);
+  // Another store reads the file.
+  const auto read = FileMeshStore(folder).get("posts", [] { return TriangleMesh{}; });
+  std::filesystem::remove_all(folder);
+  const auto triangles = static_cast<std::uint32_t>(fresh.triangles.size() - 3);
+  const std::vector<std::uint32_t> expected = {0, triangles / 3, 2 * triangles / 3};
+  EXPECT_EQ(written->triangles.size(), triangles);
+  EXPECT_EQ(written->things, expected);
+  EXPECT_EQ(read->things, expected);
+  EXPECT_EQ(read->triangles, written->triangles);
 }
 
 TEST(Soil, KnownByName) {

@@ -1,9 +1,10 @@
 """Sensors and estimators: readings against the truth of the same instant."""
 
 import numpy as np
+from PIL import Image
 
 from .runs import ASSETS, Runs
-from .style import COLOURS, GREY, panels
+from .style import COLOURS, GREY, bare, panels
 
 SENSORS = ASSETS / "sensors"
 SMALL = "world: {type: vineyard, row_count: 4, row_length_m: 40, relief_m: 4}"
@@ -217,6 +218,39 @@ vehicles:
     axes[-1].set_xlabel("along the row, m")
     figure.colorbar(points, ax=list(axes), label="intensity, %", fraction=0.02, pad=0.01)
     runs.save(figure, "clouds")
+
+
+def draw_camera(runs: Runs) -> None:
+    """One picture of a camera in an alley: colours, depth, labels and things."""
+    run = runs.run("camera", "vineyard_camera", "duration_s=2.5", "vehicles.rover.sensors.front.width_px=640",
+                   "vehicles.rover.sensors.front.height_px=480", "vehicles.rover.sensors.front.fx_px=607.3",
+                   "vehicles.rover.sensors.front.fy_px=607.6", "vehicles.rover.sensors.front.cx_px=320.6",
+                   "vehicles.rover.sensors.front.cy_px=241.2", "vehicles.rover.sensors.front.samples=4")  # fmt: skip
+    folder = run.parent / "pictures"
+    layers = {"front": "colours", "front_depth": "depth", "front_semantic": "labels", "front_instance": "things"}
+    for layer in layers:
+        runs.call("export", run, "--topic", f"/rover/{layer}", "-o", folder)
+    figure, axes = panels(2, 2, width=8.6, height=3.25)
+    # sky, ground, leaf, wood, bunch, fruit, post, wire, obstacle, vehicle, person, weed
+    labels = np.array([[150, 190, 235], [176, 146, 102], [70, 150, 60], [102, 66, 40], [122, 44, 140], [214, 90, 48], [190, 192, 196],
+                       [240, 220, 70], [220, 40, 40], [30, 90, 200], [240, 90, 190], [150, 220, 60]], np.uint8)  # fmt: skip
+    for ax, (layer, title) in zip(axes, layers.items()):
+        picture = np.array(Image.open(sorted((folder / f"rover_{layer}").glob("*.png"))[-1]))
+        bare(ax)
+        ax.set_title(title)
+        if layer == "front_depth":
+            depth = np.where(picture == 0, np.nan, picture / 1000.0)
+            shown = ax.imshow(depth, cmap="viridis_r", vmin=0, vmax=15)
+            figure.colorbar(shown, ax=ax, label="m", fraction=0.035, pad=0.01)
+        elif layer == "front_semantic":
+            ax.imshow(labels[picture])
+        elif layer == "front_instance":
+            number = picture.astype(np.uint32) @ np.array([1, 256, 65536], np.uint32)
+            mixed = number * np.uint32(2654435761)
+            ax.imshow(np.where(number[..., None] < 2, 40, np.stack([mixed >> 24, mixed >> 16 & 255, mixed >> 8 & 255], axis=-1)).astype(np.uint8))
+        else:
+            ax.imshow(picture)
+    runs.save(figure, "camera")
 
 
 def draw_estimators(runs: Runs) -> None:

@@ -12,6 +12,7 @@
 #include "engine/io/files/output_folder.h"
 #include "engine/record/mcap_reader.h"
 #include "tools/export/message_table.h"
+#include "tools/export/picture_files.h"
 #include "tools/export/table_files.h"
 #include "tools/vinerow/subcommands.h"
 
@@ -91,11 +92,17 @@ std::vector<ChosenTopic> chosen_topics(const record::McapReader& log,
   return chosen;
 }
 
-MessageTable table_of(record::McapReader& log, const std::string& topic,
+struct TopicSource {
+  std::set<std::uint16_t> channels;
+  const record::McapSchema* schema = nullptr;
+};
+
+/// @throws ConfigError if its messages cannot be decoded, or are of two types
+TopicSource source_of(const record::McapReader& log, const std::string& topic,
                       const ExportArguments& arguments) {
   const auto channels = topics_of(log).at(topic);
-  std::set<std::uint16_t> ids;
-  const record::McapSchema* schema = nullptr;
+  TopicSource source;
+  const record::McapSchema*& schema = source.schema;
   for (const record::McapChannel* channel : channels) {
     const auto found = log.schemas().find(channel->schema);
     if (channel->encoding != "cdr" || found == log.schemas().end() ||
@@ -111,22 +118,35 @@ MessageTable table_of(record::McapReader& log, const std::string& topic,
                                     found->second.name));
     }
     schema = &found->second;
-    ids.insert(channel->id);
+    source.channels.insert(channel->id);
   }
-  MessageTable table(record::RosSchema::parse(schema->name, schema->data), arguments.long_form);
+  return source;
+}
+
+/// Adds the messages between --from and --to. @param out  a table, or files of pictures
+template <class Out>
+void add_messages(record::McapReader& log, const std::string& topic, const TopicSource& source,
+                  const ExportArguments& arguments, Out& out) {
   std::uint64_t undecoded = 0;
-  log.for_each_message(ids, [&](const record::McapMessage& message) {
+  log.for_each_message(source.channels, [&](const record::McapMessage& message) {
     const auto stamp_ns = static_cast<std::int64_t>(message.publish_time);
     const double stamp_s = static_cast<double>(stamp_ns) / 1e9;
     if (stamp_s < arguments.from_s || stamp_s > arguments.to_s) return;
     const auto logged_ns = static_cast<std::int64_t>(message.log_time);
-    undecoded += table.add(stamp_ns, logged_ns, message.data) ? 0 : 1;
+    undecoded += out.add(stamp_ns, logged_ns, message.data) ? 0 : 1;
   });
   if (undecoded > 0) {
     fmt::print(stderr,
                "vinerow: {}: {} messages of topic '{}' are not of type {} and were left out\n",
-               arguments.log.string(), undecoded, topic, schema->name);
+               arguments.log.string(), undecoded, topic, source.schema->name);
   }
+}
+
+MessageTable table_of(record::McapReader& log, const std::string& topic, const TopicSource& source,
+                      const ExportArguments& arguments) {
+  MessageTable table(record::RosSchema::parse(source.schema->name, source.schema->data),
+                     arguments.long_form);
+  add_messages(log, topic, source, arguments, table);
   return table;
 }
 
@@ -199,8 +219,20 @@ void export_topics(ExportArguments arguments) {
       arguments.out.empty() ? arguments.log.parent_path() / "export" : arguments.out;
   std::set<std::string> taken;
   const auto export_one = [&](const std::string& topic) {
-    const MessageTable table = table_of(log, topic, arguments);
+    const TopicSource source = source_of(log, topic, arguments);
     const std::string stem = file_stem(topic, taken);
+    // Pictures are files, unless arrays are requested.
+    if (is_picture_type(source.schema->name) && !arguments.npz) {
+      if (one_file) {
+        throw ConfigError(fmt::format(
+            "export: topic '{}' has pictures, -o must be a folder for them or a .npz file", topic));
+      }
+      PictureFiles pictures(folder / stem);
+      add_messages(log, topic, source, arguments, pictures);
+      fmt::print("{}  {} pictures\n", (folder / stem).string(), pictures.finish());
+      return;
+    }
+    const MessageTable table = table_of(log, topic, source, arguments);
     const auto file = [&](const char* ending) {
       return one_file ? arguments.out : folder / (stem + ending);
     };
@@ -226,8 +258,8 @@ void export_topics(ExportArguments arguments) {
 
 void add_export_command(CLI::App& app, int& exit_status) {
   auto arguments = std::make_shared<ExportArguments>();
-  CLI::App* command =
-      app.add_subcommand("export", "write topics of a log as tables: CSV, or arrays for NumPy");
+  CLI::App* command = app.add_subcommand(
+      "export", "write topics of a log as tables: CSV, or arrays for NumPy; pictures as files");
   command->add_option("log", arguments->log, "log.mcap of a run, or the run's folder")->required();
   command
       ->add_option(

@@ -24,7 +24,12 @@ std::shared_ptr<const TriangleMesh> read_back(const std::filesystem::path& file)
   io::MeshFileOptions options;
   options.join_vertices = false;
   const io::MeshFile content = io::load_mesh(file, options);
-  return content.parts.size() == 1 ? content.parts.front().mesh : nullptr;
+  if (content.parts.size() != 1) return nullptr;
+  std::vector<std::uint32_t> things = io::read_things(file);
+  if (things.empty()) return content.parts.front().mesh;
+  TriangleMesh mesh = *content.parts.front().mesh;
+  mesh.things = std::move(things);
+  return std::make_shared<const TriangleMesh>(std::move(mesh));
 }
 
 /// What load_mesh would leave out: triangles without area.
@@ -34,7 +39,15 @@ void drop_degenerate(TriangleMesh& mesh) {
     const Eigen::Vector3f ab = mesh.vertices[t[1]] - a, ac = mesh.vertices[t[2]] - a;
     return !(ab.cast<double>().cross(ac.cast<double>()).squaredNorm() > 0.0);
   };
-  std::erase_if(mesh.triangles, flat);
+  // The things begin where their first remaining triangle is.
+  std::uint32_t kept = 0;
+  std::size_t thing = 0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    while (thing < mesh.things.size() && mesh.things[thing] == i) mesh.things[thing++] = kept;
+    if (!flat(mesh.triangles[i])) mesh.triangles[kept++] = mesh.triangles[i];
+  }
+  while (thing < mesh.things.size()) mesh.things[thing++] = kept;
+  mesh.triangles.resize(kept);
 }
 
 /// A name that no other writer of this machine has: neither another process nor another thread that
@@ -125,6 +138,7 @@ std::string mesh_digest(const TriangleMesh& mesh) {
   add(mesh.normals);
   add(mesh.uvs);
   add(mesh.colours);
+  if (!mesh.things.empty()) add(mesh.things);
   return hasher.hex();
 }
 

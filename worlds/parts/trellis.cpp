@@ -41,6 +41,7 @@ TriangleMesh make_trunks(const mapping::RowCurve& row, const mapping::GroundHeig
   TriangleMesh mesh;
   const int sides = level == 0 ? 5 : 3;
   for (const double s_m : vine_s_m) {
+    mesh.things.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
     const Pose X_WR = mapping::row_frame(row, ground, s_m);
     // The same numbers are drawn at every level, so that levels show the same stems.
     const double girth = random.uniform(0.8, 1.25);
@@ -84,6 +85,7 @@ TriangleMesh make_line_posts(const mapping::RowCurve& row, const mapping::Ground
                              const std::vector<double>& post_s_m, const TrellisParams& params) {
   TriangleMesh mesh;
   for (const double s_m : post_s_m) {
+    mesh.things.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
     const Pose X_WR = mapping::row_frame(row, ground, s_m);
     const std::array<TubePoint, 2> post = {
         TubePoint{X_WR * Eigen::Vector3d(0, 0, -kBuriedDepth_m), params.post_radius_m},
@@ -97,6 +99,7 @@ TriangleMesh make_end_posts(const mapping::RowCurve& row, const mapping::GroundH
                             double start_m, double end_m, const TrellisParams& params) {
   TriangleMesh mesh;
   for (const bool at_start : {true, false}) {
+    mesh.things.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
     const Pose X_WR = mapping::row_frame(row, ground, at_start ? start_m : end_m);
     const double sign = at_start ? -1.0 : 1.0;
     const double lean = params.end_post_lean_rad, height = params.post_height_m;

@@ -69,6 +69,7 @@ TriangleMesh make_tree_leaves(const TreeLeaves& leaves, const CrownSpace& crown,
   const auto count = static_cast<int>(std::lround(area_m2 / blade_m2));
   TriangleMesh mesh;
   for (int i = 0; i < count; ++i) {
+    if (level == 0) mesh.things.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
     LeafOrgan leaf;
     leaf.junction = leaf.node = point_in(crown, kShare, random);
     const Vector3d out = (leaf.junction - crown.centre).normalized();
@@ -89,6 +90,7 @@ TriangleMesh make_fruit(const TreeLeaves& leaves, const CrownSpace& crown, Rando
   const CropFigures& crop = figures_of(leaves.crop);
   TriangleMesh mesh;
   for (int i = 0; i < leaves.fruits; ++i) {
+    mesh.things.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
     const Vector3d p = point_in(crown, 0.95, random);
     const double radius_m = 0.5 * crop.fruit_diameter_m * random.uniform(0.85, 1.1);
     append_sphere(mesh, p, radius_m, (random.uniform(0.7, 1.2) * crop.fruit).cast<float>());

@@ -153,9 +153,11 @@ void plant_tree_row(WorldModel& world, int row_number, const mapping::RowCurve& 
       if (!params.leaves || level > 0) leaves.light = Light::kPasses;
     }
     if (params.leaves && params.leaves->fruits > 0) {
-      add("fruit/" + tree, "fruit/" + key, SurfaceClass::kCanopy, [&] {
+      MeshInstance& fruit = add("fruit/" + tree, "fruit/" + key, SurfaceClass::kCanopy, [&] {
         return make_fruit(*params.leaves, space, random("fruit." + key));
-      }).collides = false;
+      });
+      fruit.collides = false;
+      fruit.label = Label::kFruit;
     }
   }
 }

@@ -51,6 +51,7 @@ TriangleMesh make_leaf_mesh(const std::vector<LeafOrgan>& leaves, int level) {
   constexpr std::size_t kFewer[] = {1, 2, 12};
   TriangleMesh mesh;
   for (std::size_t i = 0; i < leaves.size(); i += kFewer[level]) {
+    if (level == 0) mesh.things.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
     // One leaf has the area of those that it stands for.
     double area_m2 = 0.0;
     for (std::size_t k = i; k < std::min(leaves.size(), i + kFewer[level]); ++k) {
@@ -70,6 +71,7 @@ TriangleMesh make_leaf_mesh(const std::vector<LeafOrgan>& leaves, int level) {
 TriangleMesh make_shoot_mesh(const std::vector<ShootOrgan>& shoots, int level) {
   TriangleMesh mesh;
   for (const ShootOrgan& shoot : shoots) {
+    if (level == 0) mesh.things.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
     std::vector<TubePoint> points;
     const std::size_t count = shoot.points.size();
     const std::size_t step = level == 0 ? 1 : 4;
@@ -86,6 +88,7 @@ TriangleMesh make_shoot_mesh(const std::vector<ShootOrgan>& shoots, int level) {
 TriangleMesh make_bunch_mesh(const std::vector<BunchOrgan>& bunches, int level) {
   TriangleMesh mesh;
   for (const BunchOrgan& bunch : bunches) {
+    if (level == 0) mesh.things.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
     append_bunch(mesh, bunch, level);
   }
   return mesh;

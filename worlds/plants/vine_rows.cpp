@@ -141,7 +141,7 @@ class Planter {
                   const std::string& shape_key) {
     const Pose X_WM = mapping::stretch_frame(row.curve, ground_, chunk.start_m, chunk.end_m);
     const VineOrgans& organs = organs_of(shape_key, chunk);
-    const auto add = [&](const char* what, const auto& list, const auto& make) {
+    const auto add = [&](const char* what, Label label, const auto& list, const auto& make) {
       if (list.empty()) return;
       for (int level = 0; level < 3; ++level) {
         MeshInstance instance =
@@ -150,14 +150,15 @@ class Planter {
                                      [&] { return make(list, level); }),
                           SurfaceClass::kCanopy);
         instance.X_WM = X_WM;
+        instance.label = label;
         instance.collides = false;
         if (level > 0) instance.light = Light::kPasses;
         world_.meshes.push_back(std::move(instance));
       }
     };
-    add("canopy", organs.leaves, make_leaf_mesh);
-    add("shoots", organs.shoots, make_shoot_mesh);
-    add("bunches", organs.bunches, make_bunch_mesh);
+    add("canopy", Label::kLeaf, organs.leaves, make_leaf_mesh);
+    add("shoots", Label::kWood, organs.shoots, make_shoot_mesh);
+    add("bunches", Label::kBunch, organs.bunches, make_bunch_mesh);
   }
 
   void add_leaves(const VineRow& row, const Chunk& chunk, const std::string& chunk_name,

@@ -20,7 +20,7 @@ namespace {
 
 /// Version of the generator, raised whenever meshes change for equal parameters, so that older
 /// files are not read.
-constexpr int kGeneratorVersion = 3;
+constexpr int kGeneratorVersion = 4;
 
 PartSpec vineyard_spec() {
   PartSpec spec;

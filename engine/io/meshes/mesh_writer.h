@@ -2,19 +2,24 @@
 /// Lossless writer of triangle meshes as binary PLY: load_mesh(join_vertices = false) reads back an
 /// equal mesh.
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "engine/api/forward.h"
 
 namespace vinerow::io {
 
 /// Writes little-endian PLY 1.0: vertices as float x y z, with nx ny nz, s t and red green blue if
-/// the mesh has them (one entry per vertex or none), faces as uchar 3 + 3 int. Colours stay linear,
-/// which load_mesh assumes for PLY colours that are not bytes. A comment holds the digest of the
-/// rest of the file.
+/// the mesh has them (one entry per vertex or none), faces as uchar 3 + 3 int, and the mesh's
+/// things as an element of its own, which other readers skip. Colours stay linear, which load_mesh
+/// assumes for PLY colours that are not bytes. A comment holds the digest of the rest of the file.
 /// @throws ConfigError naming the file if it cannot be written completely
 void write_ply(const TriangleMesh& mesh, const std::filesystem::path& file);
+
+/// TriangleMesh::things of a file of write_ply; empty for any other file.
+std::vector<std::uint32_t> read_things(const std::filesystem::path& file);
 
 /// True for an unmodified file of write_ply.
 bool is_intact_ply(const std::filesystem::path& file);

@@ -46,9 +46,9 @@ class ListFields final : public FieldVisitor {
 };
 
 void expect_good_names(const ListFields& list, const std::string& message) {
-  // SI, in the spelling of ParameterSpec::unit.
-  const std::set<std::string> known = {"",    "m",     "m/s", "m/s^2", "m^2", "rad", "rad/s",
-                                       "1/m", "s",     "Pa",  "T",     "W",   "J"};
+  // SI, in the spelling of ParameterSpec::unit, and pixels.
+  const std::set<std::string> known = {"",  "m",  "m/s", "m/s^2", "m^2", "rad", "rad/s", "1/m",
+                                       "s", "Pa", "T",   "W",     "J",   "px",  "px m"};
   for (const std::string& unit : list.units) EXPECT_TRUE(known.contains(unit)) << message << unit;
   const std::regex ros_name("[a-z]([a-z0-9]|_(?=[a-z0-9]))*");
   std::set<std::string> names;
@@ -71,7 +71,7 @@ TEST(Message, EveryShippedOneHasFieldsWithNamesOfTheirOwnAndKnownUnits) {
     EXPECT_FALSE(list.names.empty()) << T::kType;
     expect_good_names(list, T::kType);
   });
-  EXPECT_EQ(types.size(), 26u);
+  EXPECT_EQ(types.size(), 28u);
 }
 
 TEST(Message, LayoutsDiffer) {

@@ -115,6 +115,7 @@ TEST_F(ComposedFrame, ATopCameraShowsTheWholeOfAWorldOfMeshes) {
                    {{0, 1, 2}, {0, 2, 3}},
                    {},
                    {},
+                   {},
                    {}});
   hill.surface = SurfaceClass::kTerrain;
   world_.meshes.push_back(hill);

@@ -37,6 +37,10 @@ const std::map<std::string, Digests> kDigests = {
      {"71d1d3beca374c24df04887955cba02b", "7b9da5773057fbc69a2277707016b54b"}},
     {"PointCloud",
      {"22bc2ac365bec16e2bbdfd815a2b6717", "8f4eeb1dd10b94be2fdd8ec677cce495"}},
+    {"Picture",
+     {"d32b2a50f1c97b34730f0403a2daa921", ""}},
+    {"CameraInfo",
+     {"38703cdc4932ced499a90951f128a804", "59cd790a3d14b1fccb45efd08874cf5b"}},
     {"PositionEllipsoid",
      {"ac9ee19863a37d86c05c93ca87149f4b", "5f9ca171cd65973a6dfce8eb15a9bc31"}},
     {"GnssHeading",
@@ -105,6 +109,8 @@ TEST(MessageBytes, StayWhatTheyAre) {
     const Digests digests = digests_of<T>();
     ASSERT_TRUE(kDigests.contains(T::kType)) << T::kType;
     EXPECT_EQ(digests.signal, kDigests.at(T::kType).signal) << T::kType;
+    // The bytes of a PNG depend on the release of zlib; round_trip_test reads them back.
+    if constexpr (std::is_same_v<T, Picture>) return;
     EXPECT_EQ(digests.log, kDigests.at(T::kType).log) << T::kType;
   });
 }

@@ -93,6 +93,19 @@ void fill(RandomStream& random, T& value) {
   if constexpr (std::is_same_v<T, ReferenceTrajectory>) value.points.resize(size);
   if constexpr (std::is_same_v<T, LineList>) value.points_W.resize(2 * size);
   T::fields(value, FillField{random});
+  if constexpr (std::is_same_v<T, Picture>) {
+    value.format = static_cast<Picture::Format>(random.next_u64() % 3);
+    value.width = static_cast<std::uint32_t>(size);
+    value.height = static_cast<std::uint32_t>(random.next_u64() % 5);
+    if (value.width == 0 || value.height == 0) value.width = value.height = 0;
+    value.data.resize(value.width * value.height * Picture::bytes_per_pixel(value.format));
+    for (std::uint8_t& byte : value.data) byte = static_cast<std::uint8_t>(random.next_u64());
+  }
+  if constexpr (std::is_same_v<T, CameraInfo>) {
+    value.lens = static_cast<CameraInfo::Lens>(random.next_u64() % 2);
+    // A fisheye lens has four coefficients.
+    if (value.lens == CameraInfo::Lens::kFisheye) value.distortion[4] = 0.0;
+  }
   if constexpr (std::is_same_v<T, PlannedPath>) {
     for (PathPoint& point : value.points) point.kind = static_cast<PathKind>(random.next_u64() % 5);
   }

@@ -25,6 +25,9 @@ struct ConformanceBench : SensorBench {
     ParameterSet parameters = sensor_parameters(type, values);
     // A few of its 28,800 pulses a frame, so that thousands of frames take seconds.
     if (type == "lidar_3d") parameters.set("columns", std::int64_t{60});
+    if (type == "camera") {
+      parameters.set("width_px", std::int64_t{16}).set("height_px", std::int64_t{16});
+    }
     sensor = sensor_registry().make_sensor(type, parameters, context(rate_Hz, seed));
     connect(*sensor);
     reading = bus.find("rover/s");

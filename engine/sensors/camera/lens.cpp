@@ -1,0 +1,102 @@
+#include "engine/sensors/camera/lens.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/api/parameter_table.h"
+#include "engine/core/error.h"
+#include "engine/math/angles.h"
+
+namespace vinerow::sensors {
+namespace {
+
+constexpr std::size_t kBrownCoefficients = 5, kFisheyeCoefficients = 4;
+constexpr double kMostPixels = 4096.0 * 4096.0;
+
+std::string fault_of(const LensParams& p) {
+  const bool is_fisheye = p.lens == CameraInfo::Lens::kFisheye;
+  const std::size_t count = is_fisheye ? kFisheyeCoefficients : kBrownCoefficients;
+  if (!p.distortion.empty() && p.distortion.size() != count) {
+    return fmt::format("distortion has {} coefficients, must have {} for lens {} ({}) or none",
+                       p.distortion.size(), count, is_fisheye ? "fisheye" : "brown_conrady",
+                       is_fisheye ? "k1, k2, k3, k4" : "k1, k2, p1, p2, k3");
+  }
+  if (static_cast<double>(p.width_px) * p.height_px > kMostPixels) {
+    return fmt::format("width_px x height_px = {} x {}, must be at most {:.0f} pixels", p.width_px,
+                       p.height_px, kMostPixels);
+  }
+  constexpr double kWidest_rad = 2.8;
+  if (!is_fisheye && p.horizontal_fov_rad > kWidest_rad) {
+    return fmt::format(
+        "horizontal_fov_deg = {:g}, must be at most {:.0f} for lens brown_conrady; lens fisheye is "
+        "wider",
+        deg_from_rad(p.horizontal_fov_rad), deg_from_rad(kWidest_rad));
+  }
+  return "";
+}
+
+}  // namespace
+
+const ParameterTable<LensParams>& lens_table() {
+  using P = LensParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .integer("width_px", &P::width_px, between(16, 8192), "pixels in a row")
+          .integer("height_px", &P::height_px, between(16, 8192), "rows of pixels")
+          .choice("lens", &P::lens,
+                  {{"brown_conrady", CameraInfo::Lens::kBrownConrady},
+                   {"fisheye", CameraInfo::Lens::kFisheye}},
+                  "model of the lens (ROS: plumb_bob, equidistant)")
+          .degrees("horizontal_fov_deg", &P::horizontal_fov_rad, between(1.0, 220.0),
+                   "width of view without distortion; sets fx if that is absent")
+          .number("fx_px", "", &P::fx_px, above(0.0, 1e6), "focal length along a row, pixels")
+          .number("fy_px", "", &P::fy_px, above(0.0, 1e6),
+                  "focal length across rows, pixels; absent: as fx")
+          .number("cx_px", "", &P::cx_px, between(-1e5, 1e5),
+                  "principal point, pixels from the middle of the left column; absent: the middle")
+          .number("cy_px", "", &P::cy_px, between(-1e5, 1e5),
+                  "principal point, pixels from the middle of the upper row; absent: the middle")
+          .numbers("distortion", "", &P::distortion, kAnyNumber,
+                   "k1, k2, p1, p2, k3 of brown_conrady or k1, k2, k3, k4 of fisheye; empty: none")
+          .rule(&fault_of);
+  return table;
+}
+
+Lens make_lens(const LensParams& params, const std::string& who) {
+  CameraInfo info;
+  info.width = static_cast<std::uint32_t>(params.width_px);
+  info.height = static_cast<std::uint32_t>(params.height_px);
+  info.lens = params.lens;
+  std::copy(params.distortion.begin(), params.distortion.end(), info.distortion.begin());
+  const double half_rad = 0.5 * params.horizontal_fov_rad;
+  const double half_width =
+      params.lens == CameraInfo::Lens::kFisheye ? half_rad : std::tan(half_rad);
+  info.fx_px = params.fx_px.value_or(0.5 * params.width_px / half_width);
+  info.fy_px = params.fy_px.value_or(info.fx_px);
+  info.cx_px = params.cx_px.value_or(0.5 * (params.width_px - 1));
+  info.cy_px = params.cy_px.value_or(0.5 * (params.height_px - 1));
+  const Lens lens(info);
+  // If the lens maps the picture's border one to one, it does so inside: both models are smooth and
+  // fold first where they are farthest from the axis.
+  const auto check = [&](double u, double v) {
+    if (lens.direction(u, v)) return;
+    throw ConfigError(fmt::format(
+        "{}: the lens folds: with this distortion and focal length no single direction belongs to "
+        "pixel ({:g}, {:g})",
+        who, u, v));
+  };
+  constexpr int kChecks = 32;
+  for (int i = 0; i <= kChecks; ++i) {
+    const double share = static_cast<double>(i) / kChecks;
+    const double u = share * (lens.width() - 1), v = share * (lens.height() - 1);
+    check(u, 0.0);
+    check(u, lens.height() - 1.0);
+    check(0.0, v);
+    check(lens.width() - 1.0, v);
+  }
+  return lens;
+}
+
+}  // namespace vinerow::sensors

@@ -1,0 +1,28 @@
+#include "engine/sensors/camera/thing_numbers.h"
+
+#include <algorithm>
+
+namespace vinerow::sensors {
+
+ThingNumbers::ThingNumbers(std::span<const MeshInstance> meshes) : meshes_(meshes) {
+  for (const MeshInstance& instance : meshes) {
+    first_.push_back(end_);
+    // What light does not meet gets no numbers: levels of detail would take most of them.
+    const bool is_seen =
+        instance.light == Light::kMeets || (instance.light == Light::kAsDrawn && instance.visible);
+    if (!is_seen || !instance.mesh) continue;
+    end_ += static_cast<std::uint32_t>(std::max<std::size_t>(instance.mesh->things.size(), 1));
+  }
+}
+
+std::uint32_t ThingNumbers::of(const RayHit& hit) const {
+  if (hit.mesh < 0) return kTerrain;
+  const auto mesh = static_cast<std::size_t>(hit.mesh);
+  const std::vector<std::uint32_t>& things = meshes_[mesh].mesh->things;
+  const auto after =
+      std::upper_bound(things.begin(), things.end(), static_cast<std::uint32_t>(hit.triangle));
+  const auto thing = std::max<std::ptrdiff_t>(after - things.begin() - 1, 0);
+  return first_[mesh] + static_cast<std::uint32_t>(thing);
+}
+
+}  // namespace vinerow::sensors

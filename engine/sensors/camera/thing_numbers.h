@@ -1,0 +1,36 @@
+#pragma once
+/// Numbers of the things in a world, for instance pictures: each leaf, bunch, trunk and post has
+/// its own, the same in every picture of a run and of every run in the same world.
+///
+/// 0: sky and what is beyond the world; 1: the terrain; then the things of the meshes in their
+/// order, then the vehicles in the order of the scenario file.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/api/mesh.h"
+#include "engine/api/scene_query.h"
+
+namespace vinerow::sensors {
+
+class ThingNumbers {
+ public:
+  static constexpr std::uint32_t kNothing = 0, kTerrain = 1;
+
+  /// @param meshes  of the world; outlive this object
+  explicit ThingNumbers(std::span<const MeshInstance> meshes);
+
+  /// Of a hit on the world.
+  std::uint32_t of(const RayHit& hit) const;
+  std::uint32_t of_vehicle(int vehicle) const { return end_ + static_cast<std::uint32_t>(vehicle); }
+  /// First number that no thing of the world has.
+  std::uint32_t end() const { return end_; }
+
+ private:
+  std::span<const MeshInstance> meshes_;
+  std::vector<std::uint32_t> first_;  ///< of each mesh
+  std::uint32_t end_ = kTerrain + 1;
+};
+
+}  // namespace vinerow::sensors

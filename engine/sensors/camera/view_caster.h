@@ -1,0 +1,90 @@
+#pragma once
+/// Rays of a camera's picture: what each pixel sees.
+///
+/// A pixel is a ray through its middle, at the middle of its row's exposure. Depth, normal, label
+/// and number of the thing are those of this ray: they do not blend at edges. The radiance is the
+/// mean of `samples` rays, the first of which is that one; the others lie elsewhere in the pixel
+/// and in its exposure, which gives smooth edges and motion blur.
+///
+/// The stamp is the middle of the picture's exposure. Row j of h is exposed about
+/// (j / (h - 1) - 1/2) readout_s later (rolling shutter; 0: global). In between the camera moves
+/// with the velocities that it has at the stamp: for an acceleration a the outer rows are off by
+/// a readout_s^2 / 8.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/api/lens.h"
+#include "engine/api/scene_query.h"
+#include "engine/math/pose.h"
+#include "engine/sensors/camera/scene_look.h"
+#include "engine/sensors/camera/thing_numbers.h"
+
+namespace vinerow::sensors {
+
+/// Pose of S at the stamp, and how it moves.
+struct CameraMotion {
+  Pose X_WS;
+  Eigen::Vector3d v_W = Eigen::Vector3d::Zero();     ///< m/s
+  Eigen::Vector3d w_WS_S = Eigen::Vector3d::Zero();  ///< rad/s
+};
+
+/// Values of all pixels, row by row.
+struct View {
+  std::vector<float> radiance;            ///< relative, by channel; empty: not wanted
+  std::vector<float> depth_m;             ///< along the axis; 0: nothing is seen
+  std::vector<Eigen::Vector3f> normal_C;  ///< in the optical frame; zero: nothing is seen
+  std::vector<Label> label;
+  std::vector<std::uint32_t> thing;
+};
+
+struct ViewSettings {
+  int samples = 1;
+  double readout_s = 0.0;
+  bool shadows = true;
+  int channels = 3;  ///< of the radiance; 0: none
+};
+
+class ViewCaster {
+ public:
+  /// References outlive this object. @param vehicles  null: none
+  ViewCaster(const Lens& lens, const ViewSettings& settings, const WorldModel& world,
+             const RayScene& light, const SceneLook& look);
+
+  /// Vehicles that it sees from now on.
+  void set_vehicles(VehicleScene* vehicles) { vehicles_ = vehicles; }
+
+  /// @param exposure_s  for motion blur
+  void cast(const CameraMotion& motion, double exposure_s, View& view);
+
+  /// Reason why a camera here sees nothing: "is inside of rover/body". Empty: there is none.
+  std::string blindness(const Pose& X_WS);
+
+ private:
+  struct Band;
+  void cast_band(const CameraMotion& motion, double exposure_s, int sample, const Band& band,
+                 View& view);
+  void add_rays(const CameraMotion& motion, double exposure_s, int sample, const Band& band);
+  void look_at_vehicles();
+  void write_facts(const Band& band, const Eigen::Matrix3d& R_WC, View& view) const;
+  void add_light(const Band& band, View& view);
+  SeenSurface surface_of(std::size_t ray) const;
+
+  const Lens& lens_;
+  ViewSettings settings_;
+  const WorldModel& world_;
+  const RayScene& light_;
+  const SceneLook& look_;
+  VehicleScene* vehicles_ = nullptr;
+  ThingNumbers numbers_;
+  std::vector<Eigen::Vector3f> direction_C_;  ///< of each pixel, in the optical frame
+  // Of the rays of a band.
+  std::vector<SceneRay> rays_, sun_rays_;
+  std::vector<std::optional<RayHit>> hits_, vehicle_hits_, sun_hits_;
+  std::vector<bool> on_vehicle_;
+  std::vector<SeenSurface> surfaces_;
+  std::vector<std::size_t> sun_ray_;  ///< of each ray, or kNone
+};
+
+}  // namespace vinerow::sensors

@@ -1,0 +1,398 @@
+/// The camera sensor against closed forms: depth, labels, shutter, blur, bands, noise of depth.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "engine/api/messages/camera.h"
+#include "engine/math/angles.h"
+#include "engine/physics/static_scene.h"
+#include "tests/engine/physics/small_worlds.h"
+#include "tests/engine/sensors/sensor_bench.h"
+#include "tests/engine/sensors/sensor_parts.h"
+
+namespace vinerow::sensors::camera_test {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+namespace small = physics::test;
+
+/// A camera on a vehicle that is where the test says.
+class CameraBench {
+ public:
+  CameraBench(std::shared_ptr<const WorldModel> world, const test::SensorValues& values)
+      : scene_(world), world_(world) {
+    SensorContext context = bench_.context(10.0);
+    context.scene = &scene_.queries();
+    context.light = [this]() -> const RayScene& { return scene_.light(); };
+    context.world = world_.get();
+    const ParameterSet parameters = test::sensor_parameters("camera", values);
+    sensor_ = test::sensor_registry().make_sensor("camera", parameters, context);
+    bench_.connect(*sensor_);
+  }
+
+  void step(const Odometry& state) {
+    bench_.truth.write(now_, state);
+    sensor_->step(now_);
+    now_ = now_ + Duration{100'000'000};
+  }
+  void step(const Pose& X_WB) {
+    Odometry state;
+    state.X_WB = X_WB;
+    step(state);
+  }
+
+  template <class T>
+  const T& value(const std::string& name) {
+    return static_cast<const Signal<T>&>(*bench_.bus.find(name)).value();
+  }
+  const Picture& picture(const char* layer = "") {
+    return value<Picture>(std::string("rover/s") + layer);
+  }
+  const RayScene& light() const { return scene_.light(); }
+  const WorldModel& world() const { return *world_; }
+  SignalBus& bus() { return bench_.bus; }
+
+ private:
+  physics::StaticScene scene_;
+  std::shared_ptr<const WorldModel> world_;
+  test::SensorBench bench_;
+  std::unique_ptr<Sensor> sensor_;
+  Time now_{0};
+};
+
+std::uint32_t number(const Picture& picture, int x, int y) {
+  const std::size_t bytes = Picture::bytes_per_pixel(picture.format);
+  const std::size_t at = bytes * (static_cast<std::size_t>(y) * picture.width + x);
+  std::uint32_t value = 0;
+  for (std::size_t k = 0; k < bytes; ++k) value |= std::uint32_t{picture.data[at + k]} << (8 * k);
+  return value;
+}
+
+/// 120 x 90 pixels, 60 degrees wide, without noise.
+const test::SensorValues kSmall = {{"width_px", std::int64_t{120}},
+                                   {"height_px", std::int64_t{90}},
+                                   {"horizontal_fov_deg", 60.0},
+                                   {"noise", false}};
+
+test::SensorValues with(test::SensorValues values, const test::SensorValues& more) {
+  values.insert(values.end(), more.begin(), more.end());
+  return values;
+}
+
+Pose at(double x, double y, double z, double pitch_deg = 0.0) {
+  return {quaternion_from_rpy({0.0, rad_from_deg(pitch_deg), 0.0}), {x, y, z}};
+}
+
+/// Level ground at z = 0, 40 m wide.
+std::shared_ptr<WorldModel> flat_world() {
+  auto world = std::make_shared<WorldModel>();
+  world->terrain = small::make_flat(0.0, 81, 0.5);
+  return world;
+}
+
+MeshInstance box(const char* name, const Vector3d& middle, const Vector3f& half,
+                 SurfaceClass surface, const Vector3f& colour = {0.5f, 0.5f, 0.5f}) {
+  MeshInstance instance = small::make_instance(name, small::make_box_mesh(half), middle, surface);
+  instance.material.colour = colour;
+  return instance;
+}
+
+/// Direction of a pixel's middle in W, by the pinhole's formula.
+Vector3d direction_W(const CameraInfo& info, const Pose& X_WS, double u, double v) {
+  const Vector3d C((u - info.cx_px) / info.fx_px, (v - info.cy_px) / info.fy_px, 1.0);
+  return (X_WS.q * Vector3d(C.z(), -C.x(), -C.y())).normalized();
+}
+
+TEST(Camera, DepthIsThatOfPlanesInClosedForm) {
+  const auto world = flat_world();
+  world->meshes = {box("wall", {8.0, 0.0, 5.0}, {0.5f, 10.0f, 10.0f}, SurfaceClass::kObstacle)};
+  CameraBench bench(world, with(kSmall, {{"picture", std::string("depth")}}));
+  const Pose X_WS = at(0.0, 0.0, 1.2, 15.0);
+  bench.step(X_WS);
+  const auto& info = bench.value<CameraInfo>("rover/s_info");
+  const Vector3d axis_W = X_WS.q * Vector3d::UnitX();
+  int grounds = 0, walls = 0;
+  double worst_mm = 0.0;
+  for (int y = 0; y < 90; ++y) {
+    for (int x = 0; x < 120; ++x) {
+      const Vector3d dir_W = direction_W(info, X_WS, x, y);
+      const double to_wall = 7.5 / dir_W.x();
+      const double to_ground = dir_W.z() < 0.0 ? -1.2 / dir_W.z() : 1e9;
+      (to_ground < to_wall ? grounds : walls) += 1;
+      const double depth_m = std::min(to_wall, to_ground) * dir_W.dot(axis_W);
+      worst_mm = std::max(worst_mm, std::abs(1000.0 * depth_m - number(bench.picture(), x, y)));
+    }
+  }
+  EXPECT_GT(grounds, 2000);
+  EXPECT_GT(walls, 2000);
+  // Half a millimetre is the picture's step.
+  EXPECT_LE(worst_mm, 0.501);
+  std::printf("largest error of depth: %.4f mm\n", worst_mm);
+}
+
+TEST(Camera, MasksAreThoseOfRaysCastAlone) {
+  const auto world = flat_world();
+  auto posts = small::make_box_mesh({0.05f, 0.05f, 1.0f});
+  // A second post, 1 m to the left, in the same mesh.
+  const auto corners = static_cast<std::uint32_t>(posts->vertices.size());
+  posts->things = {0, static_cast<std::uint32_t>(posts->triangles.size())};
+  for (std::uint32_t i = 0; i < corners; ++i) {
+    posts->vertices.push_back(posts->vertices[i] + Vector3f(0, 1, 0));
+  }
+  for (std::size_t i = 0, count = posts->triangles.size(); i < count; ++i) {
+    auto triangle = posts->triangles[i];
+    for (std::uint32_t& corner : triangle) corner += corners;
+    posts->triangles.push_back(triangle);
+  }
+  world->meshes = {small::make_instance("posts", posts, {3.0, -0.5, 1.0}, SurfaceClass::kPost),
+                   box("leaf", {4.0, 0.0, 1.6}, {0.1f, 1.5f, 0.3f}, SurfaceClass::kCanopy),
+                   box("grapes", {3.5, 0.0, 1.0}, {0.1f, 0.1f, 0.1f}, SurfaceClass::kCanopy)};
+  world->meshes[2].label = Label::kBunch;
+  CameraBench bench(world, with(kSmall, {{"semantic", true}, {"instance", true}}));
+  const Pose X_WS = at(0.0, 0.0, 1.2);
+  bench.step(X_WS);
+  const auto& info = bench.value<CameraInfo>("rover/s_info");
+  std::map<std::uint32_t, int> labels;
+  std::map<std::uint32_t, std::pair<int, int>> things;  // and their mesh and triangle's half
+  for (int y = 0; y < 90; ++y) {
+    for (int x = 0; x < 120; ++x) {
+      const Vector3d dir_W = direction_W(info, X_WS, x, y);
+      const auto hit = bench.light().cast_ray(X_WS.p, dir_W, 1000.0);
+      const std::uint32_t label = number(bench.picture("_semantic"), x, y);
+      const std::uint32_t thing = number(bench.picture("_instance"), x, y);
+      ++labels[label];
+      if (!hit) {
+        EXPECT_EQ(thing, 0u);
+        EXPECT_EQ(label, dir_W.z() < 0.0 ? 1u : 0u);
+        continue;
+      }
+      const std::uint32_t expected[] = {6, 2, 4};  // post, leaf, bunch
+      EXPECT_EQ(label, hit->mesh < 0 ? 1u : expected[hit->mesh]);
+      const std::pair<int, int> key(hit->mesh, hit->mesh == 0 && hit->triangle >= 12 ? 1 : 0);
+      const auto known = things.emplace(thing, key).first;
+      EXPECT_EQ(known->second, key) << x << " " << y;
+    }
+  }
+  for (const std::uint32_t label : {0u, 1u, 2u, 4u, 6u}) EXPECT_GT(labels[label], 20) << label;
+  // Ground, two posts, leaf, bunch: each one number.
+  EXPECT_EQ(things.size(), 5u);
+}
+
+/// First column of a row whose label is that of a post.
+int first_post_column(const Picture& semantic, int row) {
+  for (int x = 0; x < static_cast<int>(semantic.width); ++x) {
+    if (number(semantic, x, row) == 6u) return x;
+  }
+  return -1000;
+}
+
+TEST(Camera, RollingShutterLeansWhatItPasses) {
+  const auto world = flat_world();
+  world->meshes = {box("post", {4.0, 0.0, 0.0}, {0.1f, 0.1f, 20.0f}, SurfaceClass::kPost)};
+  const test::SensorValues shutter = {{"width_px", std::int64_t{640}},
+                                      {"height_px", std::int64_t{480}},
+                                      {"horizontal_fov_deg", 60.0},
+                                      {"semantic", true},
+                                      {"readout_s", 0.03}};
+  CameraBench bench(world, shutter);
+  Odometry state;
+  state.X_WB = at(0.0, 0.0, 10.0);
+  state.v_WB_B = {0.0, 5.0, 0.0};
+  bench.step(state);
+  const auto& info = bench.value<CameraInfo>("rover/s_info");
+  const Picture& semantic = bench.picture("_semantic");
+  // Moving to the left, the camera sees the post wander to the right from row to row.
+  const double lean_px = 5.0 * 0.03 * info.fx_px / 3.9;
+  EXPECT_GT(lean_px, 20.0);
+  EXPECT_NEAR(first_post_column(semantic, 479) - first_post_column(semantic, 0), lean_px, 1.01);
+  // The same by turning: all at one angular speed, whatever the distance.
+  Odometry turning;
+  turning.X_WB = at(0.0, 0.0, 10.0);
+  turning.w_WB_B = {0.0, 0.0, 1.0};
+  bench.step(turning);
+  const double turn_px = info.fx_px * 0.03;
+  EXPECT_NEAR(first_post_column(bench.picture("_semantic"), 479) -
+                  first_post_column(bench.picture("_semantic"), 0),
+              turn_px, 1.2);
+}
+
+TEST(Camera, MotionBlurIsAsWideAsTheWayInTheExposure) {
+  const auto world = flat_world();
+  world->meshes = {box("wall", {4.0, 10.0, 10.0}, {0.1f, 10.0f, 20.0f}, SurfaceClass::kObstacle,
+                       {0.9f, 0.9f, 0.9f}),
+                   box("dark", {6.0, 0.0, 10.0}, {0.1f, 30.0f, 20.0f}, SurfaceClass::kObstacle,
+                       {0.02f, 0.02f, 0.02f})};
+  const test::SensorValues blur = {{"picture", std::string("mono")},
+                                   {"width_px", std::int64_t{640}},
+                                   {"height_px", std::int64_t{16}},
+                                   {"horizontal_fov_deg", 60.0},
+                                   {"noise", false},
+                                   {"shadows", false},
+                                   {"samples", std::int64_t{64}},
+                                   {"exposure_s", 0.02},
+                                   {"f_number", 60.0}};
+  CameraBench bench(world, blur);
+  Odometry state;
+  state.X_WB = at(0.0, 0.0, 10.0);
+  state.v_WB_B = {0.0, 2.0, 0.0};
+  bench.step(state);
+  const auto& info = bench.value<CameraInfo>("rover/s_info");
+  const Picture& picture = bench.picture();
+  const double bright = number(picture, 5, 8), dark = number(picture, 634, 8);
+  ASSERT_GT(bright, 20.0 * dark);
+  int between = 0;
+  for (int x = 0; x < 640; ++x) {
+    const double share = (number(picture, x, 8) - dark) / (bright - dark);
+    if (share > 0.05 && share < 0.95) ++between;
+  }
+  // 40 mm at 3.9 m; the 90 % in the middle of the way.
+  const double width_px = 2.0 * 0.02 * info.fx_px / 3.9;
+  EXPECT_NEAR(between, 0.9 * width_px, 1.5);
+}
+
+TEST(Camera, ShadowsLieWhereTheSunDoesNotReach) {
+  const auto world = flat_world();
+  world->daylight = {rad_from_deg(180.0), rad_from_deg(45.0)};  // from the south
+  world->meshes = {box("block", {3.0, 0.0, 1.0}, {1.0f, 1.0f, 1.0f}, SurfaceClass::kObstacle)};
+  CameraBench bench(world, with(kSmall, {{"picture", std::string("mono")},
+                                         {"rotation_deg", std::vector<double>{0.0, 90.0, 0.0}}}));
+  bench.step(at(3.0, 0.0, 20.0));
+  const auto& info = bench.value<CameraInfo>("rover/s_info");
+  // Seen from above, x is up in the picture: y = 2 north of the block is in shadow, y = -2 in
+  // light.
+  const auto column_of = [&](double y) {
+    return static_cast<int>(std::lround(info.cx_px - y * info.fx_px / 20.0));
+  };
+  const int row = static_cast<int>(std::lround(info.cy_px));
+  double shaded = 0.0, lit = 0.0;
+  for (int i = -1; i <= 1; ++i) {
+    shaded += number(bench.picture(), column_of(2.0) + i, row);
+    lit += number(bench.picture(), column_of(-2.0) + i, row);
+  }
+  EXPECT_LT(shaded, 0.4 * lit);
+  EXPECT_GT(shaded, 0.05 * lit);
+}
+
+/// Mean number of a window of a band's picture, 5 x 5 pixels.
+double level(const Picture& picture, int x, int y) {
+  double sum = 0.0;
+  for (int j = -2; j <= 2; ++j) {
+    for (int i = -2; i <= 2; ++i) sum += number(picture, x + i, y + j) / 25.0;
+  }
+  return sum;
+}
+
+TEST(Camera, NdviIsThatOfLeavesAndOfSoil) {
+  const auto world = flat_world();
+  world->soil.name = "tilled_soil";
+  // A leaf in the open, and a panel of known reflectance, as field campaigns use it.
+  world->meshes = {box("leaf", {2.0, 1.0, 0.5}, {0.4f, 0.4f, 0.01f}, SurfaceClass::kCanopy,
+                       {0.05f, 0.12f, 0.03f}),
+                   box("panel", {2.0, -1.0, 0.5}, {0.4f, 0.4f, 0.01f}, SurfaceClass::kObstacle),
+                   box("red_leaf", {2.0, 2.2, 0.5}, {0.4f, 0.4f, 0.01f}, SurfaceClass::kCanopy,
+                       {0.35f, 0.10f, 0.04f})};
+  std::map<std::string, std::array<double, 3>> reflectance;  // leaf, soil, autumn leaf
+  for (const char* band : {"red", "red_edge", "nir"}) {
+    CameraBench bench(world, with(kSmall, {{"picture", std::string(band)},
+                                           {"horizontal_fov_deg", 90.0},
+                                           {"rotation_deg", std::vector<double>{0.0, 90.0, 0.0}}}));
+    bench.step(at(2.0, 0.0, 4.0));
+    const auto& info = bench.value<CameraInfo>("rover/s_info");
+    const int row = 45;
+    const auto column = [&](double y, double depth_m) {
+      return static_cast<int>(std::lround(info.cx_px - y * info.fx_px / depth_m));
+    };
+    const double panel = level(bench.picture(), column(-1.0, 3.49), row) / 0.5;
+    reflectance[band] = {level(bench.picture(), column(1.0, 3.49), row) / panel,
+                         level(bench.picture(), column(0.0, 4.0), row) / panel,
+                         level(bench.picture(), column(2.2, 3.49), row) / panel};
+  }
+  const auto index = [&](std::size_t what, const char* low) {
+    const double nir = reflectance["nir"][what], other = reflectance[low][what];
+    return (nir - other) / (nir + other);
+  };
+  std::printf("NDVI: leaf %.2f, autumn leaf %.2f, bare soil %.2f; NDRE of the leaf %.2f\n",
+              index(0, "red"), index(2, "red"), index(1, "red"), index(0, "red_edge"));
+  EXPECT_GT(index(0, "red"), 0.70);
+  EXPECT_LT(index(0, "red"), 0.95);
+  EXPECT_GT(index(1, "red"), 0.05);
+  EXPECT_LT(index(1, "red"), 0.25);
+  EXPECT_LT(index(2, "red"), 0.3);
+  EXPECT_GT(index(0, "red_edge"), 0.2);
+  EXPECT_LT(index(0, "red_edge"), 0.5);
+}
+
+TEST(Camera, DepthErrorsGrowWithTheSquareOfTheDepth) {
+  for (const double wall_m : {2.0, 6.0}) {
+    const auto world = flat_world();
+    world->meshes = {
+        box("wall", {wall_m + 0.5, 0.0, 10.0}, {0.5f, 19.0f, 9.0f}, SurfaceClass::kObstacle)};
+    CameraBench bench(world, with(kSmall, {{"picture", std::string("depth")},
+                                           {"depth_baseline_m", 0.05},
+                                           {"depth_disparity_std_px", 0.1},
+                                           {"depth_dropout_share", 0.1}}));
+    bench.step(at(0.0, 0.0, 10.0));
+    const auto& info = bench.value<CameraInfo>("rover/s_info");
+    double squares = 0.0;
+    int count = 0, lost = 0;
+    for (int y = 0; y < 90; ++y) {
+      for (int x = 0; x < 120; ++x) {
+        EXPECT_EQ(number(bench.picture("_truth"), x, y), std::lround(1000.0 * wall_m));
+        const double mm = number(bench.picture(), x, y);
+        if (mm == 0.0) {
+          ++lost;
+          continue;
+        }
+        squares += (mm / 1000.0 - wall_m) * (mm / 1000.0 - wall_m);
+        ++count;
+      }
+    }
+    const double expected = wall_m * wall_m * 0.1 / (info.fx_px * 0.05);
+    EXPECT_NEAR(std::sqrt(squares / count) / expected, 1.0, 0.04) << wall_m;
+    EXPECT_NEAR(lost / 10800.0, 0.1, 0.015);
+  }
+}
+
+TEST(Camera, AllLayersHaveTheSameStampAndTheInfoTheBaseline) {
+  CameraBench bench(flat_world(), with(kSmall, {{"depth", true},
+                                                {"normals", true},
+                                                {"semantic", true},
+                                                {"instance", true},
+                                                {"stereo_baseline_m", 0.12}}));
+  bench.step(at(0.0, 0.0, 1.0, 30.0));
+  bench.step(at(0.0, 0.0, 1.0, 30.0));
+  for (const char* layer :
+       {"", "_depth", "_normals", "_semantic", "_instance", "_info", "_truth"}) {
+    const SignalBase* signal = bench.bus().find(std::string("rover/s") + layer);
+    ASSERT_NE(signal, nullptr) << layer;
+    EXPECT_EQ(signal->stamp().ns, 100'000'000) << layer;
+  }
+  const auto& info = bench.value<CameraInfo>("rover/s_info");
+  EXPECT_NEAR(info.tx_px_m, -0.12 * info.fx_px, 1e-12);
+  // The ground's normal in the optical frame of a camera that looks down by 30 degrees.
+  const double n[] = {0.0, -std::cos(rad_from_deg(30.0)), -std::sin(rad_from_deg(30.0))};
+  for (int k = 0; k < 3; ++k) {
+    const std::uint32_t byte = number(bench.picture("_normals"), 60, 80) >> (8 * k) & 0xffu;
+    EXPECT_EQ(byte, std::lround(127.5 * (n[k] + 1.0))) << k;
+  }
+}
+
+TEST(Camera, SaysWhyItWouldSeeNothing) {
+  const auto world = flat_world();
+  world->meshes = {box("tank", {3.0, 0.0, 1.0}, {1.0f, 1.0f, 1.0f}, SurfaceClass::kObstacle)};
+  CameraBench below(world, kSmall);
+  EXPECT_EQ(test::refusal_of([&] { below.step(at(0.0, 0.0, -0.3)); }),
+            "rover.sensors.s: the camera is below the ground: change its position_m");
+  CameraBench inside(world, kSmall);
+  EXPECT_EQ(test::refusal_of([&] { inside.step(at(3.0, 0.0, 1.0)); }),
+            "rover.sensors.s: the camera is inside of tank: change its position_m");
+  CameraBench fine(world, kSmall);
+  fine.step(at(0.0, 0.0, 1.0));
+}
+
+}  // namespace
+}  // namespace vinerow::sensors::camera_test

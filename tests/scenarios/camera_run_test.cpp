@@ -1,0 +1,95 @@
+/// Cameras in whole runs: they see the vehicles, and the log has what viewers expect.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "engine/api/messages/camera.h"
+#include "engine/api/surface.h"
+#include "engine/sim/vehicle_runtime.h"
+#include "tests/scenarios/session_support.h"
+#include "tools/parts/register_all.h"
+
+namespace vinerow::camera_run_test {
+namespace {
+
+using test::run_vinerow;
+using test::ScratchFolder;
+
+/// Two rovers one behind the other, 4 m apart, on level ground; the last has a camera.
+std::string two_rovers(const std::string& camera) {
+  return R"(
+vinerow: 1
+name: two_rovers
+duration_s: 0.6
+world: {type: vineyard, row_count: 2, row_length_m: 20, relief_m: 0, waves_m: 0, leaf_cards_per_m: 10, plant_variants: 1}
+vehicles:
+  watcher:
+    type: diff_drive_rover
+    spawn: {alley: 0, offset_m: 9}
+    sensors: {eye: {type: camera, rate_Hz: 5, width_px: 160, height_px: 120, horizontal_fov_deg: 60, )" +
+         camera + R"(}}
+  other:
+    type: diff_drive_rover
+    spawn: {alley: 0, offset_m: 5}
+)";
+}
+
+const char* const kLabelled =
+    "position_m: [0.6, 0, 0.5], semantic: true, instance: true, depth: true";
+
+TEST(CameraRun, SeesTheOtherVehicleWhereItIs) {
+  auto registry = std::make_shared<Registry>();
+  register_all(*registry);
+  Session session(scenario::parse_scenario(two_rovers(kLabelled), ".", *registry), registry);
+  session.advance(Time{500'000'000});
+  const auto picture = [&](const char* name) {
+    return static_cast<const Signal<Picture>&>(*session.simulation().bus().find(name)).value();
+  };
+  const Picture semantic = picture("watcher/eye_semantic");
+  const Picture instance = picture("watcher/eye_instance"), depth = picture("watcher/eye_depth");
+  int seen = 0, first = 160, last = 0;
+  std::map<std::uint32_t, int> numbers;
+  std::uint32_t nearest_mm = 100'000;
+  for (int i = 0; i < 160 * 120; ++i) {
+    if (semantic.data[i] != static_cast<std::uint8_t>(Label::kVehicle)) continue;
+    ++seen;
+    first = std::min(first, i % 160);
+    last = std::max(last, i % 160);
+    ++numbers[instance.data[3 * i] + 256u * instance.data[3 * i + 1] +
+              65536u * instance.data[3 * i + 2]];
+    nearest_mm = std::min(nearest_mm, depth.data[2 * i] + 256u * depth.data[2 * i + 1]);
+  }
+  EXPECT_GT(seen, 100);
+  // One vehicle, in the middle of the picture.
+  EXPECT_EQ(numbers.size(), 1u);
+  EXPECT_NEAR(0.5 * (first + last), 79.5, 4.0);
+  // Its corner that is nearest along the camera's axis.
+  const Vehicle& other = session.simulation().vehicles()[1]->vehicle();
+  const Pose X_WB = session.simulation().vehicles()[0]->truth().X_WB;
+  std::vector<Pose> X_WL(other.links().size());
+  other.read_links(X_WL);
+  double expected_m = 1e9;
+  for (std::size_t i = 0; i < X_WL.size(); ++i) {
+    for (const Eigen::Vector3f& corner : other.links()[i].mesh->vertices) {
+      const Eigen::Vector3d p_B = X_WB.inverse() * (X_WL[i] * corner.cast<double>());
+      expected_m = std::min(expected_m, p_B.x() - 0.6);
+    }
+  }
+  EXPECT_NEAR(nearest_mm / 1000.0, expected_m, 0.02);
+}
+
+TEST(CameraRun, RefusesACameraInsideOfItsVehicle) {
+  const ScratchFolder folder("camera_inside");
+  const std::string file = folder.file("scenario.yaml", two_rovers("position_m: [0, 0, 0.02]"));
+  const test::CommandResult result =
+      run_vinerow("run " + file + " --no-pictures --out " + (folder.path() / "out").string());
+  EXPECT_NE(result.status, 0);
+  EXPECT_NE(result.output.find("watcher.sensors.eye"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("the camera is inside of watcher/"), std::string::npos)
+      << result.output;
+}
+
+}  // namespace
+}  // namespace vinerow::camera_run_test

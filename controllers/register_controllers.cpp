@@ -7,6 +7,7 @@
 #include "controllers/estimation/inertial/error_state_estimator.h"
 #include "controllers/estimation/odometry/gps_pose.h"
 #include "controllers/estimation/odometry/odometry_filter.h"
+#include "controllers/estimation/row_camera/row_camera.h"
 #include "controllers/estimation/row_localisation/distance_filter.h"
 #include "controllers/estimation/row_localisation/map_localisation.h"
 #include "controllers/fixed_wing_lqr/fixed_wing_lqr.h"
@@ -41,6 +42,7 @@ void register_controllers(Registry& registry) {
   registry.add_estimator(map_localisation_spec(), make_map_localisation);
   registry.add_estimator(gps_pose_spec(), make_gps_pose);
   registry.add_estimator(odometry_filter_spec(), make_odometry_filter);
+  registry.add_estimator(row_camera_spec(), make_row_camera);
   registry.add_planner(coverage_spec(), make_coverage);
   registry.add_planner(go_to_spec(), make_go_to);
   registry.add_planner(mission_route_spec(), make_mission_route);

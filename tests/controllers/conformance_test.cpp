@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/api/messages/camera.h"
 #include "engine/api/messages/commands.h"
 #include "engine/api/messages/sensors.h"
 #include "engine/api/world_model.h"
@@ -286,7 +287,8 @@ TEST_P(EveryEstimator, AllocatesNothing) {
   const RowMeshBlock block{.rows = 4, .length_m = 40.0};
   const RowMap map = make_row_mesh_map(block, RandomStream(1, "", "map"));
   Loop loop({.map = &map,
-             .sensors = {{"sonar", "ultrasound", {quaternion_from_rpy({0, 0, 0.8}), {0, 0, 1}}}}});
+             .sensors = {{"sonar", "ultrasound", {quaternion_from_rpy({0, 0, 0.8}), {0, 0, 1}}},
+                         {"camera", "camera", {quaternion_from_rpy({0, 0.3, 0}), {0, 0, 1}}}}});
   loop.add_estimator({GetParam(), {}});
   // On the ground of an alley, where the sonar has a wall of the map before it.
   Odometry place;
@@ -299,8 +301,26 @@ TEST_P(EveryEstimator, AllocatesNothing) {
   RangeSample echo;
   echo.range_m = 1.0;
   echo.max_range_m = 4.0;
+  NamedValues wheels;
+  for (const ActuatorSpec& actuator : loop.description().actuators) {
+    wheels.names.push_back(actuator.name);
+    wheels.values.push_back(1.0);
+  }
+  // Trunks before ground, in every column.
+  CameraInfo info;
+  info.width = info.height = 32;
+  info.fx_px = info.fy_px = 16.0;
+  info.cx_px = info.cy_px = 15.5;
+  Picture labels;
+  labels.width = labels.height = 32;
+  labels.format = Picture::Format::kMono8;
+  labels.data.assign(32 * 32, static_cast<std::uint8_t>(Label::kGround));
+  std::fill_n(labels.data.begin(), 32 * 24, static_cast<std::uint8_t>(Label::kWood));
   const auto run = [&](int ticks) {
     for (int i = 0; i < ticks; ++i) {
+      loop.write("encoders", wheels);
+      loop.write("camera_info", info);
+      loop.write("camera_semantic", labels);
       loop.write("truth", place);
       loop.write("command", VelocityCommand{1.0, 0.1});
       loop.write("imu", sample);

@@ -88,6 +88,8 @@ ALLOWED = {
     "controllers/estimation/inertial": BASE + [ESTIMATION_PARTS],
     "controllers/estimation/odometry": BASE + CONTROLLER_PARTS + [ESTIMATION_PARTS],
     "controllers/estimation/row_localisation": BASE + [ESTIMATION_PARTS],
+    # The ground of a map of rows.
+    "controllers/estimation/row_camera": BASE + [ESTIMATION_PARTS, "controllers/estimation/row_localisation"],
     SEARCH: BASE + [PATHS],
     SURVEY: BASE + [PATHS, GEO, "engine/io/missions"],  # parcels and missions of ground stations
     ROUTES: BASE + [PATHS, SEARCH, "engine/io/missions"],

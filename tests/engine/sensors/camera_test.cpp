@@ -144,7 +144,9 @@ TEST(Camera, MasksAreThoseOfRaysCastAlone) {
     posts->vertices.push_back(posts->vertices[i] + Vector3f(0, 1, 0));
   }
   for (std::size_t i = 0, count = posts->triangles.size(); i < count; ++i) {
-    auto triangle = posts->triangles[i];
+    // From the side towards the camera on, so that its first triangle is seen.
+    constexpr std::size_t kFront = 8;
+    auto triangle = posts->triangles[(i + kFront) % count];
     for (std::uint32_t& corner : triangle) corner += corners;
     posts->triangles.push_back(triangle);
   }

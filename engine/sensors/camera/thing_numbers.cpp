@@ -7,10 +7,8 @@ namespace vinerow::sensors {
 ThingNumbers::ThingNumbers(std::span<const MeshInstance> meshes) : meshes_(meshes) {
   for (const MeshInstance& instance : meshes) {
     first_.push_back(end_);
-    // What light does not meet gets no numbers: levels of detail would take most of them.
-    const bool is_seen =
-        instance.light == Light::kMeets || (instance.light == Light::kAsDrawn && instance.visible);
-    if (!is_seen || !instance.mesh) continue;
+    if (!instance.mesh) continue;
+    // Farther levels of detail, which no ray meets, have no things and take one number each.
     end_ += static_cast<std::uint32_t>(std::max<std::size_t>(instance.mesh->things.size(), 1));
   }
 }

@@ -81,6 +81,7 @@ class RowCamera final : public Estimator {
  public:
   RowCamera(const RowCameraParams& params, const EstimatorContext& context)
       : params_(params),
+        part_(context.part),
         period_s_(context.period.s()),
         wheel_speed_(*context.vehicle_description, context.part + " (row_camera)"),
         marks_(params.marks, camera_of(params.camera, context).X_BS,
@@ -135,6 +136,12 @@ class RowCamera final : public Estimator {
   void take_picture(Time now) {
     if (!marks_.has_camera() && info_.has_value()) marks_.set_camera(info_.value());
     if (!marks_.has_camera() || !picture_.is_newer_than(seen_)) return;
+    if (picture_.value().format != marks_.format()) {
+      throw SimulationError(
+          part_, now,
+          fmt::format("marks: colours needs a camera with picture: colour, which '{}' is not",
+                      params_.camera));
+    }
     const PastState past = trace_.at(picture_.stamp());
     const int used = filter_.correct(marks_.find(picture_.value()), past.x);
     if (used >= kFew) {
@@ -168,6 +175,7 @@ class RowCamera final : public Estimator {
   static constexpr Duration kLong{5'000'000'000};
 
   RowCameraParams params_;
+  std::string part_;
   double period_s_;
   WheelSpeed wheel_speed_;
   RowMarks marks_;

@@ -89,9 +89,8 @@ void RowMarks::set_camera(const CameraInfo& info) {
 const std::vector<RowMark>& RowMarks::find(const Picture& picture) {
   marks_.clear();
   const bool is_labels = params_.source == RowMarksParams::Source::kLabels;
-  const auto wanted = is_labels ? Picture::Format::kMono8 : Picture::Format::kRgb8;
   const bool fits = static_cast<int>(picture.width) == width_ &&
-                    static_cast<int>(picture.height) == height_ && picture.format == wanted;
+                    static_cast<int>(picture.height) == height_ && picture.format == format();
   if (!fits || width_ == 0) return marks_;
   if (is_labels) {
     find_feet(picture);

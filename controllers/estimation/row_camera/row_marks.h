@@ -51,6 +51,12 @@ class RowMarks {
   void set_camera(const CameraInfo& info);
   bool has_camera() const { return !ground_B_.empty(); }
 
+  /// What find() needs: pictures of labels or in colours.
+  Picture::Format format() const {
+    return params_.source == RowMarksParams::Source::kLabels ? Picture::Format::kMono8
+                                                             : Picture::Format::kRgb8;
+  }
+
   /// Marks of a picture of that camera. Valid until the next call; empty if the picture has another
   /// size or format.
   const std::vector<RowMark>& find(const Picture& picture);

@@ -150,6 +150,12 @@ class Camera final : public MountedSensor<Picture> {
     add(params.normals, "_normals", Picture::Format::kRgb8, &Camera::fill_normals);
     add(params.semantic, "_semantic", Picture::Format::kMono8, &Camera::fill_semantic);
     add(params.instance, "_instance", Picture::Format::kRgb8, &Camera::fill_instance);
+    const double busy_s = params.view.readout_s + params.imager.exposure_s;
+    if (busy_s > context.period.s()) {
+      throw ConfigError(
+          fmt::format("{}: readout_s + exposure_s = {:g} s, must be <= its period of {:g} s",
+                      context.part, busy_s, context.period.s()));
+    }
     constexpr std::uint32_t kMostThings = 1u << 24;
     if (params.instance && ThingNumbers(context.world->meshes).end() + 256u > kMostThings) {
       throw ConfigError(fmt::format(
@@ -172,7 +178,7 @@ class Camera final : public MountedSensor<Picture> {
 
   void step(Time now) override {
     const CameraMotion motion{X_WS(), v_WS(), X_BS_.q.conjugate() * body().w_WB_B};
-    if (!has_looked_) begin(motion.X_WS);
+    if (!has_looked_) begin(now, motion.X_WS);
     caster_.cast(motion, imager_.exposure_s(), view_);
     if (is_depth_camera_) {
       for (std::size_t i = 0; i < view_.depth_m.size(); ++i) {
@@ -202,12 +208,12 @@ class Camera final : public MountedSensor<Picture> {
     return context;
   }
 
-  void begin(const Pose& X_WS_now) {
+  void begin(Time now, const Pose& X_WS_now) {
     has_looked_ = true;
     if (vehicles_) caster_.set_vehicles(&vehicles_());
     const std::string reason = caster_.blindness(X_WS_now);
     if (reason.empty()) return;
-    throw ConfigError(fmt::format("{}: the camera {}: change its position_m", part_, reason));
+    throw SimulationError(part_, now, fmt::format("the camera {}: change its position_m", reason));
   }
 
   void fill_depth(Picture& picture) {

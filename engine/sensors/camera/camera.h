@@ -21,7 +21,8 @@
 namespace vinerow::sensors {
 
 PartSpec camera_spec();
-/// @throws ConfigError if the lens folds, or the world has too many things to be numbered
+/// @throws ConfigError if the lens folds, a picture takes longer than the period, or the world has
+/// too many things to be numbered
 std::unique_ptr<Sensor> make_camera(const ParameterSet& parameters, const SensorContext& context);
 
 }  // namespace vinerow::sensors

@@ -383,15 +383,23 @@ TEST(Camera, AllLayersHaveTheSameStampAndTheInfoTheBaseline) {
   }
 }
 
+TEST(Camera, RefusesPicturesThatTakeLongerThanThePeriod) {
+  EXPECT_EQ(test::refusal_of([] {
+              CameraBench(flat_world(), with(kSmall, {{"readout_s", 0.09}, {"exposure_s", 0.02}}));
+            }),
+            "rover.sensors.s: readout_s + exposure_s = 0.11 s, must be <= its period of 0.1 s");
+}
+
 TEST(Camera, SaysWhyItWouldSeeNothing) {
   const auto world = flat_world();
   world->meshes = {box("tank", {3.0, 0.0, 1.0}, {1.0f, 1.0f, 1.0f}, SurfaceClass::kObstacle)};
   CameraBench below(world, kSmall);
-  EXPECT_EQ(test::refusal_of([&] { below.step(at(0.0, 0.0, -0.3)); }),
-            "rover.sensors.s: the camera is below the ground: change its position_m");
+  EXPECT_EQ(
+      test::refusal_of([&] { below.step(at(0.0, 0.0, -0.3)); }),
+      "t = 0.000000 s: rover.sensors.s: the camera is below the ground: change its position_m");
   CameraBench inside(world, kSmall);
   EXPECT_EQ(test::refusal_of([&] { inside.step(at(3.0, 0.0, 1.0)); }),
-            "rover.sensors.s: the camera is inside of tank: change its position_m");
+            "t = 0.000000 s: rover.sensors.s: the camera is inside of tank: change its position_m");
   CameraBench fine(world, kSmall);
   fine.step(at(0.0, 0.0, 1.0));
 }

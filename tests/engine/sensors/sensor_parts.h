@@ -43,6 +43,8 @@ std::string refusal_of(F&& f) {
     f();
   } catch (const ConfigError& error) {
     return error.what();
+  } catch (const SimulationError& error) {
+    return error.what();
   }
   return "no error";
 }

@@ -13,7 +13,7 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-LIMIT = 45_500  # raised by 1,500 for vines by organ, scanners and cameras, a new field
+LIMIT = 46_000  # raised by 2,000 for vines by organ, scanners, cameras and data sets, a new field
 # Written by `vinerow docs` and tools/results, or a list that only grows.
 NOT_COUNTED = {f"docs/reference/{name}.md" for name in ("parts", "metrics", "signals", "messages", "cli", "gym")} | {"docs/papers/results.md",
                                                                                                              "CHANGELOG.md"}

@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "engine/core/error.h"
+#include "engine/imaging/jpeg.h"
 #include "engine/imaging/png.h"
 #include "engine/math/deviation.h"
 #include "engine/playback/vehicle_colours.h"
@@ -21,7 +22,6 @@
 #include "tools/report/axis.h"
 #include "tools/report/estimate_plots.h"
 #include "tools/report/html.h"
-#include "tools/report/jpeg.h"
 #include "tools/report/line_plot.h"
 #include "tools/report/mission_map.h"
 #include "tools/report/motion_plots.h"
@@ -234,13 +234,14 @@ imaging::Pixels test_photo() {
 
 TEST(ReportPictures, AreJpegThatABrowserShowsAsTheyWere) {
   const imaging::Pixels pixels = test_photo();
-  const std::string fine = encode_jpeg(pixels, 95), coarse = encode_jpeg(pixels, 40);
-  EXPECT_EQ(fine, encode_jpeg(pixels, 95));
+  const std::string fine = imaging::encode_jpeg(pixels, 95),
+                    coarse = imaging::encode_jpeg(pixels, 40);
+  EXPECT_EQ(fine, imaging::encode_jpeg(pixels, 95));
   EXPECT_LT(coarse.size(), fine.size() / 2);
   // T.81: start of image, end of image; a frame header with the size.
   EXPECT_EQ(fine.substr(0, 4), "\xFF\xD8\xFF\xE0");
   EXPECT_EQ(fine.substr(fine.size() - 2), "\xFF\xD9");
-  EXPECT_EQ(encode_jpeg(imaging::Pixels(1, 1), 90).substr(0, 2), "\xFF\xD8");
+  EXPECT_EQ(imaging::encode_jpeg(imaging::Pixels(1, 1), 90).substr(0, 2), "\xFF\xD8");
 
   const test::ScratchFolder folder("report_jpeg");
   const auto seen = seen_by_browser(folder, fine, pixels.width, pixels.height);

@@ -5,7 +5,7 @@
 
 #include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
-#include "tools/vinerow/markdown.h"
+#include "tools/export/markdown.h"
 #include "tools/vinerow/parts_page.h"
 
 namespace vinerow::tools::list_markdown_test {
@@ -27,9 +27,8 @@ struct Field {
 };
 
 std::vector<ParameterSpec> field_specs() {
-  static const ParameterTable<Post> post = ParameterTable<Post>()
-                                               .number("x_m", "m", &Post::x_m, kAnyNumber, "east")
-                                               .required();
+  static const ParameterTable<Post> post =
+      ParameterTable<Post>().number("x_m", "m", &Post::x_m, kAnyNumber, "east").required();
   return ParameterTable<Field>()
       .number("size_m", "m", &Field::size_m, kPositive, "edge|length of `it`")
       .choice("soil", &Field::soil, {{"grass", Field::Soil::kGrass}, {"mud", Field::Soil::kMud}},

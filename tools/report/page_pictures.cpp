@@ -10,12 +10,12 @@
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "engine/core/files.h"
+#include "engine/imaging/jpeg.h"
 #include "engine/imaging/png.h"
 #include "engine/math/polyline.h"
 #include "engine/playback/frame_words.h"
 #include "tools/replay/page_text.h"
 #include "tools/report/html.h"
-#include "tools/report/jpeg.h"
 #include "tools/report/map_captions.h"
 #include "tools/report/units.h"
 
@@ -209,7 +209,7 @@ std::string embedded(const Picture& picture, int max_width) {
   std::string bytes, type = "png";
   if (picture.is_photo) {
     type = "jpeg";
-    bytes = encode_jpeg(shown, kPhotoQuality);
+    bytes = imaging::encode_jpeg(shown, kPhotoQuality);
   } else {
     bytes = as_it_is ? read_bytes(picture.file).value() : imaging::encode_png(shown);
   }

@@ -121,6 +121,18 @@ PictureSet pictures_of_log(const std::filesystem::path& log, const Registry& reg
   return pictures;
 }
 
+PictureSet pictures_of_plan(const controllers::SurveyPlan& plan, const SurveyCamera& camera,
+                            const std::filesystem::path& file) {
+  PictureSet pictures;
+  pictures.camera = camera;
+  for (const controllers::SurveyShot& shot : plan.shots) {
+    pictures.X_WS.push_back(
+        {quaternion_from_rpy({0.0, 0.5 * std::numbers::pi, shot.yaw_rad}), shot.p_W});
+  }
+  pictures.source = "plan of " + file.string();
+  return pictures;
+}
+
 PictureSet pictures_of_plan(const scenario::Scenario& scenario, const std::filesystem::path& file,
                             const Registry& registry, const std::string& vehicle) {
   SurveyArguments arguments;
@@ -130,14 +142,7 @@ PictureSet pictures_of_plan(const scenario::Scenario& scenario, const std::files
   const SurveyTask task = task_of_scenario(arguments, scenario, simulation);
   const auto plan = controllers::plan_survey(task.request, task.start_W, task.ground);
   if (!plan) throw ConfigError("survey: " + plan.reason());
-  PictureSet pictures;
-  pictures.camera = task.request.camera;
-  for (const controllers::SurveyShot& shot : plan->shots) {
-    pictures.X_WS.push_back(
-        {quaternion_from_rpy({0.0, 0.5 * std::numbers::pi, shot.yaw_rad}), shot.p_W});
-  }
-  pictures.source = "plan of " + file.string();
-  return pictures;
+  return pictures_of_plan(*plan, task.request.camera, file);
 }
 
 }  // namespace vinerow::tools

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "tools/vinerow/markdown.h"
+#include "tools/export/markdown.h"
 #include "tools/vinerow/parameter_words.h"
 
 namespace vinerow::tools {

@@ -9,7 +9,7 @@
 
 #include "engine/api/messages.h"
 #include "engine/sim/separation.h"
-#include "tools/vinerow/markdown.h"
+#include "tools/export/markdown.h"
 
 namespace vinerow::tools {
 namespace {

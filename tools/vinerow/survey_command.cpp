@@ -13,8 +13,14 @@
 #include "engine/io/missions/qgc_plan.h"
 #include "engine/io/missions/qgc_wpl.h"
 #include "engine/math/angles.h"
-#include "tools/vinerow/subcommands.h"
+#include "engine/physics/check_world.h"
+#include "engine/playback/run_frames.h"
+#include "tools/photos/survey_photos.h"
 #include "tools/pictures/survey_picture.h"
+#include "tools/terminal/interrupt.h"
+#include "tools/terminal/progress_line.h"
+#include "tools/vinerow/cloud_poses.h"
+#include "tools/vinerow/subcommands.h"
 #include "tools/vinerow/survey_task.h"
 
 namespace vinerow::tools {
@@ -47,9 +53,9 @@ void print_survey(const SurveyTask& task, const controllers::SurveyPlan& plan) {
       "area             {:.2f} ha, {:.2f} % covered, every point on at least {:.0f} pictures "
       "({:.1f} on average)\n",
       n("area_ha"), 100.0 * n("covered_share"), n("views_min"), n("views_mean"));
-  fmt::print("camera           {} ({:g} mm, {} x {}), footprint {:.1f} x {:.1f} m\n",
-             camera.name, camera.focal_length_mm, camera.columns, camera.rows,
-             n("footprint_width_m"), n("footprint_length_m"));
+  fmt::print("camera           {} ({:g} mm, {} x {}), footprint {:.1f} x {:.1f} m\n", camera.name,
+             camera.focal_length_mm, camera.columns, camera.rows, n("footprint_width_m"),
+             n("footprint_length_m"));
   fmt::print("height           {:.1f} m above the ground ({:.1f} to {:.1f} m on lanes)\n",
              n("height_m"), n("height_above_ground_min_m"), n("height_above_ground_max_m"));
   fmt::print(
@@ -102,7 +108,7 @@ void print_survey(const SurveyTask& task, const controllers::SurveyPlan& plan) {
   }
 }
 
-void plan_and_write(const SurveyTask& task, const std::filesystem::path& out) {
+controllers::SurveyPlan plan_and_write(const SurveyTask& task, const std::filesystem::path& out) {
   const auto plan = controllers::plan_survey(task.request, task.start_W, task.ground);
   if (!plan) throw ConfigError("survey: " + plan.reason());
   io::make_folder(out);
@@ -118,6 +124,45 @@ void plan_and_write(const SurveyTask& task, const std::filesystem::path& out) {
   fmt::print("missions         {}, {}\nwaypoints        {}\npicture          {}\n",
              (out / "survey.plan").string(), (out / "survey.waypoints").string(),
              (out / "waypoints.csv").string(), (out / "survey.png").string());
+  return *plan;
+}
+
+/// @returns exit status
+int take_pictures(const SurveyArguments& arguments, const PictureSet& pictures,
+                  const scenario::Scenario& scenario, const Registry& registry,
+                  const std::filesystem::path& out) {
+  const SurveyPhotoOptions options = {arguments.picture_width, scenario.seed};
+  const SurveyCamera camera = photo_camera(pictures.camera, options);
+  const std::unique_ptr<WorldModel> world = build_world(scenario, registry);
+  physics::check_world(*world);
+  ProgressLine line(false);
+  watch_for_interrupt();
+  const auto count = static_cast<int>(pictures.X_WS.size());
+  const bool is_complete = write_survey_photos(pictures, *world, options, out, [&](int done) {
+    line.count("drawing pictures", done, count);
+    return !is_interrupted();
+  });
+  line.end();
+  if (!is_complete) {
+    fmt::print(stderr, "vinerow: interrupted: no pictures are kept\n");
+    return static_cast<int>(run::RunStatus::kBrokenOff);
+  }
+  fmt::print("pictures         {}: {} of {} x {} pixels, with Exif positions ({})\n", out.string(),
+             count, camera.columns, camera.rows,
+             pictures.estimated_W.empty() ? "true" : "as the vehicle estimated them");
+  return 0;
+}
+
+/// Pictures of a survey that was flown. @returns exit status
+int take_flown_pictures(const SurveyArguments& arguments) {
+  const std::filesystem::path log = log_of(arguments.log);
+  Registry registry = make_registry(arguments.scenario.plugins);
+  const scenario::Scenario scenario =
+      playback::scenario_of_log(log, registry, arguments.scenario.overrides);
+  const PictureSet pictures = pictures_of_log(log, registry, arguments.vehicle, arguments.sensor);
+  const std::filesystem::path out =
+      arguments.out.empty() ? std::filesystem::path("surveys") / scenario.name : arguments.out;
+  return take_pictures(arguments, pictures, scenario, registry, out / "pictures");
 }
 
 std::filesystem::path out_of(const SurveyArguments& arguments, const SurveyTask& task) {
@@ -131,8 +176,8 @@ void add_survey_command(CLI::App& app, int& exit_status) {
   arguments->heading_deg = std::numeric_limits<double>::quiet_NaN();
   CLI::App* command = app.add_subcommand(
       "survey",
-      "plan an aerial survey of a scenario or a polygon; write missions, waypoints and a "
-      "picture");
+      "plan an aerial survey of a scenario or a polygon; write missions, waypoints, a plan view, "
+      "and the pictures that it takes");
   add_scenario_arguments(*command, arguments->scenario, "plane.planner.height_m=60");
   command->get_option("scenario")->required(false);
   command->add_option("--vehicle", arguments->vehicle,
@@ -166,8 +211,34 @@ void add_survey_command(CLI::App& app, int& exit_status) {
     command->add_option("--" + spec.name, arguments->values[spec.name], spec.description)
         ->group("Survey");
   }
+  const char* photographs = "Photographs";
+  command
+      ->add_flag("--pictures", arguments->pictures,
+                 "also draw the pictures of the survey, with Exif positions, for photogrammetry")
+      ->group(photographs);
+  command
+      ->add_option("--log", arguments->log,
+                   "with --pictures: run with a flown survey (folder or log.mcap); nothing is "
+                   "planned (default: pictures as planned)")
+      ->group(photographs);
+  command->add_option("--sensor", arguments->sensor, "its camera_trigger, if it has several")
+      ->group(photographs);
+  command
+      ->add_option("--picture-width", arguments->picture_width,
+                   "columns of the pictures (default: the camera's)")
+      ->group(photographs);
   command->callback([arguments, &exit_status] {
     const bool has_scenario = !arguments->scenario.file.empty();
+    if (!arguments->log.empty()) {
+      if (!arguments->pictures || has_scenario || !arguments->polygon.empty()) {
+        throw ConfigError("survey: --log needs --pictures, and neither a scenario nor --polygon");
+      }
+      exit_status = take_flown_pictures(*arguments);
+      return;
+    }
+    if (arguments->pictures && !has_scenario) {
+      throw ConfigError("survey: --pictures needs the world of a scenario, or --log");
+    }
     if (has_scenario == !arguments->polygon.empty()) {
       throw ConfigError("survey: give either a scenario or --polygon");
     }
@@ -176,7 +247,14 @@ void add_survey_command(CLI::App& app, int& exit_status) {
       const scenario::Scenario scenario = load(arguments->scenario, registry);
       Simulation simulation(scenario, registry);
       const SurveyTask task = task_of_scenario(*arguments, scenario, simulation);
-      plan_and_write(task, out_of(*arguments, task));
+      const std::filesystem::path out = out_of(*arguments, task);
+      const controllers::SurveyPlan plan = plan_and_write(task, out);
+      if (arguments->pictures) {
+        const PictureSet pictures =
+            pictures_of_plan(plan, task.request.camera, arguments->scenario.file);
+        exit_status = take_pictures(*arguments, pictures, scenario, registry, out / "pictures");
+        return;
+      }
     } else {
       const SurveyTask task = task_of_polygon(*arguments);
       plan_and_write(task, out_of(*arguments, task));

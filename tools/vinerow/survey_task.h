@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,10 @@ namespace vinerow::tools {
 struct SurveyArguments {
   ScenarioArguments scenario;
   std::string vehicle;
-  std::filesystem::path polygon, dem, out;
+  std::filesystem::path polygon, dem, out, log;
+  bool pictures = false;
+  std::optional<int> picture_width;
+  std::string sensor;
   std::string crs;
   std::vector<double> origin, start;
   double heading_deg = 0.0;

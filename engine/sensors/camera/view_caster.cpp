@@ -20,13 +20,6 @@ constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 // Rays side by side cost half as much: they go in blocks of four by two pixels.
 constexpr int kBlockColumns = 4, kBandRows = 2;
 
-/// The optical frame (x right, y down, z along the axis) in S (x along the axis, y left, z up).
-const Eigen::Matrix3d& R_SC() {
-  static const Eigen::Matrix3d matrix =
-      (Eigen::Matrix3d() << 0, 0, 1, -1, 0, 0, 0, -1, 0).finished();
-  return matrix;
-}
-
 /// Fractions in [0, 1) that fill the unit evenly: additive recurrence of the golden ratio and its
 /// relatives (Roberts 2018).
 double fraction(int sample, double step, double start) {
@@ -51,6 +44,12 @@ Vector3d outward_W(const MeshInstance& instance, int triangle) {
 }
 
 }  // namespace
+
+const Eigen::Matrix3d& R_SC() {
+  static const Eigen::Matrix3d matrix =
+      (Eigen::Matrix3d() << 0, 0, 1, -1, 0, 0, 0, -1, 0).finished();
+  return matrix;
+}
 
 /// Neighbouring rows that are cast together.
 struct ViewCaster::Band {
@@ -100,10 +99,12 @@ ViewCaster::ViewCaster(const Lens& lens, const ViewSettings& settings, const Wor
 void ViewCaster::cast(const CameraMotion& motion, double exposure_s, View& view) {
   const std::size_t pixels = direction_C_.size();
   view.radiance.assign(pixels * static_cast<std::size_t>(settings_.channels), 0.0f);
-  view.depth_m.assign(pixels, 0.0f);
-  view.normal_C.assign(pixels, Vector3f::Zero());
-  view.label.assign(pixels, Label::kSky);
-  view.thing.assign(pixels, ThingNumbers::kNothing);
+  if (settings_.facts) {
+    view.depth_m.assign(pixels, 0.0f);
+    view.normal_C.assign(pixels, Vector3f::Zero());
+    view.label.assign(pixels, Label::kSky);
+    view.thing.assign(pixels, ThingNumbers::kNothing);
+  }
   if (vehicles_) vehicles_->update();
   for (int y = 0; y < lens_.height(); y += kBandRows) {
     const Band band{y, std::min(kBandRows, lens_.height() - y), lens_.width()};
@@ -121,7 +122,8 @@ void ViewCaster::cast_band(const CameraMotion& motion, double exposure_s, int sa
   hits_.resize(rays_.size());
   light_.cast_rays(rays_, hits_);
   look_at_vehicles();
-  if (sample == 0) write_facts(band, motion.X_WS.q.toRotationMatrix() * R_SC(), view);
+  if (sample == 0 && settings_.facts)
+    write_facts(band, motion.X_WS.q.toRotationMatrix() * R_SC(), view);
   if (settings_.channels > 0) add_light(band, view);
 }
 

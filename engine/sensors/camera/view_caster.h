@@ -23,6 +23,9 @@
 
 namespace vinerow::sensors {
 
+/// The optical frame (x right, y down, z along the axis) in S (x along the axis, y left, z up).
+const Eigen::Matrix3d& R_SC();
+
 /// Pose of S at the stamp, and how it moves.
 struct CameraMotion {
   Pose X_WS;
@@ -30,9 +33,9 @@ struct CameraMotion {
   Eigen::Vector3d w_WS_S = Eigen::Vector3d::Zero();  ///< rad/s
 };
 
-/// Values of all pixels, row by row.
+/// Values of all pixels, row by row. Empty: not wanted.
 struct View {
-  std::vector<float> radiance;            ///< relative, by channel; empty: not wanted
+  std::vector<float> radiance;            ///< relative, by channel
   std::vector<float> depth_m;             ///< along the axis; 0: nothing is seen
   std::vector<Eigen::Vector3f> normal_C;  ///< in the optical frame; zero: nothing is seen
   std::vector<Label> label;
@@ -43,7 +46,8 @@ struct ViewSettings {
   int samples = 1;
   double readout_s = 0.0;
   bool shadows = true;
-  int channels = 3;  ///< of the radiance; 0: none
+  int channels = 3;   ///< of the radiance; 0: none
+  bool facts = true;  ///< depth, normal, label and thing of each pixel
 };
 
 class ViewCaster {

@@ -1,4 +1,4 @@
-#include "tools/report/jpeg.h"
+#include "engine/imaging/jpeg.h"
 
 #include <csetjmp>
 #include <cstdio>  // before jpeglib.h, which needs it
@@ -10,7 +10,7 @@
 
 #include "engine/core/check.h"
 
-namespace vinerow::tools::report {
+namespace vinerow::imaging {
 namespace {
 
 struct JpegErrors {
@@ -24,8 +24,8 @@ struct JpegErrors {
 
 /// libjpeg returns from errors by longjmp, so this function's frame must not hold objects with
 /// destructors.
-bool compress(jpeg_compress_struct& jpeg, JpegErrors& errors, const imaging::Pixels& pixels,
-              int quality, unsigned char** bytes, unsigned long* size) {
+bool compress(jpeg_compress_struct& jpeg, JpegErrors& errors, const Pixels& pixels, int quality,
+              std::span<const std::string> segments, unsigned char** bytes, unsigned long* size) {
   if (setjmp(errors.back) != 0) return false;
   jpeg_create_compress(&jpeg);
   jpeg_mem_dest(&jpeg, bytes, size);
@@ -37,6 +37,10 @@ bool compress(jpeg_compress_struct& jpeg, JpegErrors& errors, const imaging::Pix
   jpeg_set_quality(&jpeg, quality, TRUE);
   jpeg.optimize_coding = TRUE;
   jpeg_start_compress(&jpeg, TRUE);
+  for (const std::string& segment : segments) {
+    jpeg_write_marker(&jpeg, JPEG_APP0 + 1, reinterpret_cast<const JOCTET*>(segment.data()),
+                      static_cast<unsigned>(segment.size()));
+  }
   while (jpeg.next_scanline < jpeg.image_height) {
     // libjpeg does not change the row.
     auto* row = const_cast<JSAMPLE*>(pixels.at(0, static_cast<int>(jpeg.next_scanline)));
@@ -48,7 +52,7 @@ bool compress(jpeg_compress_struct& jpeg, JpegErrors& errors, const imaging::Pix
 
 }  // namespace
 
-std::string encode_jpeg(const imaging::Pixels& pixels, int quality) {
+std::string encode_jpeg(const Pixels& pixels, int quality, std::span<const std::string> segments) {
   VINEROW_DEMAND(pixels.width > 0 && pixels.height > 0 && pixels.width < 65'536 &&
                  pixels.height < 65'536 && quality >= 1 && quality <= 100);
   jpeg_compress_struct jpeg{};
@@ -57,11 +61,11 @@ std::string encode_jpeg(const imaging::Pixels& pixels, int quality) {
   errors.manager.error_exit = &give_up;
   unsigned char* bytes = nullptr;
   unsigned long size = 0;
-  const bool compressed = compress(jpeg, errors, pixels, quality, &bytes, &size);
+  const bool compressed = compress(jpeg, errors, pixels, quality, segments, &bytes, &size);
   jpeg_destroy_compress(&jpeg);
   const std::unique_ptr<unsigned char, decltype(&std::free)> held(bytes, &std::free);
   if (!compressed) throw std::runtime_error("a picture cannot be encoded as JPEG");
   return {reinterpret_cast<const char*>(bytes), size};
 }
 
-}  // namespace vinerow::tools::report
+}  // namespace vinerow::imaging

@@ -1,4 +1,4 @@
-#include "tools/vinerow/markdown.h"
+#include "tools/export/markdown.h"
 
 #include <algorithm>
 #include <cctype>

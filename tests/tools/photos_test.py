@@ -1,0 +1,209 @@
+#!/usr/bin/env python3
+"""Photographs of `vinerow survey --pictures`: Exif read by Pillow, XMP by an XML parser, positions by the ellipsoid's own formulas.
+
+    photos_test.py VINEROW
+"""
+
+import csv
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree
+
+import numpy
+import vinerow
+from PIL import ExifTags, Image
+
+VINEROW = sys.argv[1]
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SCENARIO = ROOT / "assets" / "scenarios" / "map_parcel.yaml"
+WIDTH, HEIGHT = 320, 213  # of 5472 x 3648
+ORIGIN = [-33.4, -70.6, 120.0]  # another quarter of the globe
+CAMERA = "{http://pix4d.com/camera/1.0/}"
+
+
+def call(*words):
+    return subprocess.run([VINEROW, *map(str, words)], capture_output=True, text=True, timeout=600)
+
+
+def ecef(latitude_rad, longitude_rad, altitude_m):
+    """WGS84 (NIMA TR8350.2)."""
+    a, f = 6378137.0, 1 / 298.257223563
+    e2 = f * (2 - f)
+    n = a / numpy.sqrt(1 - e2 * numpy.sin(latitude_rad) ** 2)
+    return numpy.array([(n + altitude_m) * numpy.cos(latitude_rad) * numpy.cos(longitude_rad),
+                        (n + altitude_m) * numpy.cos(latitude_rad) * numpy.sin(longitude_rad),
+                        (n * (1 - e2) + altitude_m) * numpy.sin(latitude_rad)])
+
+
+def local(point_deg, origin_deg):
+    """East, north, up."""
+    place = [*numpy.radians(point_deg[:2]), point_deg[2]]
+    origin = [*numpy.radians(origin_deg[:2]), origin_deg[2]]
+    d = ecef(*place) - ecef(*origin)
+    s, c = numpy.sin(origin[:2]), numpy.cos(origin[:2])
+    east = [-s[1], c[1], 0]
+    north = [-s[0] * c[1], -s[0] * s[1], c[0]]
+    up = [c[0] * c[1], c[0] * s[1], s[0]]
+    return numpy.array([east, north, up]) @ d
+
+
+def degrees(values):
+    d, m, s = (float(value) for value in values)
+    return d + m / 60 + s / 3600
+
+
+class Photos(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory(prefix="vinerow_photos_")
+        folder = pathlib.Path(cls.temporary.name)
+        # A flight in wind, so that the camera is tilted.
+        done = call("run", SCENARIO, "--out", folder / "run", "--no-pictures", "--no-report", "--quiet", "--set",
+                    "criteria=[]", "--set", "world.wind={turbulence: 3.0, turbulence_wind_mps: 5.0}", "--set",
+                    f"world.origin_latitude_deg={ORIGIN[0]}", "--set", f"world.origin_longitude_deg={ORIGIN[1]}", "--set",
+                    f"world.origin_altitude_m={ORIGIN[2]}")
+        assert done.returncode <= 1, done.stderr  # it may land hard
+        cls.done = call("survey", "--log", folder / "run", "--pictures", "--picture-width", WIDTH, "--out", folder / "out")
+        assert cls.done.returncode == 0, cls.done.stderr
+        cls.folder = folder / "out" / "pictures"
+        with (cls.folder / "truth.csv").open(newline="", encoding="utf-8") as file:
+            cls.truth = list(csv.DictReader(file))
+        with vinerow.open(SCENARIO) as session:
+            world = session.world()
+            cls.lines = [row.line for row in world.rows]
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def place(self, row):
+        return numpy.array([float(row[key]) for key in ("x_m", "y_m", "z_m")])
+
+    def test_there_is_a_photograph_for_each_shot(self):
+        self.assertIn(f"{len(self.truth)} of {WIDTH} x {HEIGHT} pixels", self.done.stdout)
+        self.assertGreater(len(self.truth), 50)
+        self.assertEqual(sorted(path.name for path in self.folder.glob("*.jpg")), [row["photo"] for row in self.truth])
+        self.assertEqual(list(self.folder.parent.glob("*.unfinished")), [])
+
+    def test_exif_has_camera_and_position(self):
+        geo = (self.folder / "geo.txt").read_text().splitlines()
+        self.assertEqual(geo[0], "EPSG:4326")
+        errors = []
+        for row, line in zip(self.truth, geo[1:]):
+            with Image.open(self.folder / row["photo"]) as photo:
+                exif = photo.getexif()
+                size = photo.size
+            self.assertEqual(size, (WIDTH, HEIGHT))
+            main = {ExifTags.TAGS[tag]: value for tag, value in exif.items()}
+            self.assertEqual((main["Make"], main["Model"]), ("Vinerow", "rx100"))
+            self.assertRegex(main["Software"], r"^Vinerow \d")
+            own = {ExifTags.TAGS[tag]: value for tag, value in exif.get_ifd(0x8769).items()}
+            self.assertAlmostEqual(float(own["FocalLength"]), 8.8)
+            self.assertEqual((own["ExifImageWidth"], own["ExifImageHeight"]), size)
+            # 8.8 mm on 13.2 mm.
+            per_mm = float(own["FocalPlaneXResolution"]) / 10
+            self.assertEqual(own["FocalPlaneResolutionUnit"], 3)
+            self.assertAlmostEqual(WIDTH / per_mm, 13.2, places=4)
+            self.assertAlmostEqual(8.8 * per_mm, WIDTH * 8.8 / 13.2, places=2)
+            gps = {ExifTags.GPSTAGS[tag]: value for tag, value in exif.get_ifd(0x8825).items()}
+            self.assertEqual((gps["GPSLatitudeRef"], gps["GPSLongitudeRef"], gps["GPSMapDatum"]), ("S", "W", "WGS-84"))
+            said = [-degrees(gps["GPSLatitude"]), -degrees(gps["GPSLongitude"]), float(gps["GPSAltitude"])]
+            name, longitude, latitude, altitude = line.split()
+            self.assertEqual(name, row["photo"])
+            numpy.testing.assert_allclose([float(latitude), float(longitude)], said[:2], atol=4e-9)
+            self.assertAlmostEqual(float(altitude), said[2], places=3)
+            yaw = float(row["yaw_deg"]) % 360
+            self.assertAlmostEqual(float(gps["GPSImgDirection"]), yaw, delta=1e-3)
+            # The true place, by formulas of the ellipsoid.
+            true = [float(row[key]) for key in ("latitude_deg", "longitude_deg", "altitude_m")]
+            numpy.testing.assert_allclose(local(true, ORIGIN), self.place(row), atol=1e-3)
+            errors.append(local(said, ORIGIN) - self.place(row))
+        # The vehicle's estimate: near the truth, and not the truth.
+        rms = numpy.sqrt(numpy.mean(numpy.square(errors), axis=0))
+        self.assertLess(rms.max(), 1.0)
+        self.assertGreater(rms.max(), 2e-3)
+
+    def test_xmp_has_the_orientation(self):
+        tilts = []
+        for row in self.truth:
+            data = (self.folder / row["photo"]).read_bytes()
+            packet = re.search(rb"<x:xmpmeta.*</x:xmpmeta>", data, re.S)[0]
+            facts = next(xml.etree.ElementTree.fromstring(packet).iter(
+                "{http://www.w3.org/1999/02/22-rdf-syntax-ns#}Description")).attrib
+            self.assertEqual(facts[CAMERA + "ModelType"], "perspective")
+            self.assertAlmostEqual(float(facts[CAMERA + "PerspectiveFocalLength"]), 8.8)
+            x, y = map(float, facts[CAMERA + "PrincipalPoint"].split(","))
+            self.assertAlmostEqual(x, 6.6)
+            self.assertAlmostEqual(y, 6.6 * HEIGHT / WIDTH, places=4)
+            yaw, pitch, roll = numpy.radians([float(facts[CAMERA + key]) for key in ("Yaw", "Pitch", "Roll")])
+            # Axes ahead (upper edge), right, down (optical axis) in north, east, down.
+            c, s = numpy.cos([yaw, pitch, roll]), numpy.sin([yaw, pitch, roll])
+            Rz = numpy.array([[c[0], -s[0], 0], [s[0], c[0], 0], [0, 0, 1]])
+            Ry = numpy.array([[c[1], 0, s[1]], [0, 1, 0], [-s[1], 0, c[1]]])
+            Rx = numpy.array([[1, 0, 0], [0, c[2], -s[2]], [0, s[2], c[2]]])
+            axis = (Rz @ Ry @ Rx) @ [0, 0, 1]
+            up = (Rz @ Ry @ Rx) @ [1, 0, 0]
+            w, qx, qy, qz = (float(row[key]) for key in ("qw", "qx", "qy", "qz"))
+            # Of S: x along the axis, z to the upper edge, in east, north, up.
+            true_axis = [1 - 2 * (qy * qy + qz * qz), 2 * (qx * qy + w * qz), 2 * (qx * qz - w * qy)]
+            true_up = [2 * (qx * qz + w * qy), 2 * (qy * qz - w * qx), 1 - 2 * (qx * qx + qy * qy)]
+            numpy.testing.assert_allclose([axis[1], axis[0], -axis[2]], true_axis, atol=1e-6)
+            numpy.testing.assert_allclose([up[1], up[0], -up[2]], true_up, atol=1e-6)
+            tilts.append(numpy.degrees(numpy.arccos(-true_axis[2])))
+        self.assertGreater(max(tilts), 2.0)  # or the test above compares zeros
+        self.assertLess(max(tilts), 40.0)
+
+    def test_vines_are_where_the_pose_says(self):
+        # Rows are greener than the meadow 12 m beyond their ends.
+        greener = total = 0
+        focal = WIDTH * 8.8 / 13.2
+        for row in self.truth:
+            w, x, y, z = (float(row[key]) for key in ("qw", "qx", "qy", "qz"))
+            R = numpy.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                             [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                             [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+            with Image.open(self.folder / row["photo"]) as photo:
+                picture = numpy.asarray(photo).astype(float)
+
+            def excess_green(p_W):
+                axis, left, up = R.T @ (p_W - self.place(row))
+                u = (WIDTH - 1) / 2 - focal * left / axis
+                v = (HEIGHT - 1) / 2 - focal * up / axis
+                if not (1 <= u < WIDTH - 2 and 1 <= v < HEIGHT - 2):
+                    return None
+                patch = picture[round(v) - 1:round(v) + 2, round(u) - 1:round(u) + 2].reshape(-1, 3)
+                return (2 * patch[:, 1] - patch[:, 0] - patch[:, 2]).max() - 0.5 * patch.mean()
+
+            for line in self.lines[::4]:
+                ahead = (line[0] - line[1]) / numpy.linalg.norm(line[0] - line[1])
+                on = excess_green(line[0] - 3 * ahead + [0, 0, 1.7])
+                off = excess_green(line[0] + 12 * ahead)
+                if on is not None and off is not None:
+                    total += 1
+                    greener += on > off
+        self.assertGreater(total, 50)
+        self.assertGreater(greener / total, 0.9)
+
+
+class BadInput(unittest.TestCase):
+    def refuse(self, sentence, *words):
+        with tempfile.TemporaryDirectory() as folder:
+            result = call("survey", *words, "--out", pathlib.Path(folder) / "out")
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertRegex(result.stderr.strip().splitlines()[-1], sentence)
+            self.assertEqual(list(pathlib.Path(folder).rglob("*.jpg")), [])
+
+    def test_each_mistake_is_one_sentence(self):
+        self.refuse("--log needs --pictures", "--log", "runs/x")
+        self.refuse("--pictures needs the world of a scenario, or --log", "--polygon", "x.csv", "--pictures")
+        self.refuse("photographs of 8 x 5 pixels, must be from 16 to 8192 each way; change --picture-width", SCENARIO,
+                    "--pictures", "--picture-width", "8")
+        self.refuse("neither a scenario nor --polygon", SCENARIO, "--log", "runs/x", "--pictures")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[2:]])

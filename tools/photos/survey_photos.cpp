@@ -1,0 +1,186 @@
+#include "tools/photos/survey_photos.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+
+#include "engine/core/error.h"
+#include "engine/core/parallel.h"
+#include "engine/core/whole_file.h"
+#include "engine/imaging/jpeg.h"
+#include "engine/io/files/whole_folder.h"
+#include "engine/math/angles.h"
+#include "engine/physics/check_world.h"
+#include "engine/physics/surface_rays.h"
+#include "engine/sensors/camera/imager.h"
+#include "engine/sensors/camera/lens.h"
+#include "engine/sensors/camera/scene_look.h"
+#include "engine/sensors/camera/view_caster.h"
+#include "tools/photos/photo_facts.h"
+
+namespace vinerow::tools {
+namespace {
+
+/// Rays of a pixel: without several, leaves smaller than a pixel flicker from picture to picture,
+/// which real optics blur.
+constexpr int kSamples = 4;
+constexpr int kQuality = 95;
+
+Lens photo_lens(const SurveyCamera& camera) {
+  sensors::LensParams lens;
+  lens.width_px = camera.columns;
+  lens.height_px = camera.rows;
+  lens.fx_px = camera.focal_length_mm / camera.sensor_width_mm * camera.columns;
+  return sensors::make_lens(lens, "survey: --picture-width");
+}
+
+/// What all photographs share. Thread safe.
+class Darkroom {
+ public:
+  Darkroom(const SurveyCamera& camera, const WorldModel& world, std::uint64_t seed)
+      : camera_(camera),
+        world_(world),
+        seed_(seed),
+        frame_(world.origin),
+        lens_(photo_lens(camera)),
+        look_(world, sensors::Channel::kColour) {
+    if (world.terrain) terrain_.emplace(*world.terrain);
+    light_.emplace(world, terrain_ ? &*terrain_ : nullptr, &physics::is_seen_by_light);
+  }
+
+  const LocalFrame& frame() const { return frame_; }
+
+  /// @param name  of the file, for errors and for the noise  @param estimated_W  of the camera
+  std::string jpeg(const std::string& name, const Pose& X_WS,
+                   const Eigen::Vector3d& estimated_W) const {
+    sensors::ViewSettings settings;
+    settings.samples = kSamples;
+    settings.facts = false;
+    sensors::ViewCaster caster(lens_, settings, world_, *light_, look_);
+    const std::string blindness = caster.blindness(X_WS);
+    if (!blindness.empty()) {
+      throw ConfigError(fmt::format("survey: the camera of {} {}", name, blindness));
+    }
+    sensors::View view;
+    caster.cast({X_WS, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}, 0.0, view);
+
+    sensors::ImagerParams image_sensor;
+    image_sensor.pixel_um = 1e3 * camera_.sensor_width_mm / camera_.columns;
+    sensors::Imager imager(image_sensor, camera_.columns, camera_.rows, 3, look_.white(),
+                           RandomStream(seed_, "survey", "pattern"));
+    sensors::QuickNormals noise{RandomStream(seed_, "survey", name)};
+    Picture picture, without_noise;
+    picture.width = static_cast<std::uint32_t>(camera_.columns);
+    picture.height = static_cast<std::uint32_t>(camera_.rows);
+    picture.data.resize(std::size_t{3} * picture.width * picture.height);
+    without_noise = picture;
+    imager.expose(view.radiance, noise, picture, without_noise);
+    imaging::Pixels pixels(camera_.columns, camera_.rows);
+    for (std::size_t i = 0; i < picture.data.size() / 3; ++i) {
+      std::copy_n(&picture.data[3 * i], 3, &pixels.rgba[4 * i]);
+    }
+
+    const PhotoFacts facts = {camera_.name,
+                              camera_.focal_length_mm,
+                              camera_.sensor_width_mm,
+                              camera_.columns,
+                              camera_.rows,
+                              frame_.to_geodetic(estimated_W),
+                              X_WS.q};
+    const std::string segments[] = {exif_segment(facts), xmp_segment(facts)};
+    return imaging::encode_jpeg(pixels, kQuality, segments);
+  }
+
+ private:
+  const SurveyCamera& camera_;
+  const WorldModel& world_;
+  std::uint64_t seed_;
+  LocalFrame frame_;
+  Lens lens_;
+  sensors::SceneLook look_;
+  std::optional<physics::HeightFieldRay> terrain_;
+  std::optional<physics::SurfaceRays> light_;
+};
+
+std::string photo_name(std::size_t index) {
+  return fmt::format("photo_{:04}.jpg", index + 1);
+}
+
+/// Names, positions and orientations of all photographs.
+void write_lists(const PictureSet& pictures, const std::vector<Eigen::Vector3d>& places_W,
+                 const LocalFrame& frame, const std::filesystem::path& folder) {
+  std::string geo = "EPSG:4326\n";
+  std::string truth =
+      "photo,x_m,y_m,z_m,qw,qx,qy,qz,latitude_deg,longitude_deg,altitude_m,yaw_deg,pitch_deg,"
+      "roll_deg\n";
+  for (std::size_t i = 0; i < pictures.X_WS.size(); ++i) {
+    const Geodetic said = frame.to_geodetic(places_W[i]);
+    geo += fmt::format("{} {:.9f} {:.9f} {:.4f}\n", photo_name(i), deg_from_rad(said.longitude_rad),
+                       deg_from_rad(said.latitude_rad), said.altitude_m);
+    const Pose& X_WS = pictures.X_WS[i];
+    const Geodetic place = frame.to_geodetic(X_WS.p);
+    const Eigen::Vector3d angles = photo_angles(X_WS.q);
+    truth += fmt::format(
+        "{},{:.4f},{:.4f},{:.4f},{:.8f},{:.8f},{:.8f},{:.8f},{:.9f},{:.9f},{:.4f},{:.4f},{:.4f},"
+        "{:.4f}\n",
+        photo_name(i), X_WS.p.x(), X_WS.p.y(), X_WS.p.z(), X_WS.q.w(), X_WS.q.x(), X_WS.q.y(),
+        X_WS.q.z(), deg_from_rad(place.latitude_rad), deg_from_rad(place.longitude_rad),
+        place.altitude_m, deg_from_rad(angles.x()), deg_from_rad(angles.y()),
+        deg_from_rad(angles.z()));
+  }
+  write_whole_file(folder / "geo.txt", geo);
+  write_whole_file(folder / "truth.csv", truth);
+}
+
+}  // namespace
+
+SurveyCamera photo_camera(const SurveyCamera& camera, const SurveyPhotoOptions& options) {
+  SurveyCamera photo = camera;
+  if (options.columns) {
+    photo.columns = *options.columns;
+    photo.rows = static_cast<int>(
+        std::lround(static_cast<double>(camera.rows) * *options.columns / camera.columns));
+  }
+  constexpr int kFewest = 16, kMost = 8192;
+  if (photo.columns < kFewest || photo.rows < kFewest || photo.columns > kMost ||
+      photo.rows > kMost) {
+    throw ConfigError(
+        fmt::format("survey: photographs of {} x {} pixels, must be from {} to {} each way; change "
+                    "--picture-width",
+                    photo.columns, photo.rows, kFewest, kMost));
+  }
+  return photo;
+}
+
+bool write_survey_photos(const PictureSet& pictures, const WorldModel& world,
+                         const SurveyPhotoOptions& options, const std::filesystem::path& folder,
+                         const std::function<bool(int done)>& drawn) {
+  const SurveyCamera camera = photo_camera(pictures.camera, options);
+  const std::size_t count = pictures.X_WS.size();
+  if (count == 0) throw ConfigError("survey: there are no pictures");
+  io::WholeFolder whole(folder);
+  const Darkroom darkroom(camera, world, options.seed);
+  std::vector<Eigen::Vector3d> places_W = pictures.estimated_W;
+  if (places_W.empty()) {
+    for (const Pose& X_WS : pictures.X_WS) places_W.push_back(X_WS.p);
+  }
+  std::mutex one_reports;
+  std::atomic<bool> goes_on = true;
+  int done = 0;
+  for_chunks(count, 1, [&](std::size_t i, std::size_t, std::size_t) {
+    if (!goes_on) return;
+    const std::string name = photo_name(i);
+    write_whole_file(whole.path() / name, darkroom.jpeg(name, pictures.X_WS[i], places_W[i]));
+    const std::scoped_lock lock(one_reports);
+    if (!drawn(++done)) goes_on = false;
+  });
+  if (!goes_on) return false;
+  write_lists(pictures, places_W, darkroom.frame(), whole.path());
+  whole.finish();
+  return true;
+}
+
+}  // namespace vinerow::tools

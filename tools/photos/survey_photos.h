@@ -1,0 +1,43 @@
+#pragma once
+/// Photographs of a survey as its camera takes them, for photogrammetry: JPEG files with camera and
+/// position, which COLMAP, OpenDroneMap, Metashape and Pix4D read.
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+
+#include "engine/api/product.h"
+#include "engine/api/world_model.h"
+
+namespace vinerow::tools {
+
+struct SurveyPhotoOptions {
+  /// Columns of the photographs, with the camera's shape and field of view; absent: the camera's.
+  std::optional<int> columns;
+  std::uint64_t seed = 1;  ///< of the noise
+};
+
+/// The camera of these photographs.
+/// @throws ConfigError if a photograph would be too small or too large
+SurveyCamera photo_camera(const SurveyCamera& camera, const SurveyPhotoOptions& options);
+
+/// Draws each picture by rays on the world as cameras see it, with an ideal lens, a global shutter
+/// and automatic exposure. Vehicles are not in them: the aircraft is above, and where others were
+/// is not known. Writes:
+///
+///   <folder>/photo_0001.jpg ...  Exif has the position that the vehicle estimated, or the true one
+///                                without estimates
+///   <folder>/geo.txt             the same positions as OpenDroneMap reads them
+///   <folder>/truth.csv           true position and orientation, in W and in WGS84
+///
+/// The folder is complete or absent. @param drawn  is called after each photograph with their
+/// number so far, from any thread but never by two at once; if it returns false the work ends
+/// @returns whether all were drawn
+/// @throws ConfigError: no pictures, a camera below the ground, a folder that is not empty;
+///   WriteError
+bool write_survey_photos(const PictureSet& pictures, const WorldModel& world,
+                         const SurveyPhotoOptions& options, const std::filesystem::path& folder,
+                         const std::function<bool(int done)>& drawn);
+
+}  // namespace vinerow::tools

@@ -178,6 +178,7 @@ Study load_study(const std::filesystem::path& named) {
   }
   if (const io::YamlNode* stop = root.find("stop")) study.stop_mark = stop->mark;
   if (const io::YamlNode* metrics = root.find("metrics")) study.metrics_mark = metrics->mark;
+  if (const io::YamlNode* dataset = root.find("dataset")) study.dataset_mark = dataset->mark;
   if (const io::YamlNode* node = root.find("set")) study.set = read_set(*node);
   if (const io::YamlNode* node = root.find("factors")) study.factors = read_factors(*node);
   if (const io::YamlNode* node = root.find("derived")) study.derived = read_derived(*node);

@@ -57,6 +57,24 @@ enum class KeepRuns {
   kFailed    ///< as kLog, for runs that missed their criteria or aborted
 };
 
+/// Which pictures of a data set go to training together: those of a cell, of a seed (the same
+/// plants), or of a setting.
+enum class SplitBy { kCell, kSeed, kSetting };
+
+/// What `vinerow dataset` makes of the study's runs.
+struct DatasetConfig {
+  std::string camera;             ///< "rover/front"
+  std::optional<double> every_s;  ///< between pictures; absent: the camera's rate
+  std::optional<int> pictures;    ///< of a run, at most; absent: all
+  std::vector<std::string> formats = {"coco", "yolo"};
+  std::vector<std::string> classes = {"trunk", "post", "bunch", "fruit", "vehicle"};
+  int min_pixels = 16;  ///< smaller things are not listed
+  double validation_share = 0.2;
+  double test_share = 0.0;
+  SplitBy split_by = SplitBy::kCell;
+  std::string licence;  ///< of the data set, for its card; "": not stated
+};
+
 /// Column computed from other columns.
 struct DerivedColumn {
   std::string name;
@@ -77,7 +95,8 @@ struct Study {
   std::optional<StopRule> stop;
   CellBudget budget;
   KeepRuns keep = KeepRuns::kNothing;
-  io::SourceMark stop_mark, metrics_mark;
+  std::optional<DatasetConfig> dataset;
+  io::SourceMark stop_mark, metrics_mark, dataset_mark;
 };
 
 /// Reads a study and checks its own keys, factors and counts. Key paths and values are checked

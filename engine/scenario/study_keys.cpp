@@ -1,5 +1,7 @@
 #include "engine/scenario/study_keys.h"
 
+#include <fmt/format.h>
+
 #include "engine/api/parameter_table.h"
 
 namespace vinerow::scenario {
@@ -34,6 +36,39 @@ const ParameterTable<CellBudget>& budget_table() {
   return table;
 }
 
+const ParameterTable<DatasetConfig>& dataset_table() {
+  using P = DatasetConfig;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .text("camera", &P::camera, "<vehicle>/<sensor> of type camera")
+          .required()
+          .number("every_s", "s", &P::every_s, above(0.0, 1e6),
+                  "time between pictures; absent: by the camera's rate_Hz")
+          .integer("pictures", &P::pictures, between(1, 1e6),
+                   "most pictures of a run, which then ends; absent: all")
+          .texts("formats", &P::formats, "coco, yolo, kitti")
+          .texts("classes", &P::classes,
+                 "things to list: leaf, wood, trunk, bunch, fruit, post, wire, obstacle, vehicle, "
+                 "person, weed")
+          .integer("min_pixels", &P::min_pixels, between(1, 1e6),
+                   "things of which fewer pixels are seen are not listed")
+          .number("validation_share", "", &P::validation_share, between(0.0, 1.0),
+                  "share of the pictures that go to val")
+          .number("test_share", "", &P::test_share, between(0.0, 1.0),
+                  "share of the pictures that go to test")
+          .choice(
+              "split_by", &P::split_by,
+              {{"cell", SplitBy::kCell}, {"seed", SplitBy::kSeed}, {"setting", SplitBy::kSetting}},
+              "pictures of one cell, seed or setting are never divided")
+          .text("licence", &P::licence, "of the data set, for its card")
+          .rule([](const P& p) -> std::string {
+            if (p.validation_share + p.test_share < 1.0) return "";
+            return fmt::format("validation_share + test_share = {:g}, must be < 1",
+                               p.validation_share + p.test_share);
+          });
+  return table;
+}
+
 }  // namespace
 
 const ParameterTable<StudyValues>& study_table() {
@@ -57,7 +92,9 @@ const ParameterTable<StudyValues>& study_table() {
                   "files kept of runs: none, summaries, also logs, or all files of failed runs")
           .group("stop", inside(&P::study, &Study::stop), stop_table(),
                  "run further seeds only for settings with an uncertain mean")
-          .group("budget", inside(&P::study, &Study::budget), budget_table(), "limits of a cell");
+          .group("budget", inside(&P::study, &Study::budget), budget_table(), "limits of a cell")
+          .group("dataset", inside(&P::study, &Study::dataset), dataset_table(),
+                 "what `vinerow dataset` makes of the runs' pictures");
   return table;
 }
 

@@ -1,6 +1,10 @@
 """Sensors and estimators: readings against the truth of the same instant."""
 
+import csv
+import json
+
 import numpy as np
+from matplotlib.patches import Rectangle
 from PIL import Image
 
 from .runs import ASSETS, Runs
@@ -251,6 +255,40 @@ def draw_camera(runs: Runs) -> None:
         else:
             ax.imshow(picture)
     runs.save(figure, "camera")
+
+
+def draw_dataset(runs: Runs) -> None:
+    """Pictures of the shipped data set with what is listed in them."""
+    study = ASSETS / "studies" / "vineyard_dataset.yaml"
+    out = runs.once("dataset", study.read_text(encoding="utf-8"), lambda folder: runs.call(
+        "dataset", study, "--out", folder / "out", "--quiet")) / "out"
+    notes = {kind: json.loads((out / "annotations" / f"{kind}_train.json").read_text(encoding="utf-8"))
+             for kind in ("instances", "keypoints")}
+    with (out / "pictures.csv").open(encoding="utf-8", newline="") as file:
+        rows = [row for row in csv.DictReader(file) if row["part"] == "train"]
+    figure, axes = panels(1, 2, width=8.6, height=3.4)
+    colours = {1: (150, 40, 235), 2: (255, 150, 0), 3: (0, 205, 245)}
+    for ax, season in zip(axes, ("harvest", "flowering")):
+        row = [row for row in rows if row["season"] == season][2]
+        number = int(row["picture"][:6])
+        picture = np.array(Image.open(out / "images" / "train" / row["picture"])).astype(float)
+        things = np.array(Image.open(out / "instances" / "train" / row["picture"])).astype(np.uint32) @ np.array([1, 256, 65536], np.uint32)
+        bare(ax)
+        ax.set_title(season)
+        for a in notes["instances"]["annotations"]:
+            if a["image_id"] != number:
+                continue
+            colour = np.array(colours[a["category_id"]])
+            inside = things == a["thing"]
+            picture[inside] = 0.5 * picture[inside] + 0.5 * colour
+            x, y, w, h = a["bbox"]
+            ax.add_patch(Rectangle((x - 0.5, y - 0.5), w, h, fill=False, edgecolor=colour / 255, linewidth=0.6))
+        ax.imshow(picture.astype(np.uint8))
+        for a in notes["keypoints"]["annotations"]:
+            points = np.array(a["keypoints"]).reshape(-1, 3)
+            for u, v, seen in points[points[:, 2] > 0] if a["image_id"] == number else ():
+                ax.plot(u, v, "o", markersize=3, color="#20d040" if seen == 2 else "#e02020", markeredgecolor="black", markeredgewidth=0.4)
+    runs.save(figure, "dataset", colours=160)
 
 
 def draw_estimators(runs: Runs) -> None:

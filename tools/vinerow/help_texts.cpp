@@ -39,6 +39,9 @@ constexpr std::array kHelpTexts = {
              "study list my_study.yaml --state waiting",
              "0 all cells met their criteria, 1 some did not, 2 bad input, 3 some did not run to "
              "the end or output was not written"},
+    HelpText{"dataset", kSimulate,
+             "dataset assets/studies/vineyard_dataset.yaml --out datasets/vines",
+             "0 done, 2 bad input, 3 some runs broke off, or output was not written"},
     HelpText{"report", kLook, "report runs/x\nreport runs/x --out page.html", ""},
     HelpText{"replay", kLook, "replay runs/x --out replay.html", ""},
     HelpText{"render", kLook,
@@ -61,6 +64,7 @@ constexpr std::array kHelpTexts = {
              "0 done, 1 a difference that --fail-on selects, 2 bad input"},
     HelpText{"survey", kSurvey,
              "survey assets/scenarios/survey_still.yaml --out plans\n"
+             "survey --log runs/map_parcel --pictures --picture-width 1368 --out photos\n"
              "survey --polygon field.geojson --dem dem.tif --height_m 60 --rotorcraft",
              ""},
     HelpText{"cloud", kSurvey, "cloud assets/scenarios/map_parcel.yaml --out parcel.las", ""},

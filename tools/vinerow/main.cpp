@@ -60,6 +60,7 @@ int main(int argc, char** argv) {
   vinerow::tools::add_run_command(app, exit_status);
   vinerow::tools::add_validate_command(app, exit_status);
   vinerow::tools::add_study_command(app, exit_status);
+  vinerow::tools::add_dataset_command(app, exit_status);
   vinerow::tools::add_report_command(app, exit_status);
   vinerow::tools::add_replay_command(app, exit_status);
   vinerow::tools::add_render_command(app, exit_status);

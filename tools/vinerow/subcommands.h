@@ -32,6 +32,7 @@ void add_survey_command(CLI::App& app, int& exit_status);
 void add_cloud_command(CLI::App& app, int& exit_status);
 void add_map_command(CLI::App& app, int& exit_status);
 void add_replay_command(CLI::App& app, int& exit_status);
+void add_dataset_command(CLI::App& app, int& exit_status);
 void add_report_command(CLI::App& app, int& exit_status);
 
 void add_completion_command(CLI::App& app, int& exit_status);

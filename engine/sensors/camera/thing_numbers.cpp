@@ -13,6 +13,18 @@ ThingNumbers::ThingNumbers(std::span<const MeshInstance> meshes) : meshes_(meshe
   }
 }
 
+ThingNumbers::Thing ThingNumbers::thing(std::uint32_t number) const {
+  if (number <= kTerrain || number >= end_) return {};
+  const auto after = std::upper_bound(first_.begin(), first_.end(), number);
+  const auto mesh = static_cast<std::size_t>(after - first_.begin() - 1);
+  if (!meshes_[mesh].mesh) return {};
+  const std::vector<std::uint32_t>& things = meshes_[mesh].mesh->things;
+  const auto all = static_cast<std::uint32_t>(meshes_[mesh].mesh->triangles.size());
+  const std::size_t k = number - first_[mesh];
+  return {static_cast<int>(mesh), things.empty() ? 0 : things[k],
+          k + 1 < things.size() ? things[k + 1] : all};
+}
+
 std::uint32_t ThingNumbers::of(const RayHit& hit) const {
   if (hit.mesh < 0) return kTerrain;
   const auto mesh = static_cast<std::size_t>(hit.mesh);

@@ -21,6 +21,13 @@ class ThingNumbers {
   /// @param meshes  of the world; outlive this object
   explicit ThingNumbers(std::span<const MeshInstance> meshes);
 
+  /// A thing of the world: triangles of one of its meshes.
+  struct Thing {
+    int mesh = -1;  ///< index; -1: nothing, the terrain, or a vehicle
+    std::uint32_t first_triangle = 0, end_triangle = 0;
+  };
+  Thing thing(std::uint32_t number) const;
+
   /// Of a hit on the world.
   std::uint32_t of(const RayHit& hit) const;
   std::uint32_t of_vehicle(int vehicle) const { return end_ + static_cast<std::uint32_t>(vehicle); }

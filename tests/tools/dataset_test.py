@@ -1,0 +1,380 @@
+#!/usr/bin/env python3
+"""`vinerow dataset`, read back by others: COCO by pycocotools, PNG by Pillow, poses and rows by numpy.
+
+    dataset_test.py VINEROW
+"""
+
+import csv
+import json
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy
+import vinerow
+import yaml
+from PIL import Image
+from pycocotools import mask as coco_mask
+from pycocotools.coco import COCO
+
+VINEROW = sys.argv[1]
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SCENARIO = ROOT / "assets" / "scenarios" / "vineyard_camera.yaml"
+CLASSES = ["bunch", "trunk", "post", "vehicle", "leaf"]
+BUNCH_LABEL, VEHICLE_LABEL = 4, 9
+
+STUDY = {
+    "vinerow_study": 1,
+    "description": "a test",
+    "scenario": str(SCENARIO),
+    "set": {"duration_s": 2.5},
+    "factors": {
+        "look": {"alternatives": {"ahead": {}, "side": {"rover.sensors.front.rotation_deg": [0, 3, 40]},
+                                  # Its own front is in the picture.
+                                  "down": {"rover.sensors.front.rotation_deg": [0, 70, 0],
+                                           "world.vines.bbch": 65}}},
+    },
+    "seeds": [1, 2],
+    "dataset": {"camera": "rover/front", "every_s": 1, "formats": ["coco", "yolo", "kitti"], "classes": CLASSES,
+                "validation_share": 0.3, "split_by": "seed", "licence": "CC0-1.0"},
+}
+
+
+def run(study, folder, before=""):
+    """Runs `vinerow dataset`; returns its result and the data set's folder."""
+    file = folder / "study.yaml"
+    file.write_text(yaml.safe_dump(study, sort_keys=False), encoding="utf-8")
+    out = folder / "out"
+    command = f"{before} '{VINEROW}' dataset '{file}' --out '{out}' --quiet"
+    return subprocess.run(["sh", "-c", command], capture_output=True, text=True, timeout=600), out
+
+
+def pixels(file):
+    with Image.open(file) as picture:
+        return numpy.asarray(picture).astype(numpy.int64)
+
+
+def changed(**changes):
+    return {**STUDY, "dataset": {**STUDY["dataset"], **changes}}
+
+
+def rotation(q):
+    w, x, y, z = q
+    return numpy.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+
+
+def distance_to(line, p):
+    """Of a point from a polyline."""
+    a, b = line[:-1], line[1:]
+    share = numpy.clip(((p - a) * (b - a)).sum(1) / ((b - a) ** 2).sum(1), 0, 1)
+    return numpy.linalg.norm(a + share[:, None] * (b - a) - p, axis=1).min()
+
+
+class Poses:
+    """Pictures of pictures.csv as ideal cameras."""
+
+    def __init__(self, row):
+        number = {key: float(row[key]) for key in
+                  ("x_m", "y_m", "z_m", "qw", "qx", "qy", "qz", "fx", "fy", "cx", "cy")}
+        self.p = numpy.array([number[key] for key in ("x_m", "y_m", "z_m")])
+        self.R = rotation([number[key] for key in ("qw", "qx", "qy", "qz")])
+        self.K = numpy.array([[number["fx"], 0, number["cx"]], [0, number["fy"], number["cy"]], [0, 0, 1]])
+
+    def project(self, p_W):
+        p_C = self.R.T @ (numpy.asarray(p_W) - self.p)
+        uvw = self.K @ p_C
+        return uvw[:2] / uvw[2], p_C[2]
+
+    def point(self, u, v, z):
+        return self.p + self.R @ (z * numpy.linalg.solve(self.K, [u, v, 1.0]))
+
+
+class Dataset(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="vinerow_dataset_"))
+        cls.result, cls.out = run(STUDY, cls.folder)
+        assert cls.result.returncode == 0, cls.result.stderr
+        with open(cls.out / "pictures.csv", newline="", encoding="utf-8") as file:
+            cls.rows = list(csv.DictReader(file))
+        cls.instances = {part: COCO(cls.out / "annotations" / f"instances_{part}.json") for part in ("train", "val")}
+        cls.keypoints = {part: COCO(cls.out / "annotations" / f"keypoints_{part}.json") for part in ("train", "val")}
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    def layer(self, kind, row):
+        return pixels(self.out / kind / row["part"] / row["picture"])
+
+    def things(self, row):
+        rgb = self.layer("instances", row)
+        return rgb[..., 0] + 256 * rgb[..., 1] + 65536 * rgb[..., 2]
+
+    def annotations(self, files, row):
+        coco = files[row["part"]]
+        return coco.loadAnns(coco.getAnnIds(imgIds=[int(row["picture"][:6])]))
+
+    def test_pictures_are_those_of_the_runs(self):
+        # 6 cells, pictures at 0, 1 and 2 s.
+        self.assertEqual(len(self.rows), 18)
+        self.assertEqual(sorted({row["part"] for row in self.rows}), ["train", "val"])
+        for seed in ("1", "2"):
+            self.assertEqual(len({row["part"] for row in self.rows if row["seed"] == seed}), 1)
+        self.assertEqual([float(row["time_s"]) for row in self.rows[:3]], [0.0, 1.0, 2.0])
+        self.assertEqual({row["look"] for row in self.rows}, {"ahead", "side", "down"})
+        for row in self.rows:
+            self.assertEqual(self.layer("images", row).shape, (240, 320, 3))
+
+    def test_poses_are_those_of_the_run(self):
+        # Mounting of the scenario: 0.45 m ahead, 0.7 m up, 8 deg down.
+        row = self.rows[2]
+        with vinerow.open(SCENARIO, {"rover.sensors.front.rate_Hz": 1.0}) as session:
+            session.step(2.001)
+            place = numpy.array([float(row[key]) for key in ("x_m", "y_m", "z_m")])
+            body = session.signal("rover/truth")["pose"]
+            self.assertAlmostEqual(numpy.linalg.norm(place - body.position), numpy.hypot(0.45, 0.7), delta=5e-3)
+        axis = Poses(row).R @ [0, 0, 1]
+        self.assertAlmostEqual(numpy.degrees(numpy.arcsin(axis[2])), -8.0, delta=3.0)
+
+    def test_coco_masks_are_the_instance_pictures(self):
+        kinds = set()
+        for row in self.rows:
+            things, semantic = self.things(row), self.layer("semantic", row)
+            listed = numpy.zeros(things.shape, bool)
+            for a in self.annotations(self.instances, row):
+                mask = self.instances[row["part"]].annToMask(a).astype(bool)
+                numpy.testing.assert_array_equal(mask, things == a["thing"])
+                self.assertEqual(a["area"], mask.sum())
+                numpy.testing.assert_array_equal(a["bbox"], coco_mask.toBbox(a["segmentation"]))
+                self.assertGreaterEqual(a["area"], 16)
+                self.assertTrue(0 <= a["visible_share"] <= 1)
+                self.assertFalse((listed & mask).any())
+                listed |= mask
+                name = CLASSES[a["category_id"] - 1]
+                kinds.add(name)
+                label = {"bunch": BUNCH_LABEL, "vehicle": VEHICLE_LABEL, "leaf": 2, "trunk": 3, "post": 6}[name]
+                self.assertEqual(set(semantic[mask]), {label})
+            # What is not listed is small.
+            for label in (BUNCH_LABEL, 2, 6, VEHICLE_LABEL):
+                left_out = things[(semantic == label) & ~listed]
+                self.assertLess(max(numpy.unique(left_out, return_counts=True)[1], default=0), 16)
+        self.assertEqual(kinds, set(CLASSES))
+
+    def test_yolo_boxes_are_those_of_coco(self):
+        data = yaml.safe_load((self.out / "data.yaml").read_text())
+        self.assertEqual([data["names"][i] for i in range(len(CLASSES))], CLASSES)
+        for row in self.rows:
+            self.assertTrue((self.out / data[row["part"]] / row["picture"]).is_file())
+            label = self.out / "labels" / row["part"] / (row["picture"][:6] + ".txt")
+            boxes = [line.split() for line in label.read_text().splitlines()]
+            expected = self.annotations(self.instances, row)
+            self.assertEqual(len(boxes), len(expected))
+            for (name, *box), a in zip(boxes, expected):
+                x, y, w, h = (float(value) for value in box)
+                self.assertEqual(int(name) + 1, a["category_id"])
+                numpy.testing.assert_allclose([(x - w / 2) * 320, (y - h / 2) * 240, w * 320, h * 240], a["bbox"],
+                                              atol=2e-3)
+
+    def test_key_points_of_rows_are_their_ends(self):
+        found = 0
+        with vinerow.open(SCENARIO) as session:
+            lines = {row.id: row.line for row in session.world().rows}
+        for row in self.rows:
+            camera = Poses(row)
+            for a in self.annotations(self.keypoints, row):
+                if a["category_id"] != 3:
+                    continue
+                for k, end in ((0, lines[a["row"]][0]), (1, lines[a["row"]][-1])):
+                    u, v, seen = a["keypoints"][3 * k:3 * k + 3]
+                    uv, z = camera.project(end)
+                    inside = z > 0 and -0.5 <= uv[0] < 319.5 and -0.5 <= uv[1] < 239.5
+                    self.assertEqual(seen > 0, inside)
+                    if seen:
+                        numpy.testing.assert_allclose([u, v], uv, atol=0.02)
+                        found += 1
+        self.assertGreater(found, 5)
+
+    def test_feet_are_on_the_ground_below_rows(self):
+        errors = []
+        with vinerow.open(SCENARIO) as session:
+            world = session.world()
+            lines = [row.line for row in world.rows]
+            terrain = world.terrain
+        for row in self.rows:
+            camera, depth, things = Poses(row), self.layer("depth", row), self.things(row)
+            for a in self.annotations(self.keypoints, row):
+                u, v, seen = a["keypoints"][:3]
+                if a["category_id"] != 1 or seen != 2 or a["area"] < 200:
+                    continue
+                # The picture's own depth at the trunk, beside the foot.
+                x, y = round(u), round(v)
+                near = [depth[j, i] for j in range(max(y - 1, 0), min(y + 2, 240))
+                        for i in range(max(x - 1, 0), min(x + 2, 320)) if things[j, i] == a["thing"]]
+                p = camera.point(u, v, min(near) / 1000)
+                height = p[2] - float(terrain.height_at(p[0], p[1]))
+                off = min(distance_to(line[:, :2], p[:2]) for line in lines)
+                errors.append((off, height))
+        self.assertGreater(len(errors), 10)
+        # The depth is that of the trunk's front, and trunks are bent.
+        self.assertLess(max(off for off, _ in errors), 0.15)
+        self.assertLess(max(abs(height) for _, height in errors), 0.08)
+
+    def test_kitti_boxes_hold_what_is_seen(self):
+        compared = 0
+        for row in self.rows:
+            stem = row["picture"][:6]
+            training = self.out / "kitti" / "training"
+            self.assertEqual((training / "image_2" / row["picture"]).read_bytes(),
+                             (self.out / "images" / row["part"] / row["picture"]).read_bytes())
+            calib = dict(line.split(": ") for line in (training / "calib" / f"{stem}.txt").read_text().splitlines())
+            P = numpy.array([float(v) for v in calib["P2"].split()]).reshape(3, 4)
+            metres = pixels(training / "depth_2" / row["picture"]) / 256.0
+            numpy.testing.assert_allclose(metres, self.layer("depth", row) / 1000.0, atol=1 / 512 + 1e-9)
+            listed = self.annotations(self.instances, row)
+            lines = (training / "label_2" / f"{stem}.txt").read_text().splitlines()
+            self.assertEqual(len(lines), len(listed))
+            for line, a in zip(lines, listed):
+                name, truncated, occluded, alpha, *numbers = line.split()
+                left, top, right, bottom, h, w, l, x, y, z, turn = (float(value) for value in numbers)
+                self.assertEqual(name.lower(), CLASSES[a["category_id"] - 1])
+                numpy.testing.assert_allclose([left, top, right - left + 1, bottom - top + 1], a["bbox"])
+                self.assertIn(occluded, "012")
+                wrapped = (turn - numpy.arctan2(x, z) - float(alpha) + numpy.pi) % (2 * numpy.pi) - numpy.pi
+                self.assertLess(abs(wrapped), 2e-3)
+                # Corners as in the devkit's computeBox3D.
+                c, s = numpy.cos(turn), numpy.sin(turn)
+                corners = numpy.array([[c * i + s * k + x, y - j, -s * i + c * k + z]
+                                       for i in (-l / 2, l / 2) for j in (0, h) for k in (-w / 2, w / 2)])
+                if float(truncated) > 0 or corners[:, 2].min() < 0.3:
+                    continue
+                uvw = P @ numpy.vstack([corners.T, numpy.ones(8)])
+                u, v = uvw[0] / uvw[2], uvw[1] / uvw[2]
+                self.assertLess(u.min(), left + 1)
+                self.assertGreater(u.max(), right - 1)
+                self.assertLess(v.min(), top + 1)
+                self.assertGreater(v.max(), bottom - 1)
+                # Depths of the thing's pixels are inside the box.
+                z_mm = self.layer("depth", row)[self.things(row) == a["thing"]]
+                self.assertGreater(z_mm.min() / 1000, corners[:, 2].min() - 0.02)
+                self.assertLess(z_mm.max() / 1000, corners[:, 2].max() + 0.02)
+                compared += 1
+        self.assertGreater(compared, 200)
+
+    def test_kitti_poses_start_at_the_first_picture(self):
+        first = [row for row in self.rows if row["cell"] == "0"]
+        poses = numpy.loadtxt(self.out / "kitti" / "poses" / "0000.txt").reshape(-1, 3, 4)
+        self.assertEqual(len(poses), len(first))
+        numpy.testing.assert_allclose(poses[0], numpy.eye(4)[:3], atol=1e-9)
+        a, b = Poses(first[0]), Poses(first[-1])
+        numpy.testing.assert_allclose(poses[-1][:, 3], a.R.T @ (b.p - a.p), atol=1e-4)
+        numpy.testing.assert_allclose(poses[-1][:, :3], a.R.T @ b.R, atol=1e-6)
+
+    def test_card_counts_what_is_there(self):
+        card = (self.out / "README.md").read_text(encoding="utf-8")
+        head = yaml.safe_load(card.split("---")[1])
+        self.assertIn("object-detection", head["task_categories"])
+        for k, name in enumerate(CLASSES):
+            counts = [len(self.instances[part].getAnnIds(catIds=[k + 1])) for part in ("train", "val")]
+            self.assertIn(f"| `{name}` | {counts[0]} | {counts[1]} | 0 |", card)
+        self.assertIn("CC0-1.0", card)
+        self.assertIn("- seeds: 1, 2", card)
+        self.assertIn("| look | `look` | ahead, side, down |", card)
+
+    def test_one_core_gives_the_same_bytes(self):
+        study = {**STUDY, "seeds": [1], "factors": {"look": {"alternatives": {
+            "ahead": {}, "side": STUDY["factors"]["look"]["alternatives"]["side"]}}}}
+        with tempfile.TemporaryDirectory() as one, tempfile.TemporaryDirectory() as two:
+            first, a = run(study, pathlib.Path(one), "taskset -c 0")
+            second, b = run(study, pathlib.Path(two))
+            self.assertEqual((first.returncode, second.returncode), (0, 0))
+            files = sorted(path.relative_to(a) for path in a.rglob("*") if path.is_file())
+            self.assertEqual(files, sorted(path.relative_to(b) for path in b.rglob("*") if path.is_file()))
+            for file in files:
+                if file.name != "README.md":  # names the study's file
+                    self.assertEqual((a / file).read_bytes(), (b / file).read_bytes(), file)
+
+
+class BadInput(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="vinerow_dataset_"))
+
+    def tearDown(self):
+        shutil.rmtree(self.folder)
+
+    def refuse(self, study, sentence, status=2, before=""):
+        result, out = run(study, self.folder, before)
+        self.assertEqual(result.returncode, status, result.stderr)
+        self.assertRegex(result.stderr, sentence)
+        self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
+        self.assertEqual([path.name for path in self.folder.iterdir() if path.name != "study.yaml"], [])
+
+    def test_each_mistake_is_one_sentence(self):
+        without = {key: value for key, value in STUDY.items() if key != "dataset"}
+        self.refuse(without, r"has no 'dataset'; add dataset: \{camera: <vehicle>/<camera>\}")
+        self.refuse(changed(classes=["bunches"]), r"study.yaml:\d+: dataset.classes = 'bunches', must be one of: "
+                    r"leaf, wood, .*; did you mean 'bunch'\?")
+        self.refuse(changed(classes=["bunch", "bunch"]), r"dataset.classes has 'bunch' twice")
+        self.refuse(changed(classes=[]), r"dataset.classes")
+        self.refuse(changed(formats=["voc"]), r"dataset.formats = 'voc', must be one of: coco, yolo, kitti")
+        self.refuse(changed(camera="rover/frnt"), r"dataset.camera = 'rover/frnt', must be a sensor of type camera: "
+                    r"rover/front; did you mean 'rover/front'\?")
+        self.refuse(changed(camera="rover"), r"dataset.camera = 'rover', must be a sensor of type camera")
+        self.refuse(changed(validation_share=0.7, test_share=0.3),
+                    r"validation_share \+ test_share = 1, must be < 1")
+        self.refuse(changed(pictures=0), r"dataset.pictures = 0")
+        distorted = {**STUDY, "set": {**STUDY["set"], "rover.sensors.front.distortion": [0.1, 0, 0, 0, 0]}}
+        self.refuse(distorted, r"dataset.formats has kitti, which knows no distortion")
+        depth = {**STUDY, "set": {**STUDY["set"], "rover.sensors.front.picture": "depth"}}
+        self.refuse(depth, r"dataset.camera = 'rover/front' takes pictures of depth alone")
+        below = {**STUDY, "set": {**STUDY["set"], "rover.sensors.front.position_m": [0, 0, -3]}}
+        self.refuse(below, r"no cell gave a picture; cell 0: .*is below the ground")
+
+    def test_a_folder_with_files_is_left_alone(self):
+        out = self.folder / "out"
+        out.mkdir()
+        (out / "mine.txt").write_text("mine")
+        result, _ = run(STUDY, self.folder)
+        self.assertEqual(result.returncode, 2)
+        self.assertRegex(result.stderr, r"'.*/out' exists and is not empty: remove it, or choose another folder with")
+        self.assertEqual((out / "mine.txt").read_text(), "mine")
+
+    def test_a_full_disk_leaves_nothing(self):
+        # Beyond this size no file can be written.
+        self.refuse(STUDY, r"cannot be written", status=3, before="ulimit -f 60;")
+
+    def test_a_run_that_breaks_off_is_in_the_card(self):
+        study = {**STUDY, "seeds": 1, "factors": {"place": {"alternatives": {
+            "good": {}, "below": {"rover.sensors.front.position_m": [0, 0, -3]}}}}}
+        result, out = run(study, self.folder)
+        self.assertEqual(result.returncode, 3, result.stderr)
+        self.assertIn("broke off 1 of 2 runs", result.stdout)
+        self.assertRegex((out / "README.md").read_text(), r"- run 1: 0 pictures, then: .*below the ground")
+        pictures = json.loads((out / "annotations" / "instances_train.json").read_text())["images"]
+        self.assertEqual(len(pictures), 3)
+
+    def test_ctrl_c_leaves_nothing(self):
+        import signal
+        import time
+        (self.folder / "study.yaml").write_text(yaml.safe_dump({**STUDY, "seeds": 50}), encoding="utf-8")
+        process = subprocess.Popen([VINEROW, "dataset", str(self.folder / "study.yaml"), "--out",
+                                    str(self.folder / "out"), "--quiet"], stderr=subprocess.PIPE, text=True)
+        for _ in range(600):
+            if list(self.folder.rglob("*.png")):
+                break
+            time.sleep(0.1)
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 3)
+        self.assertRegex(errors, r"interrupted: no data set is kept")
+        self.assertEqual([path.name for path in self.folder.iterdir()], ["study.yaml"])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[2:]])

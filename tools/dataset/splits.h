@@ -1,0 +1,17 @@
+#pragma once
+/// Which pictures of a data set are for training, validation and test.
+
+#include <vector>
+
+#include "tools/dataset/picture_record.h"
+#include "tools/study/design.h"
+
+namespace vinerow::dataset {
+
+/// Part of each cell. Groups of cells (DatasetConfig::split_by) stay together, so that no picture
+/// is tested whose neighbour was trained on. Which groups go where is drawn from a stream of its
+/// own: the same in every run. A part with a share gets at least one group while training keeps
+/// one.
+std::vector<Split> make_splits(const study::Design& design, const scenario::DatasetConfig& config);
+
+}  // namespace vinerow::dataset

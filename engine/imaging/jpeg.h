@@ -1,9 +1,10 @@
 #pragma once
-/// JPEG encoder for photographs. PNG would keep every leaf but take five times the bytes.
+/// JPEG files, for photographs. PNG would keep every leaf but take five times the bytes.
 
 #include <span>
 #include <string>
 
+#include "engine/core/result.h"
 #include "engine/imaging/pixels.h"
 
 namespace vinerow::imaging {
@@ -16,5 +17,10 @@ namespace vinerow::imaging {
 /// @throws std::runtime_error if memory is exhausted
 std::string encode_jpeg(const Pixels& pixels, int quality,
                         std::span<const std::string> segments = {});
+
+/// Reads a JPEG in grey or colours as opaque RGBA, top row first. A file that ends early is
+/// refused.
+/// @returns the pixels, or the error
+Result<Pixels> read_jpeg(const std::string& file);
 
 }  // namespace vinerow::imaging

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/imaging/png.h"
+#include "engine/imaging/texture.h"
 #include "engine/render/builtin_textures.h"
 
 namespace vinerow::render {
@@ -36,7 +36,7 @@ GLuint DrawableStore::find_image(const std::string& name) {
   } else if (name == "builtin:bark") {
     texture = upload_texture(gl_, imaging::mip_chain(bark_texture()), false);
   } else if (!name.starts_with("builtin:")) {
-    Result<imaging::Pixels> pixels = imaging::read_png(name);
+    Result<imaging::Pixels> pixels = imaging::read_image(name);
     if (pixels) {
       // OpenGL's first row is the lowest.
       imaging::Pixels flipped(pixels->width, pixels->height);

@@ -152,10 +152,9 @@ std::string data_card(const study::OpenStudy& open, const DatasetReport& report)
       "\n\nNo photograph is part of it. Meshes that the scenario loads from files keep their own "
       "licences.\n\n"
       "## Limits\n\n"
-      "The pictures are drawn, not taken. Light that goes from leaf to leaf is not followed, the "
-      "sky "
-      "is clear, and textures of mesh files are not seen. Labels are exact, which those of people "
-      "are not: test on real pictures.\n";
+      "The pictures are drawn, not taken. Light that goes from leaf to leaf is not followed, and "
+      "the sky is clear. Labels are exact, which those of people are not: test on real "
+      "pictures.\n";
   return text;
 }
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cmath>
+#include <fstream>
 #include <optional>
 
 #include "engine/core/error.h"
@@ -78,6 +79,20 @@ void add_note_once(std::vector<std::string>& notes, std::string note) {
   if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(std::move(note));
 }
 
+/// Pictures and cameras read PNG and JPEG; another file is a note.
+void use_texture(const std::filesystem::path& texture, const std::filesystem::path& file,
+                 Material& material, std::vector<std::string>& notes) {
+  std::string head(8, '\0');
+  std::ifstream in(texture, std::ios::binary);
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  if (head.starts_with("\xff\xd8\xff") || head == "\x89PNG\r\n\x1a\n") {
+    material.texture = texture.string();
+    return;
+  }
+  add_note_once(notes, fmt::format("{}: texture '{}' is neither PNG nor JPEG and is not used",
+                                   file.string(), texture.string()));
+}
+
 Material convert_material(const aiMaterial& source, const std::filesystem::path& file,
                           bool file_is_linear, std::vector<std::string>& notes) {
   Material material;
@@ -110,7 +125,7 @@ Material convert_material(const aiMaterial& source, const std::filesystem::path&
                                          file.string(), text, material.name));
       } else if (texture_type == aiTextureType_DIFFUSE ||
                  texture_type == aiTextureType_BASE_COLOR) {
-        material.texture = found->string();
+        use_texture(*found, file, material, notes);
       }
     }
   }
@@ -242,7 +257,7 @@ MeshFile load_ply(const std::filesystem::path& file, const Eigen::Matrix4d& to_m
   part.material.colour = linear_colour(Eigen::Vector3f::Constant(0.6f), ply.linear_colours);
   if (!ply.texture.empty()) {
     if (const auto found = find_reference(file, ply.texture)) {
-      part.material.texture = found->string();
+      use_texture(*found, file, part.material, result.notes);
     } else {
       result.notes.push_back(
           fmt::format("{}: texture '{}' is missing", file.string(), ply.texture));

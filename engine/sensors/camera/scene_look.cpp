@@ -6,6 +6,7 @@
 
 #include "engine/api/world_model.h"
 #include "engine/core/constants.h"
+#include "engine/core/error.h"
 #include "engine/math/angles.h"
 
 namespace vinerow::sensors {
@@ -72,10 +73,34 @@ Vector3f shares_of(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>&
   return {static_cast<float>(1.0 - v - w), static_cast<float>(v), static_cast<float>(w)};
 }
 
+bool has_texture(const MeshInstance& instance) {
+  const std::string& name = instance.material.texture;
+  return !name.empty() && !name.starts_with("builtin:") && !instance.material.leaf_cards &&
+         instance.mesh->uvs.size() == instance.mesh->vertices.size();
+}
+
+/// Of the texture's own length unit, how much a metre of the triangle takes.
+double texture_per_m(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t) {
+  const Vector3f ab = mesh.vertices[t[1]] - mesh.vertices[t[0]];
+  const Vector3f ac = mesh.vertices[t[2]] - mesh.vertices[t[0]];
+  const Eigen::Vector2f du = mesh.uvs[t[1]] - mesh.uvs[t[0]], dv = mesh.uvs[t[2]] - mesh.uvs[t[0]];
+  const double area_m2 = ab.cross(ac).norm();
+  const double area = std::abs(static_cast<double>(du.x() * dv.y() - du.y() * dv.x()));
+  return area_m2 > 0.0 ? std::sqrt(area / area_m2) : 0.0;
+}
+
 }  // namespace
 
 SceneLook::SceneLook(const WorldModel& world, Channel channel)
     : channel_(channel), light_(imaging::make_light(world.daylight)), turf_(world) {
+  for (const MeshInstance& instance : world.meshes) {
+    if (!instance.mesh || !has_texture(instance)) continue;
+    const std::string& file = instance.material.texture;
+    if (textures_.contains(file)) continue;
+    const Result<imaging::Pixels> pixels = imaging::read_image(file);
+    if (!pixels) throw ConfigError("texture " + pixels.reason());
+    textures_.emplace(file, *pixels);
+  }
   sun_ = light_.sun_irradiance.cast<float>();
   sky_ = light_.sky_irradiance.cast<float>();
   ground_ = light_.ground_irradiance.cast<float>();
@@ -140,6 +165,7 @@ SeenSurface SceneLook::surface(const SceneRay& ray, const RayHit& hit,
   Vector3d normal_W = hit.normal_W;
   constexpr float kGrey = 0.5f;  // of what is no mesh
   Vector3f rgb(kGrey, kGrey, kGrey);
+  bool is_textured = false;
   if (hit.mesh < 0) {
     seen.label = label_of(hit.surface);
   } else {
@@ -149,13 +175,23 @@ SeenSurface SceneLook::surface(const SceneRay& ray, const RayHit& hit,
     rgb = instance.material.colour;
     const auto& triangle = mesh.triangles[static_cast<std::size_t>(hit.triangle)];
     const bool has_colours = !mesh.colours.empty(), has_normals = !mesh.normals.empty();
-    if (has_colours || has_normals) {
+    // Vehicles' textures are not among them.
+    const auto texture =
+        has_texture(instance) ? textures_.find(instance.material.texture) : textures_.end();
+    is_textured = texture != textures_.end();
+    if (has_colours || has_normals || is_textured) {
       const Eigen::Matrix3d R_WM = instance.X_WM.q.toRotationMatrix();
       const Vector3f share = shares_of(mesh, triangle, R_WM.transpose() * (p_W - instance.X_WM.p));
       if (has_colours) {
         Vector3f colour = Vector3f::Zero();
         for (int i = 0; i < 3; ++i) colour += share[i] * mesh.colours[triangle[i]];
         rgb = rgb.cwiseProduct(colour);
+      }
+      if (is_textured) {
+        Eigen::Vector2f uv = Eigen::Vector2f::Zero();
+        for (int i = 0; i < 3; ++i) uv += share[i] * mesh.uvs[triangle[i]];
+        const double spot = footprint_m * texture_per_m(mesh, triangle);
+        rgb = rgb.cwiseProduct(texture->second.colour(uv.x(), uv.y(), spot));
       }
       if (has_normals) {
         Vector3f normal_M = Vector3f::Zero();
@@ -167,7 +203,8 @@ SeenSurface SceneLook::surface(const SceneRay& ray, const RayHit& hit,
       }
     }
   }
-  if (seen.label == Label::kGround) rgb = turf_.albedo(p_W.x(), p_W.y(), footprint_m);
+  if (seen.label == Label::kGround && !is_textured)
+    rgb = turf_.albedo(p_W.x(), p_W.y(), footprint_m);
   seen.normal_W = normal_W.cast<float>();
   seen.albedo = in_band(rgb, seen.label);
   if (seen.label == Label::kLeaf || seen.label == Label::kWeed) {

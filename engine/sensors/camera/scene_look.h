@@ -7,11 +7,14 @@
 /// to the sun's irradiance above the atmosphere, which is 1 in each channel.
 
 #include <Eigen/Core>
+#include <map>
 #include <span>
+#include <string>
 
 #include "engine/api/mesh.h"
 #include "engine/api/scene_query.h"
 #include "engine/imaging/daylight.h"
+#include "engine/imaging/texture.h"
 #include "engine/sensors/camera/turf.h"
 
 namespace vinerow::sensors {
@@ -38,7 +41,9 @@ struct SeenSurface {
 
 class SceneLook {
  public:
+  /// Reads the textures of the world's meshes.
   /// @param world  outlives this object
+  /// @throws ConfigError if one of them cannot be read
   SceneLook(const WorldModel& world, Channel channel);
 
   const Eigen::Vector3d& sun_direction_W() const { return light_.sun_direction_W; }
@@ -61,6 +66,7 @@ class SceneLook {
   Eigen::Vector3f sun_, sky_, ground_;  ///< irradiances of the channels
   float air_share_ = 1.0f;              ///< of the band's scattering against red
   Turf turf_;
+  std::map<std::string, imaging::Texture> textures_;  ///< by Material::texture
 };
 
 }  // namespace vinerow::sensors

@@ -4,14 +4,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 
 #include "engine/api/messages/camera.h"
+#include "engine/core/whole_file.h"
+#include "engine/imaging/png.h"
 #include "engine/math/angles.h"
+#include "engine/math/srgb.h"
 #include "engine/physics/static_scene.h"
 #include "tests/engine/physics/small_worlds.h"
 #include "tests/engine/sensors/sensor_bench.h"
 #include "tests/engine/sensors/sensor_parts.h"
+#include "tests/support/paths.h"
 
 namespace vinerow::sensors::camera_test {
 namespace {
@@ -326,6 +331,58 @@ TEST(Camera, NdviIsThatOfLeavesAndOfSoil) {
   EXPECT_LT(index(2, "red"), 0.3);
   EXPECT_GT(index(0, "red_edge"), 0.2);
   EXPECT_LT(index(0, "red_edge"), 0.5);
+}
+
+/// A panel of 2 m x 2 m seen from 2 m ahead, with a texture.
+std::shared_ptr<WorldModel> panel_world(const std::string& texture) {
+  auto mesh = std::make_shared<TriangleMesh>();
+  // Seen along +x: the left edge is at +y.
+  mesh->vertices = {{0, 1, -1}, {0, -1, -1}, {0, -1, 1}, {0, 1, 1}};
+  mesh->uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  mesh->triangles = {{0, 1, 2}, {0, 2, 3}};
+  auto world = flat_world();
+  MeshInstance panel =
+      small::make_instance("panel", mesh, {2.0, 0.0, 3.0}, SurfaceClass::kObstacle);
+  panel.material.colour = {1.0f, 1.0f, 1.0f};
+  panel.material.texture = texture;
+  world->meshes = {panel};
+  return world;
+}
+
+TEST(Camera, SeesTexturesTheRightWayUp) {
+  const std::filesystem::path file =
+      std::filesystem::path(VINEROW_BINARY_DIR) / "test_output" / "camera_texture.png";
+  std::filesystem::create_directories(file.parent_path());
+  // Quarters of 2 x 2 pixels; sRGB of their red channel, from the top: 60 120 / 180 240.
+  imaging::Pixels pixels(4, 4);
+  const std::uint8_t reds[] = {60, 120, 180, 240};
+  for (int y = 0; y < 4; ++y) {
+    for (int x = 0; x < 4; ++x) {
+      pixels.at(x, y)[0] = reds[2 * (y / 2) + x / 2];
+      pixels.at(x, y)[3] = 255;
+    }
+  }
+  write_whole_file(file, imaging::encode_png(pixels));
+  CameraBench textured(panel_world(file.string()),
+                       with(kSmall, {{"picture", std::string("red")}, {"exposure_s", 0.0002}}));
+  CameraBench plain(panel_world(""),
+                    with(kSmall, {{"picture", std::string("red")}, {"exposure_s", 0.0002}}));
+  textured.step(at(0.0, 0.0, 3.0));
+  plain.step(at(0.0, 0.0, 3.0));
+  // Middles of the quarters are 0.5 m from the panel's middle, at a depth of 2 m.
+  const auto& info = textured.value<CameraInfo>("rover/s_info");
+  const int off = static_cast<int>(std::lround(info.fx_px * 0.5 / 2.0));
+  for (std::size_t i = 0; i < 4; ++i) {
+    const int x = 60 + (i % 2 == 0 ? -off : off), y = 45 + (i < 2 ? -off : off);
+    const double share = level(textured.picture(), x, y) / level(plain.picture(), x, y);
+    EXPECT_NEAR(share, linear_from_srgb(reds[i] / 255.0), 0.003) << i;
+  }
+}
+
+TEST(Camera, RefusesATextureThatItCannotRead) {
+  const std::string file = (std::filesystem::path(VINEROW_BINARY_DIR) / "absent.png").string();
+  EXPECT_EQ(test::refusal_of([&] { CameraBench(panel_world(file), kSmall); }),
+            "texture " + file + ": No such file or directory");
 }
 
 TEST(Camera, DepthErrorsGrowWithTheSquareOfTheDepth) {

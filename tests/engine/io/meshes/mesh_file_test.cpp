@@ -1,5 +1,6 @@
 #include "engine/io/meshes/mesh_file.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -138,12 +139,24 @@ TEST_F(MeshFileTest, MissingTextureAndLibraryAreNotedByName) {
 }
 
 TEST_F(MeshFileTest, TextureThatIsThereBecomesAnAbsolutePath) {
-  write("bark.png", "not looked into");
+  write("bark.png", "\x89PNG\r\n\x1a\nthe rest is not looked into");
   write("m.mtl", "newmtl bark\nKd 1 1 1\nmap_Kd bark.png\n");
   const MeshFile file =
       load_mesh(write("w.obj", std::string("mtllib m.mtl\nusemtl bark\n") + kWedgeObj));
   EXPECT_TRUE(file.notes.empty());
   EXPECT_EQ(file.parts.front().material.texture, (folder_ / "bark.png").string());
+}
+
+TEST_F(MeshFileTest, TextureOfAnotherFormatIsANote) {
+  write("bark.tga", "neither");
+  write("m.mtl", "newmtl bark\nKd 1 1 1\nmap_Kd bark.tga\n");
+  const MeshFile file =
+      load_mesh(write("w.obj", std::string("mtllib m.mtl\nusemtl bark\n") + kWedgeObj));
+  ASSERT_EQ(file.notes.size(), 1u);
+  EXPECT_EQ(file.notes[0],
+            fmt::format("{}: texture '{}' is neither PNG nor JPEG and is not used",
+                        (folder_ / "w.obj").string(), (folder_ / "bark.tga").string()));
+  EXPECT_EQ(file.parts.front().material.texture, "");
 }
 
 std::string binary_ply(float first_x) {

@@ -1,6 +1,7 @@
 #include "worlds/mesh/mesh_params.h"
 
 #include "engine/api/parameter_table.h"
+#include "worlds/parts/label_choices.h"
 
 namespace vinerow::worlds {
 namespace {
@@ -41,6 +42,7 @@ const ParameterTable<MeshItem>& mesh_item_table() {
                    {"wire", SurfaceClass::kWire},
                    {"obstacle", SurfaceClass::kObstacle}},
                   "kind of object; absent: terrain if it is under the whole world, else obstacle")
+          .choice("label", &P::label, kLabelChoices, "what cameras call it; absent: by its surface")
           .boolean("collides", &P::collides, "true: vehicles and rays collide with it")
           .boolean("visible", &P::visible, "true: pictures show it");
   return table;

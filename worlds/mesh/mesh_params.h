@@ -29,6 +29,7 @@ struct MeshItem {
   std::optional<double> unit_m;
   /// Absent: terrain if it is below the whole world (ground_meshes.h), else an obstacle.
   std::optional<SurfaceClass> surface;
+  std::optional<Label> label;  ///< for cameras; absent: by the surface
   bool collides = true;
   bool visible = true;
 };

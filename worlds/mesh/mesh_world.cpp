@@ -68,6 +68,11 @@ class MeshLibrary {
     return {begin, world_.meshes.size()};
   }
 
+  /// What cameras call it.
+  void call(const MeshObject& object, std::optional<Label> label) {
+    for (std::size_t i = object.begin; i < object.end; ++i) world_.meshes[i].label = label;
+  }
+
  private:
   WorldModel& world_;
   std::map<std::string, io::MeshFile> files_;
@@ -83,8 +88,11 @@ MeshObject place_item(const MeshItem& item, MeshLibrary& library) {
   X_WM.p = item.p_WM;
   X_WM.q = quaternion_from_rpy(item.rpy);
   const std::string name = item.name.empty() ? item.file.stem().string() : item.name;
-  return library.place(name, loaded, X_WM, item.surface.value_or(SurfaceClass::kObstacle),
-                       item.collides, item.visible);
+  const MeshObject object =
+      library.place(name, loaded, X_WM, item.surface.value_or(SurfaceClass::kObstacle),
+                    item.collides, item.visible);
+  library.call(object, item.label);
+  return object;
 }
 
 std::vector<std::filesystem::path> model_folders(const MeshWorldParams& params) {

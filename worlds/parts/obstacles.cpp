@@ -11,8 +11,10 @@
 #include "engine/api/world_model.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
+#include "engine/io/meshes/mesh_file.h"
 #include "worlds/mapping/model/row_curve.h"
 #include "worlds/parts/crate.h"
+#include "worlds/parts/label_choices.h"
 
 namespace vinerow::worlds {
 namespace {
@@ -101,18 +103,72 @@ const ParameterTable<ObstacleParams>& obstacle_table() {
           .degrees("yaw_deg", &P::yaw_rad, between(-360.0, 360.0),
                    "direction of the length, from east; in an alley from the alley's direction")
           .numbers("size_m", "m", &P::size_m, between(0.02, 100.0),
-                   "length, width, height of the box")
+                   "length, width, height of the box; absent: 0.6, 0.4, 0.6 m, or the file's")
+          .path("file", &P::file,
+                "mesh in place of a crate, standing on its z = 0: OBJ, STL, DAE, glTF, GLB or PLY")
+          .choice("label", &P::label, kLabelChoices, "what cameras call it; absent: obstacle")
           .boolean("mapped", &P::mapped,
                    "true: it is in the occupancy grid (an occupancy_file is unchanged)");
   return table;
+}
+
+/// A box with its drawing.
+struct Standing {
+  Pose X_WO;
+  Vector3d size_m;
+  double foot_m = 0.0;
+  std::vector<Vector2d> plan;
+};
+
+Standing stand_box(const Place& place, const Vector3d& size_m, const HeightField& ground) {
+  Standing box;
+  box.size_m = size_m;
+  box.plan = plan_of(place, size_m);
+  box.X_WO = pose_on_ground(place, box.plan, ground, &box.foot_m);
+  return box;
+}
+
+/// People and plants stand upright also on slopes. The box reaches down to the lowest corner.
+Standing stand_mesh(const Place& place, const Eigen::AlignedBox3d& bounds,
+                    const HeightField& ground, Pose* X_WM) {
+  *X_WM = {quaternion_from_rpy({0.0, 0.0, place.yaw_rad}),
+           {place.p_W.x(), place.p_W.y(), ground.height_m(place.p_W.x(), place.p_W.y())}};
+  Standing box;
+  constexpr double kThinnest_m = 0.02;
+  box.size_m = bounds.sizes().cwiseMax(kThinnest_m);
+  box.size_m.z() = std::max(bounds.max().z(), kThinnest_m);
+  box.X_WO =
+      *X_WM * Pose{Eigen::Quaterniond::Identity(), {bounds.center().x(), bounds.center().y(), 0.0}};
+  box.plan = plan_of({box.X_WO.p.head<2>(), place.yaw_rad}, box.size_m);
+  for (const Vector2d& corner : box.plan) {
+    const double below_m = box.X_WO.p.z() - ground.height_m(corner.x(), corner.y());
+    box.foot_m = std::max(box.foot_m, below_m + kThinnest_m);
+  }
+  return box;
+}
+
+void add_meshes(const std::string& name, const io::MeshFile& file, const Pose& X_WM,
+                std::optional<Label> label, WorldModel& world) {
+  for (std::size_t i = 0; i < file.parts.size(); ++i) {
+    MeshInstance instance;
+    instance.name = file.parts.size() == 1 ? name : fmt::format("{}/{}", name, i);
+    instance.mesh = file.parts[i].mesh;
+    instance.X_WM = X_WM;
+    instance.surface = SurfaceClass::kObstacle;
+    instance.material = file.parts[i].material;
+    instance.collides = false;
+    instance.label = label;
+    world.meshes.push_back(std::move(instance));
+  }
 }
 
 }  // namespace
 
 const ParameterTable<ObstaclesParams>& obstacles_table() {
   using P = ObstaclesParams;
-  static const ParameterTable<P> table = ParameterTable<P>().groups(
-      "obstacles", &P::list, obstacle_table(), "boxes on the ground that vehicles must not touch");
+  static const ParameterTable<P> table =
+      ParameterTable<P>().groups("obstacles", &P::list, obstacle_table(),
+                                 "boxes and meshes on the ground that vehicles must not touch");
   return table;
 }
 
@@ -132,27 +188,42 @@ std::vector<std::vector<Vector2d>> place_obstacles(const ObstaclesParams& params
       throw ConfigError(fmt::format("{} is at ({:.2f}, {:.2f}) m, outside the terrain", who,
                                     place.p_W.x(), place.p_W.y()));
     }
-    const Vector3d& size_m = obstacle.size_m;
-    const std::vector<Vector2d> plan = plan_of(place, size_m);
-    double foot_m = 0.0;
-    const Pose X_WO = pose_on_ground(place, plan, *world.terrain, &foot_m);
+    std::optional<io::MeshFile> file;
+    Standing standing;
+    Pose X_WM;
+    if (obstacle.file.empty()) {
+      constexpr double kCrate_m[] = {0.6, 0.4, 0.6};
+      standing = stand_box(place, obstacle.size_m.value_or(Vector3d(kCrate_m)), *world.terrain);
+    } else {
+      if (obstacle.size_m) {
+        throw ConfigError(who + " has both size_m and file: a mesh has its own size");
+      }
+      file = io::load_mesh(obstacle.file);
+      for (const std::string& note : file->notes) world.notes.push_back(note);
+      standing = stand_mesh(place, file->bounds(), *world.terrain, &X_WM);
+    }
 
     MeshInstance box;
     box.name = "obstacle/" + name;
-    box.mesh = std::make_shared<TriangleMesh>(make_box(size_m, foot_m));
-    box.X_WM = X_WO;
+    box.mesh = std::make_shared<TriangleMesh>(make_box(standing.size_m, standing.foot_m));
+    box.X_WM = standing.X_WO;
     box.surface = SurfaceClass::kObstacle;
     box.visible = false;
     world.meshes.push_back(box);
 
-    MeshInstance crate = box;
-    crate.name = "crate/" + name;
-    crate.mesh = std::make_shared<TriangleMesh>(make_crate(size_m, foot_m));
-    crate.material = {"crate", {1.0f, 1.0f, 1.0f}, 0.85f, "builtin:wood", false};
-    crate.collides = false;
-    crate.visible = true;
-    world.meshes.push_back(std::move(crate));
-    if (obstacle.mapped) mapped.push_back(plan);
+    if (file) {
+      add_meshes("object/" + name, *file, X_WM, obstacle.label, world);
+    } else {
+      MeshInstance crate = box;
+      crate.name = "crate/" + name;
+      crate.mesh = std::make_shared<TriangleMesh>(make_crate(standing.size_m, standing.foot_m));
+      crate.material = {"crate", {1.0f, 1.0f, 1.0f}, 0.85f, "builtin:wood", false};
+      crate.collides = false;
+      crate.visible = true;
+      crate.label = obstacle.label;
+      world.meshes.push_back(std::move(crate));
+    }
+    if (obstacle.mapped) mapped.push_back(standing.plan);
   }
   return mapped;
 }

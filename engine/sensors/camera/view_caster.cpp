@@ -20,11 +20,24 @@ constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 // Rays side by side cost half as much: they go in blocks of four by two pixels.
 constexpr int kBlockColumns = 4, kBandRows = 2;
 
-/// Fractions in [0, 1) that fill the unit evenly: additive recurrence of the golden ratio and its
-/// relatives (Roberts 2018).
-double fraction(int sample, double step, double start) {
-  const double value = start + sample * step;
-  return value - std::floor(value);
+/// Places of samples about the middle, the first of which is the middle. The others fill the pixel
+/// and its exposure evenly: additive recurrence of the golden ratio and its relatives (Roberts
+/// 2018), moved so that their mean is the middle too.
+std::vector<Vector3d> sample_offsets(int samples) {
+  const auto fraction = [](int sample, double step) {
+    const double value = 0.5 + sample * step;
+    return value - std::floor(value) - 0.5;
+  };
+  std::vector<Vector3d> offsets;
+  Vector3d sum = Vector3d::Zero();
+  for (int k = 0; k < samples; ++k) {
+    offsets.emplace_back(fraction(k, 0.7548776662), fraction(k, 0.5698402910),
+                         fraction(k, 0.6180339887));
+    sum += offsets.back();
+  }
+  if (samples < 3) return offsets;
+  for (int k = 1; k < samples; ++k) offsets[static_cast<std::size_t>(k)] -= sum / (samples - 1);
+  return offsets;
 }
 
 Label label_at(const WorldModel& world, const RayHit& hit) {
@@ -78,7 +91,8 @@ ViewCaster::ViewCaster(const Lens& lens, const ViewSettings& settings, const Wor
       world_(world),
       light_(light),
       look_(look),
-      numbers_(world.meshes) {
+      numbers_(world.meshes),
+      offsets_(sample_offsets(settings.samples)) {
   direction_C_.reserve(static_cast<std::size_t>(lens.width()) * lens.height());
   for (int y = 0; y < lens.height(); ++y) {
     for (int x = 0; x < lens.width(); ++x) {
@@ -129,10 +143,9 @@ void ViewCaster::cast_band(const CameraMotion& motion, double exposure_s, int sa
 
 void ViewCaster::add_rays(const CameraMotion& motion, double exposure_s, int sample,
                           const Band& band) {
-  // The first sample is the pixel's middle.
-  const auto right = static_cast<float>(fraction(sample, 0.7548776662, 0.5) - 0.5);
-  const auto down = static_cast<float>(fraction(sample, 0.5698402910, 0.5) - 0.5);
-  const double later_s = (fraction(sample, 0.6180339887, 0.5) - 0.5) * exposure_s;
+  const Vector3d& offset = offsets_[static_cast<std::size_t>(sample)];
+  const auto right = static_cast<float>(offset.x()), down = static_cast<float>(offset.y());
+  const double later_s = offset.z() * exposure_s;
   const Eigen::Matrix3d R_WC = motion.X_WS.q.toRotationMatrix() * R_SC();
   Eigen::Matrix3d row_R_WC[kBandRows];
   Vector3d row_p_W[kBandRows];

@@ -4,7 +4,8 @@
 /// A pixel is a ray through its middle, at the middle of its row's exposure. Depth, normal, label
 /// and number of the thing are those of this ray: they do not blend at edges. The radiance is the
 /// mean of `samples` rays, the first of which is that one; the others lie elsewhere in the pixel
-/// and in its exposure, which gives smooth edges and motion blur.
+/// and in its exposure, which gives smooth edges and motion blur. Their mean place is the middle
+/// (but for two samples), so that colours are where depth and labels are.
 ///
 /// The stamp is the middle of the picture's exposure. Row j of h is exposed about
 /// (j / (h - 1) - 1/2) readout_s later (rolling shutter; 0: global). In between the camera moves
@@ -83,6 +84,8 @@ class ViewCaster {
   VehicleScene* vehicles_ = nullptr;
   ThingNumbers numbers_;
   std::vector<Eigen::Vector3f> direction_C_;  ///< of each pixel, in the optical frame
+  /// Of each sample: to the right and down, in pixels; later, as a share of the exposure.
+  std::vector<Eigen::Vector3d> offsets_;
   // Of the rays of a band.
   std::vector<SceneRay> rays_, sun_rays_;
   std::vector<std::optional<RayHit>> hits_, vehicle_hits_, sun_hits_;

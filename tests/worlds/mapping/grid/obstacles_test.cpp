@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
+#include "engine/core/whole_file.h"
 #include "engine/math/angles.h"
+#include "tests/support/paths.h"
 #include "tests/worlds/mapping/grid_search.h"
 #include "tests/worlds/world_fixture.h"
 
@@ -96,6 +100,65 @@ TEST(Obstacles, StandAtAPointWithTheirOwnHeading) {
   ASSERT_TRUE(box);
   EXPECT_LT((box->X_WM.p - Vector3d(15, 20, 0)).norm(), 1e-9);
   EXPECT_LT((box->X_WM.q * Vector3d::UnitX() - Vector3d::UnitY()).norm(), 1e-9);
+}
+
+/// A post 1.8 m high with an arm to one side, standing on z = 0.
+std::filesystem::path write_figure() {
+  const auto folder = std::filesystem::path(VINEROW_BINARY_DIR) / "test_output";
+  std::filesystem::create_directories(folder);
+  const auto file = folder / "figure.obj";
+  write_whole_file(
+      file,
+      "v -0.2 -0.1 0\nv 0.2 -0.1 0\nv 0.2 0.1 0\nv -0.2 0.1 0\nv 0 0 1.8\nv 0.6 0 1.2\n"
+      "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\nf 1 4 3 2\nf 5 2 6\n");
+  return file;
+}
+
+TEST(Obstacles, MeshesStandUprightInABoxOfTheirSize) {
+  ParameterSet parameters = block("vineyard");
+  ParameterSet figure = parameters.make_group("obstacles");
+  figure.set("name", std::string("picker")).set("alley", std::int64_t{1});
+  figure.set("distance_m", 7.0).set("yaw_deg", 90.0).set("file", write_figure().string());
+  figure.set("label", std::string("person"));
+  parameters.set("obstacles", std::vector<ParameterSet>{figure});
+  const auto world = test::make_world("vineyard", parameters);
+  const MeshInstance* box = find(*world, "obstacle/picker");
+  const MeshInstance* drawn = find(*world, "object/picker");
+  ASSERT_TRUE(box && drawn);
+  EXPECT_EQ(find(*world, "crate/picker"), nullptr);
+  EXPECT_TRUE(box->collides && !box->visible && drawn->visible && !drawn->collides);
+  EXPECT_EQ(drawn->label, Label::kPerson);
+  EXPECT_LT((drawn->X_WM.q * Vector3d::UnitZ() - Vector3d::UnitZ()).norm(), 1e-12);
+  const Vector3d& foot = drawn->X_WM.p;
+  EXPECT_NEAR(foot.z(), world->terrain->height_m(foot.x(), foot.y()), 1e-9);
+  // Its x axis is across the alley.
+  const auto& line = world->rows->alleys[1].line_W;
+  const Vector2d along = (line[1].head<2>() - line[0].head<2>()).normalized();
+  EXPECT_NEAR((drawn->X_WM.q * Vector3d::UnitX()).head<2>().dot(along), 0.0, 1e-9);
+  // All of it is inside the box, which has its size above the ground.
+  Eigen::AlignedBox3d inside;
+  for (const auto& v : drawn->mesh->vertices) {
+    inside.extend(box->X_WM.inverse() * (drawn->X_WM * v.cast<double>()));
+  }
+  const Eigen::AlignedBox3d hull = box->mesh->bounds();
+  EXPECT_LT((hull.max() - Vector3d(0.4, 0.1, 1.8)).norm(), 1e-6);
+  EXPECT_LT((inside.max() - hull.max()).norm(), 1e-6);
+  EXPECT_LT((inside.min().head<2>() - hull.min().head<2>()).norm(), 1e-6);
+  for (const auto& v : box->mesh->vertices) {
+    if (v.z() > 0.1f) continue;
+    const Vector3d p = box->X_WM * v.cast<double>();
+    EXPECT_LT(p.z(), world->terrain->height_m(p.x(), p.y()));
+  }
+}
+
+TEST(Obstacles, AMeshHasItsOwnSize) {
+  ParameterSet parameters = block("vineyard");
+  ParameterSet figure = parameters.make_group("obstacles");
+  figure.set("name", std::string("picker")).set("alley", std::int64_t{0});
+  figure.set("file", write_figure().string()).set("size_m", std::vector<double>{1, 1, 1});
+  parameters.set("obstacles", std::vector<ParameterSet>{figure});
+  EXPECT_EQ(test::config_error_of([&] { test::make_world("vineyard", parameters); }),
+            "obstacle 'picker' has both size_m and file: a mesh has its own size");
 }
 
 TEST(Obstacles, AreOnTheMapOnlyIfMapped) {

@@ -18,6 +18,7 @@
 #include "engine/io/files/output_folder.h"
 #include "engine/io/files/whole_folder.h"
 #include "engine/math/angles.h"
+#include "engine/sensors/camera/camera.h"
 #include "engine/sensors/camera/view_caster.h"
 #include "engine/sim/run_shelf.h"
 #include "engine/sim/session.h"
@@ -120,19 +121,14 @@ class Order {
                        cameras.empty() ? "the scenario has none" : join(cameras),
                        did_you_mean(config().camera, cameras)));
     }
-    const ParameterSet& parameters = found->part.parameters;
-    if (parameters.text("picture") == "depth") {
+    const sensors::CameraNature nature = sensors::camera_nature(found->part.parameters);
+    if (nature.takes_depth_alone) {
       fail(
           fmt::format("camera = '{}' takes pictures of depth alone; choose one of colour, grey or "
                       "a band",
                       config().camera));
     }
-    const auto& distortion =
-        parameters.has("distortion") ? parameters.numbers("distortion") : std::vector<double>{};
-    const bool is_ideal =
-        parameters.text("lens") == "brown_conrady" &&
-        std::all_of(distortion.begin(), distortion.end(), [](double k) { return k == 0.0; });
-    if (writes("kitti") && !is_ideal) {
+    if (writes("kitti") && nature.has_distortion) {
       fail(
           fmt::format("formats has kitti, which knows no distortion: '{}' must have the lens "
                       "brown_conrady with distortion: []",

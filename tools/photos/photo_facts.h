@@ -1,5 +1,5 @@
 #pragma once
-/// What a survey's photograph says of itself, for photogrammetry: camera, position, orientation.
+/// Facts in a survey's photograph, for photogrammetry: camera, position, orientation.
 
 #include <Eigen/Core>
 #include <string>

@@ -266,6 +266,14 @@ class Camera final : public MountedSensor<Picture> {
 
 }  // namespace
 
+CameraNature camera_nature(const ParameterSet& parameters) {
+  const CameraParams params = camera_table().read(parameters, "camera");
+  const std::vector<double>& k = params.lens.distortion;
+  return {params.picture == Content::kDepth,
+          params.lens.lens == CameraInfo::Lens::kFisheye ||
+              std::any_of(k.begin(), k.end(), [](double value) { return value != 0.0; })};
+}
+
 PartSpec camera_spec() {
   PartSpec spec = mounted_sensor_spec<Picture>(
       "camera",

@@ -20,6 +20,13 @@
 
 namespace vinerow::sensors {
 
+/// Facts of a camera before a run.
+struct CameraNature {
+  bool takes_depth_alone = false;
+  bool has_distortion = false;
+};
+CameraNature camera_nature(const ParameterSet& parameters);
+
 PartSpec camera_spec();
 /// @throws ConfigError if the lens folds, a picture takes longer than the period, or the world has
 /// too many things to be numbered

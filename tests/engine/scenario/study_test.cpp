@@ -126,7 +126,8 @@ TEST(SpaceFilling, SobolPointsAreThoseOfScipy) {
 TEST(StudyFault, OneSentenceWithPlaceAndCause) {
   EXPECT_EQ(
       fault("facters: {}"),
-      "my_study.yaml:3: facters: unknown key; did you mean 'factors'? (known: budget, derived, "
+      "my_study.yaml:3: facters: unknown key; did you mean 'factors'? (known: budget, dataset, "
+      "derived, "
       "description, factors, keep, metrics, name, scenario, seeds, set, stop, vinerow_study)");
   EXPECT_EQ(fault("factors: {a: {key: x.a, values: []}}"),
             "my_study.yaml:3: factors.a.values is empty, must have at least one value");

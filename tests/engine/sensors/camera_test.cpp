@@ -379,6 +379,41 @@ TEST(Camera, SeesTexturesTheRightWayUp) {
   }
 }
 
+TEST(Camera, SamplesOfAPixelLieAboutItsMiddle) {
+  // A symmetric panel whose slanted sides cross one pixel in 80 rows: the middle of what it covers
+  // is the middle of the picture, if the samples' is that of the pixel.
+  auto world = panel_world("");
+  auto mesh = std::make_shared<TriangleMesh>(*world->meshes[0].mesh);
+  mesh->vertices = {{0, 1, -1}, {0, -1, -1}, {0, -0.975f, 1}, {0, 0.975f, 1}};
+  world->meshes[0].mesh = mesh;
+  const auto behind_it = flat_world();
+  // From the west, so that the panel is brighter than the sky.
+  for (const auto& each : {world, behind_it}) each->daylight = {-0.5 * kPi, 0.6};
+  const test::SensorValues values = with(kSmall, {{"picture", std::string("red")},
+                                                  {"exposure_s", 0.00005},
+                                                  {"bits", std::int64_t{16}},
+                                                  {"shadows", false},
+                                                  {"samples", std::int64_t{4}}});
+  CameraBench bench(world, values), empty(behind_it, values);
+  bench.step(at(0.0, 0.0, 3.0));
+  empty.step(at(0.0, 0.0, 3.0));
+  const auto& info = bench.value<CameraInfo>("rover/s_info");
+  double middle = 0.0;
+  const int first = 5, last = 85;
+  for (int y = first; y < last; ++y) {
+    const double panel = number(bench.picture(), 60, y);
+    double sum = 0.0, moment = 0.0;
+    for (int x = 0; x < 120; ++x) {
+      const double behind = number(empty.picture(), x, y);
+      const double share = (number(bench.picture(), x, y) - behind) / (panel - behind);
+      sum += share;
+      moment += share * x;
+    }
+    middle += moment / sum / (last - first);
+  }
+  EXPECT_NEAR(middle, info.cx_px, 0.01);
+}
+
 TEST(Camera, RefusesATextureThatItCannotRead) {
   const std::string file = (std::filesystem::path(VINEROW_BINARY_DIR) / "absent.png").string();
   EXPECT_EQ(test::refusal_of([&] { CameraBench(panel_world(file), kSmall); }),

@@ -80,7 +80,7 @@ def surface_distances(points, folder, program):
     """From the terrain, or from the nearest of many points on all surfaces."""
     cloud = folder / "surface.xyz"
     call(program, "cloud", SCENARIO, "--uniform", 300, "--out", cloud)
-    surface = numpy.loadtxt(cloud, usecols=(0, 1, 2))
+    surface = numpy.loadtxt(cloud, usecols=(0, 1, 2), skiprows=1)  # after the names of the columns
     to_cloud, _ = scipy.spatial.cKDTree(surface).query(points, workers=2)
     with vinerow.open(SCENARIO) as session:
         ground = numpy.asarray(session.world().terrain.height_at(points[:, 0], points[:, 1])).ravel()

@@ -140,6 +140,20 @@ void check_cell_count(const Study& study, const io::SourceMark& mark) {
                           product, cells, kMaxCells));
 }
 
+/// A data set's list of names: at least one, each once.
+void check_names(const io::YamlNode& dataset, const char* key,
+                 const std::vector<std::string>& names) {
+  const io::YamlNode* node = dataset.find(key);
+  const io::SourceMark& mark = node ? node->mark : dataset.mark;
+  if (names.empty()) {
+    io::fail_at(mark, fmt::format("dataset.{} = [], must name at least one", key));
+  }
+  for (const std::string& name : names) {
+    if (std::count(names.begin(), names.end(), name) == 1) continue;
+    io::fail_at(mark, fmt::format("dataset.{} has '{}' twice", key, name));
+  }
+}
+
 }  // namespace
 
 Study load_study(const std::filesystem::path& named) {
@@ -178,7 +192,11 @@ Study load_study(const std::filesystem::path& named) {
   }
   if (const io::YamlNode* stop = root.find("stop")) study.stop_mark = stop->mark;
   if (const io::YamlNode* metrics = root.find("metrics")) study.metrics_mark = metrics->mark;
-  if (const io::YamlNode* dataset = root.find("dataset")) study.dataset_mark = dataset->mark;
+  if (const io::YamlNode* dataset = root.find("dataset")) {
+    study.dataset_mark = dataset->mark;
+    check_names(*dataset, "formats", study.dataset->formats);
+    check_names(*dataset, "classes", study.dataset->classes);
+  }
   if (const io::YamlNode* node = root.find("set")) study.set = read_set(*node);
   if (const io::YamlNode* node = root.find("factors")) study.factors = read_factors(*node);
   if (const io::YamlNode* node = root.find("derived")) study.derived = read_derived(*node);

@@ -61,6 +61,10 @@ enum class KeepRuns {
 /// plants), or of a setting.
 enum class SplitBy { kCell, kSeed, kSetting };
 
+/// Formats and classes of things that a data set may have.
+const std::vector<std::string>& dataset_formats();
+const std::vector<std::string>& dataset_classes();
+
 /// What `vinerow dataset` makes of the study's runs.
 struct DatasetConfig {
   std::string camera;             ///< "rover/front"

@@ -46,10 +46,10 @@ const ParameterTable<DatasetConfig>& dataset_table() {
                   "time between pictures; absent: by the camera's rate_Hz")
           .integer("pictures", &P::pictures, between(1, 1e6),
                    "most pictures of a run, which then ends; absent: all")
-          .texts("formats", &P::formats, "coco, yolo, kitti")
-          .texts("classes", &P::classes,
-                 "things to list: leaf, wood, trunk, bunch, fruit, post, wire, obstacle, vehicle, "
-                 "person, weed")
+          .texts("formats", &P::formats, "files of labels to write")
+          .one_of(dataset_formats())
+          .texts("classes", &P::classes, "things to list")
+          .one_of(dataset_classes())
           .integer("min_pixels", &P::min_pixels, between(1, 1e6),
                    "things of which fewer pixels are seen are not listed")
           .number("validation_share", "", &P::validation_share, between(0.0, 1.0),
@@ -70,6 +70,18 @@ const ParameterTable<DatasetConfig>& dataset_table() {
 }
 
 }  // namespace
+
+const std::vector<std::string>& dataset_formats() {
+  static const std::vector<std::string> names = {"coco", "yolo", "kitti"};
+  return names;
+}
+
+const std::vector<std::string>& dataset_classes() {
+  static const std::vector<std::string> names = {"leaf",    "wood",   "trunk", "bunch",
+                                                 "fruit",   "post",   "wire",  "obstacle",
+                                                 "vehicle", "person", "weed"};
+  return names;
+}
 
 const ParameterTable<StudyValues>& study_table() {
   using P = StudyValues;

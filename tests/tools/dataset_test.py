@@ -318,11 +318,14 @@ class BadInput(unittest.TestCase):
     def test_each_mistake_is_one_sentence(self):
         without = {key: value for key, value in STUDY.items() if key != "dataset"}
         self.refuse(without, r"has no 'dataset'; add dataset: \{camera: <vehicle>/<camera>\}")
-        self.refuse(changed(classes=["bunches"]), r"study.yaml:\d+: dataset.classes = 'bunches', must be one of: "
+        self.refuse(changed(classes=["bunches"]), r"study.yaml:\d+: dataset.classes has 'bunches', each must be one of: "
                     r"leaf, wood, .*; did you mean 'bunch'\?")
-        self.refuse(changed(classes=["bunch", "bunch"]), r"dataset.classes has 'bunch' twice")
-        self.refuse(changed(classes=[]), r"dataset.classes")
-        self.refuse(changed(formats=["voc"]), r"dataset.formats = 'voc', must be one of: coco, yolo, kitti")
+        self.refuse(changed(classes=["bunch", "bunch"]), r"study.yaml:\d+: dataset.classes has 'bunch' twice")
+        self.refuse(changed(classes=[]), r"study.yaml:\d+: dataset.classes = \[\], must name at least one")
+        self.refuse(changed(formats=["voc"]),
+                    r"study.yaml:\d+: dataset.formats has 'voc', each must be one of: coco, yolo, kitti")
+        self.refuse(changed(every_s=0.0105),
+                    r"dataset.every_s = 0.0105 s, must be a multiple of the physics step of 0.001 s")
         self.refuse(changed(camera="rover/frnt"), r"dataset.camera = 'rover/frnt', must be a sensor of type camera: "
                     r"rover/front; did you mean 'rover/front'\?")
         self.refuse(changed(camera="rover"), r"dataset.camera = 'rover', must be a sensor of type camera")
@@ -344,6 +347,15 @@ class BadInput(unittest.TestCase):
         self.assertEqual(result.returncode, 2)
         self.assertRegex(result.stderr, r"'.*/out' exists and is not empty: remove it, or choose another folder with")
         self.assertEqual((out / "mine.txt").read_text(), "mine")
+
+    def test_a_file_in_the_folders_place_is_left_alone(self):
+        out = self.folder / "out"
+        for content in ("", "mine"):
+            out.write_text(content)
+            result, _ = run(STUDY, self.folder)
+            self.assertEqual(result.returncode, 2)
+            self.assertRegex(result.stderr, r"'.*/out' is not a folder: remove it, or choose another folder with --out")
+            self.assertEqual(out.read_text(), content)
 
     def test_a_full_disk_leaves_nothing(self):
         # Beyond this size no file can be written.

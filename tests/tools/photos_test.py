@@ -202,6 +202,8 @@ class BadInput(unittest.TestCase):
         self.refuse("--pictures needs the world of a scenario, or --log", "--polygon", "x.csv", "--pictures")
         self.refuse("photographs of 8 x 5 pixels, must be from 16 to 8192 each way; change --picture-width", SCENARIO,
                     "--pictures", "--picture-width", "8")
+        self.refuse("--picture-width has no effect without --pictures", SCENARIO, "--picture-width", "640")
+        self.refuse("--sensor has no effect without --log", SCENARIO, "--pictures", "--sensor", "trigger")
         self.refuse("neither a scenario nor --polygon", SCENARIO, "--log", "runs/x", "--pictures")
 
 

@@ -24,13 +24,6 @@ Vector3d mean_near(const std::vector<Vector3d>& vertices, double z, double heigh
 
 }  // namespace
 
-const std::vector<std::string>& class_names() {
-  static const std::vector<std::string> names = {"leaf",    "wood",   "trunk", "bunch",
-                                                 "fruit",   "post",   "wire",  "obstacle",
-                                                 "vehicle", "person", "weed"};
-  return names;
-}
-
 std::string class_of(const MeshInstance& instance) {
   if (instance.surface == SurfaceClass::kTrunk && !instance.label) return "trunk";
   return to_string(instance.label.value_or(label_of(instance.surface)));

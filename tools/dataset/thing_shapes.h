@@ -13,9 +13,6 @@
 
 namespace vinerow::dataset {
 
-/// Names that a data set's `classes` may have.
-const std::vector<std::string>& class_names();
-
 /// Class of a mesh's things: its label, but "trunk" for trunks, whose label is "wood".
 std::string class_of(const MeshInstance& instance);
 

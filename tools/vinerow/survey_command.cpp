@@ -229,6 +229,12 @@ void add_survey_command(CLI::App& app, int& exit_status) {
       ->group(photographs);
   command->callback([arguments, &exit_status] {
     const bool has_scenario = !arguments->scenario.file.empty();
+    if (arguments->picture_width && !arguments->pictures) {
+      throw ConfigError("survey: --picture-width has no effect without --pictures");
+    }
+    if (!arguments->sensor.empty() && arguments->log.empty()) {
+      throw ConfigError("survey: --sensor has no effect without --log");
+    }
     if (!arguments->log.empty()) {
       if (!arguments->pictures || has_scenario || !arguments->polygon.empty()) {
         throw ConfigError("survey: --log needs --pictures, and neither a scenario nor --polygon");

@@ -13,7 +13,12 @@ namespace vinerow::io {
 WholeFolder::WholeFolder(std::filesystem::path folder) : folder_(std::move(folder)) {
   if (!folder_.has_filename()) folder_ = folder_.parent_path();  // "x/" is "x"
   std::error_code failed;
-  if (std::filesystem::exists(folder_, failed) && !std::filesystem::is_empty(folder_, failed)) {
+  const bool exists = std::filesystem::exists(std::filesystem::symlink_status(folder_, failed));
+  if (exists && !std::filesystem::is_directory(folder_, failed)) {
+    throw ConfigError(fmt::format(
+        "'{}' is not a folder: remove it, or choose another folder with --out", folder_.string()));
+  }
+  if (exists && !std::filesystem::is_empty(folder_, failed)) {
     throw ConfigError(
         fmt::format("'{}' exists and is not empty: remove it, or choose another "
                     "folder with --out",

@@ -8,7 +8,7 @@ namespace vinerow::io {
 class WholeFolder {
  public:
   /// Starts "<folder>.unfinished"; one that an earlier, killed program left is removed.
-  /// @throws ConfigError if the folder exists and is not empty, or cannot be created
+  /// @throws ConfigError if a file has that name, the folder is not empty, or cannot be created
   explicit WholeFolder(std::filesystem::path folder);
   /// Removes it unless it was finished.
   ~WholeFolder();

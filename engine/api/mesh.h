@@ -41,6 +41,12 @@ enum class Light : std::uint8_t {
   kPasses,  ///< as levels of detail do, and cards with the picture of a leaf
 };
 
+/// Leaves within the closed hull of a plant.
+struct Foliage {
+  double area_density_m2pm3 = 0.0;  ///< leaf area, one side, per volume of the hull; >= 0
+  double leaf_width_m = 0.1;        ///< of a mean blade; > 0
+};
+
 struct MeshInstance {
   std::string name;
   std::shared_ptr<const TriangleMesh> mesh;
@@ -50,7 +56,8 @@ struct MeshInstance {
   bool collides = true;  ///< used by physics and rays
   bool visible = true;   ///< shown in pictures
   Light light = Light::kAsDrawn;
-  std::optional<Label> label;  ///< absent: label_of(surface)
+  std::optional<Label> label;      ///< absent: label_of(surface)
+  std::optional<Foliage> foliage;  ///< of a canopy's hull; absent: not known
 };
 
 }  // namespace vinerow

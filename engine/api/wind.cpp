@@ -98,13 +98,19 @@ const ParameterTable<Wind>& wind_table() {
           .number("shelter", "", &P::shelter_attenuation, between(0.0, 5.0),
                   "attenuation a of exp(-a (1 - z/top)) across the rows of a block; 0: "
                   "none, 1.2: vines of leaf area index 2 (Goudriaan 1977)")
+          .boolean("shelter_by_leaves", &P::shelter_by_leaves,
+                   "true: shelter follows from the leaf area of the world's plants")
           .choice("atmosphere", &P::atmosphere,
                   {{"constant", Atmosphere::kConstant}, {"us76", Atmosphere::kStandard76}},
                   "uniform density, or US Standard Atmosphere 1976")
           .number("air_density_kgm3", "kg/m3", &P::air_density_kgm3, kPositive,
                   "density of a constant atmosphere; default: that of the standard at the altitude "
                   "of the world's origin, 1.225 at sea level")
-          .rule(judge_roughness);
+          .rule(judge_roughness)
+          .rule([](const P& wind) -> std::string {
+            if (!wind.shelter_by_leaves || wind.shelter_attenuation == 0.0) return "";
+            return "shelter and shelter_by_leaves exclude each other: give one of them";
+          });
   return table;
 }
 

@@ -68,6 +68,8 @@ struct Wind {
   /// exp(-attenuation (1 - z / top)) across the rows, with less attenuation along them; 0: no
   /// shelter.
   double shelter_attenuation = 0.0;
+  /// The world computes shelter_attenuation from the leaf area of its plants.
+  bool shelter_by_leaves = false;
 
   bool calm() const {
     const bool still_ground = height_law != WindHeightLaw::kLinear || ground_speed_mps == 0.0;

@@ -25,10 +25,11 @@ struct SpawnPoint {
   double yaw_rad = 0.0;
 };
 
-/// Sun position, for pictures.
+/// Sun position and clouds, for pictures and cameras.
 struct Daylight {
   double sun_azimuth_rad = 2.6;  ///< from north, clockwise
   double sun_elevation_rad = 0.75;
+  double cloud_cover = 0.0;  ///< share of the sky, 0 clear to 1 overcast
 };
 
 struct WorldModel {

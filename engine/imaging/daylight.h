@@ -1,9 +1,19 @@
 #pragma once
-/// Light of the scene by the sun's position, in the scale of atmosphere.h.
+/// Light of the scene by the sun's position and the clouds, in the scale of atmosphere.h.
+///
+/// **Clouds.** F. Kasten, G. Czeplak, "Solar and terrestrial radiation dependent on the amount and
+/// type of cloud", Solar Energy 24, 1980: of the light on level ground a cloud cover N leaves the
+/// share k = 1 - 0.75 N^3.4, and the part of it that comes from the sky grows with N^2 up to all of
+/// it. With the sun's irradiance E on a surface facing it, its height s = sin(elevation), and the
+/// irradiance D of the clear sky:
+///
+///   E(N) = (1 - N^2) k E        D(N) = k D + N^2 k s E
+///
+/// The share 1 - N of the sky still shows its blue; the rest of D(N) comes from the clouds. Their
+/// radiance grows from the horizon to three times as much at the zenith (overcast sky of CIE S
+/// 011). Clouds have no shapes: a cover of one half is a veil over all the sky.
 
 #include <Eigen/Core>
-#include <algorithm>
-#include <cmath>
 
 #include "engine/api/world_model.h"
 #include "engine/imaging/atmosphere.h"
@@ -12,35 +22,17 @@ namespace vinerow::imaging {
 
 struct SceneLight {
   Eigen::Vector3d sun_direction_W;  ///< unit, towards the sun
-  Atmosphere atmosphere;
+  Atmosphere atmosphere;            ///< its sky with the clouds
   Eigen::Vector3d sun_irradiance;
-  Eigen::Vector3d sky_irradiance;
+  Eigen::Vector3d sky_irradiance;                              ///< with the clouds
+  Eigen::Vector3d cloud_irradiance = Eigen::Vector3d::Zero();  ///< part of it, from the clouds
   Eigen::Vector3d ground_irradiance;  ///< reflected by sunlit ground onto downward faces
   double exposure = 1.0;              ///< factor from radiance to the input of the tone curve
 };
 
-inline SceneLight make_light(const Daylight& daylight) {
-  SceneLight light;
-  const double elevation = std::max(daylight.sun_elevation_rad, 0.035);
-  const double azimuth = daylight.sun_azimuth_rad;  // from north, clockwise
-  light.sun_direction_W = {std::sin(azimuth) * std::cos(elevation),
-                           std::cos(azimuth) * std::cos(elevation), std::sin(elevation)};
-  light.atmosphere = calc_atmosphere(elevation);
-  light.sun_irradiance = light.atmosphere.sun_irradiance.cast<double>();
-  // Clouds and light reflected between leaves and walls add about half of the clear sky's light,
-  // nearly white.
-  const Eigen::Vector3d clear = light.atmosphere.sky_irradiance.cast<double>();
-  light.sky_irradiance = 1.35 * clear + 0.055 * light.sun_irradiance;
-  const Eigen::Vector3d ground_albedo(0.14, 0.13, 0.07);
-  light.ground_irradiance = ground_albedo.cwiseProduct(
-      light.sun_irradiance * light.sun_direction_W.z() + light.sky_irradiance);
-  // Exposure at which a white card half facing the sun has the value 1 at any hour.
-  const Eigen::Vector3d luminance(0.2126, 0.7152, 0.0722);
-  const double key =
-      luminance.dot(light.sun_irradiance) * (0.35 + 0.65 * light.sun_direction_W.z()) +
-      luminance.dot(light.sky_irradiance);
-  light.exposure = 1.15 * 3.14159265 / key;
-  return light;
-}
+SceneLight make_light(const Daylight& daylight);
+
+/// Radiance of the clouds. @param sin_elevation  of the direction, in [0, 1]
+Eigen::Vector3d cloud_radiance(const SceneLight& light, double sin_elevation);
 
 }  // namespace vinerow::imaging

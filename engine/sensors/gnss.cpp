@@ -89,8 +89,8 @@ class Gnss final : public SatelliteReceiver {
       : SatelliteReceiver(parameters, context),
         jamming_(make_jamming(params.jamming)),
         tracking_(params.signals, make_gnss_sky(params.sky, context.world->origin, context.part),
-                  *context.scene, context.period.s(), params.modes.is_running_at_start,
-                  context.random("fading")),
+                  *context.scene, LeafAreaDensity(*context.world), context.period.s(),
+                  params.modes.is_running_at_start, context.random("fading")),
         modes_(params.modes, context.period.s()),
         error_(params.errors.resolve(), context.period.s(), context.random()) {}
 

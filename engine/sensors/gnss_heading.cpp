@@ -66,9 +66,11 @@ class GnssHeadingSensor final : public MountedSensor<GnssHeading> {
       : MountedSensor(parameters, context),
         params_(params),
         first_(params.signals, make_gnss_sky(params.sky, context.world->origin, context.part),
-               *context.scene, context.period.s(), true, context.random("fading")),
+               *context.scene, LeafAreaDensity(*context.world), context.period.s(), true,
+               context.random("fading")),
         second_(params.signals, make_gnss_sky(params.sky, context.world->origin, context.part),
-                *context.scene, context.period.s(), true, context.random("fading_second")),
+                *context.scene, LeafAreaDensity(*context.world), context.period.s(), true,
+                context.random("fading_second")),
         modes_(params.modes, context.period.s()),
         random_(context.random()) {
     for (GaussMarkov& walk : walks_) {

@@ -60,7 +60,8 @@ const ParameterTable<GnssSignals>& gnss_signal_table() {
           .number("carrier_cn0_dBHz", "dB-Hz", &P::carrier_cn0_dBHz, between(0.0, 60.0),
                   "minimum for a position by carrier phase")
           .number("leaves_dB_per_m", "dB/m", &P::leaves_dB_per_m, between(0.0, 100.0),
-                  "loss in canopy; tree crowns have 2 in the L band")
+                  "loss in canopy of 6 m2/m3 leaf area, in proportion where the world knows its "
+                  "leaves; tree crowns have 2 in the L band")
           .number("fading_share", "", &P::fading_share, between(0.0, 2.0),
                   "standard deviation of the fading by moving leaves and antenna, as a share of "
                   "that loss")
@@ -78,10 +79,12 @@ const ParameterTable<GnssSignals>& gnss_signal_table() {
 }
 
 GnssTracking::GnssTracking(const GnssSignals& signals, GnssSky sky, const SceneQuery& scene,
-                           double period_s, bool locked, RandomStream random)
+                           LeafAreaDensity leaves, double period_s, bool locked,
+                           RandomStream random)
     : signals_(signals),
       sky_(std::move(sky)),
       scene_(&scene),
+      leaves_(std::move(leaves)),
       period_s_(period_s),
       random_(random),
       satellites_(sky_.size()) {
@@ -94,18 +97,19 @@ GnssTracking::GnssTracking(const GnssSignals& signals, GnssSky sky, const SceneQ
 }
 
 double GnssTracking::leaves_m(const Vector3d& p_W, const Vector3d& direction_W) {
-  double total_m = 0.0, from_m = 0.0, entered_m = 0.0;
+  double total_m = 0.0, from_m = 0.0, entered_m = 0.0, share = 1.0;
   bool inside = false;
   for (int crossing = 0; crossing < kMaxCrossings; ++crossing) {
     const auto hit =
         scene_->cast_ray(p_W + from_m * direction_W, direction_W, kReach_m - from_m, kSeen);
-    if (!hit) return inside ? total_m + kLoneLeaves_m : total_m;
+    if (!hit) return inside ? total_m + share * kLoneLeaves_m : total_m;
     if (hit->surface != SurfaceClass::kCanopy) return -1.0;
     const double at_m = from_m + hit->distance_m;
     if (inside) {
-      total_m += at_m - entered_m;
+      total_m += share * (at_m - entered_m);
     } else {
       entered_m = at_m;
+      share = leaves_.of(hit->mesh) / kUsualLeafAreaDensity_m2pm3;
     }
     inside = !inside;
     from_m = at_m + kStep_m;

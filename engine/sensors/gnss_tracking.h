@@ -4,9 +4,11 @@
 ///
 /// A ray from the antenna through the true world checks every satellite above the mask. Ground,
 /// posts, stems and other solid objects block it. Leaves attenuate it by a loss per metre of
-/// canopy, plus a fading share of that loss (a first-order Gauss-Markov process for each
-/// satellite). Two successive canopy surfaces along a ray bound leaves; an unpaired one, a sheet
-/// without a back, counts as `lone_leaves_m`.
+/// canopy, in proportion to its leaf area density where the world knows it (their optical depth
+/// grows with the water in them: Jackson, Schmugge, "Vegetation effects on the microwave emission
+/// of soils", Remote Sens. Environ. 36, 1991), plus a fading share of that loss (a first-order
+/// Gauss-Markov process for each satellite). Two successive canopy surfaces along a ray bound
+/// leaves; an unpaired one, a sheet without a back, counts as `lone_leaves_m`.
 ///
 ///   C/N0 = horizon + (zenith - horizon) sin(elevation) - leaves - jamming
 ///
@@ -23,6 +25,7 @@
 
 #include <vector>
 
+#include "engine/api/foliage.h"
 #include "engine/api/parameter_table_fwd.h"
 #include "engine/api/scene_query.h"
 #include "engine/core/random.h"
@@ -62,9 +65,10 @@ struct GnssView {
 
 class GnssTracking {
  public:
-  /// @param scene  outlives this  @param locked  begins as if it had tracked all sky for long
-  GnssTracking(const GnssSignals& signals, GnssSky sky, const SceneQuery& scene, double period_s,
-               bool locked, RandomStream random);
+  /// @param scene  outlives this  @param leaves  of the scene's world  @param locked  begins as if
+  /// it had tracked all sky for long
+  GnssTracking(const GnssSignals& signals, GnssSky sky, const SceneQuery& scene,
+               LeafAreaDensity leaves, double period_s, bool locked, RandomStream random);
 
   /// Advances by one tick. Draws one number per satellite, visible or not.
   /// @param deaf  no satellite is received
@@ -79,7 +83,8 @@ class GnssTracking {
     GaussMarkov fading;       ///< unit variance
   };
 
-  /// @returns metres of leaves along the ray to the sky; negative if it is blocked
+  /// @returns metres of leaves of the usual density along the ray to the sky; negative if it is
+  /// blocked
   double leaves_m(const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction_W);
   void track(Satellite& satellite, double cn0_dBHz) const;
   double weight(double cn0_dBHz, double noise_share) const;
@@ -87,6 +92,7 @@ class GnssTracking {
   GnssSignals signals_;
   GnssSky sky_;
   const SceneQuery* scene_;
+  LeafAreaDensity leaves_;
   double period_s_;
   RandomStream random_;
   std::vector<Satellite> satellites_;

@@ -168,6 +168,23 @@ TEST(MeshWorld, AHillsideIsTheGroundWithoutAWordAndNoPlaneCutsIt) {
   EXPECT_EQ(said->meshes[0].surface, SurfaceClass::kObstacle);
 }
 
+TEST(MeshWorld, CanopyMayStateItsLeafArea) {
+  const std::string cube = test::temporary_file("cube.obj", test::cube_obj());
+  const auto world = test::make_world(
+      "mesh",
+      with_items(
+          {{{"file", cube}, {"surface", std::string("canopy")}, {"leaf_area_density_m2pm3", 4.5}},
+           {{"file", cube}, {"x_m", 9.0}}}));
+  ASSERT_TRUE(world->meshes[0].foliage);
+  EXPECT_EQ(world->meshes[0].foliage->area_density_m2pm3, 4.5);
+  EXPECT_FALSE(world->meshes[1].foliage);
+  EXPECT_EQ(
+      test::config_error_of([&] {
+        test::make_world("mesh", with_items({{{"file", cube}, {"leaf_area_density_m2pm3", 4.5}}}));
+      }),
+      "items[0]: leaf_area_density_m2pm3 is only for surface: canopy");
+}
+
 TEST(MeshWorld, AHouseIsNoGround) {
   // 20 m x 10 m x 6 m: more wall than roof is needed for a house, half as much is allowed to
   // ground.

@@ -75,6 +75,28 @@ pictures: {{width: 960, height: 720, shares: [1.0], cameras: {{view: {{kind: fix
     runs.save(figure, "seasons", colours=224, dpi=110)
 
 
+def draw_orchard_seasons(runs: Runs) -> None:
+    """Apple trees from winter to leaf fall, and ripe ones under clouds."""
+    stages = {"dormant (0)": (0, 0), "full bloom (65)": (65, 0), "half-grown fruit (75)": (75, 0), "ripe (89)": (89, 0),
+              "ripe, overcast": (89, 1), "leaf fall (95)": (95, 0)}
+    figure, axes = panels(2, 3, width=9.0, height=2.25)
+    for ax, (title, (stage, clouds)) in zip(axes, stages.items()):
+        run = runs.run(f"orchard_season_{stage}_{clouds}", f"""
+vinerow: 1
+name: orchard_season
+duration_s: 0.1
+world: {{type: orchard, plant_rows: 2, row_length_m: 20, field_length_m: 24, field_width_m: 12, row_start_y_m: 2, tree_spacing_m: 1.6,
+  row_width_m: 1.4, crown_base_m: 0.6, tree_height_m: 3, waves_m: 0.1, sun_azimuth_deg: 160, sun_elevation_deg: 38, cloud_cover: {clouds},
+  leaves: {{crop: apple, bbch: {stage}, fruits: 90}}}}
+vehicles: {{}}
+pictures: {{width: 960, height: 720, shares: [1.0], cameras: {{view: {{kind: fixed, position_m: [0.6, 1.0, 1.7], look_at_m: [4.4, 6.5, 1.5], fov_deg: 46}}}}}}
+""", pictures=True)
+        ax.imshow(runs.frame(run, "view", 640))
+        ax.set_title(title)
+        bare(ax)
+    runs.save(figure, "orchard_seasons", colours=224, dpi=110)
+
+
 def draw_vehicles(runs: Runs) -> None:
     robot = LISTING.search((ROOT / "docs/tutorial/3_your_robot.md").read_text()).group(1)
     cases = {

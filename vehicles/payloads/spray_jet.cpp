@@ -52,6 +52,7 @@ SprayMeeting meet(const SceneQuery& scene, const Eigen::Vector3d& p_W,
   if (!hit) return met;
   met.meets = true;
   met.distance_m = hit->distance_m;
+  met.mesh = hit->mesh;
   met.is_canopy = hit->surface == SurfaceClass::kCanopy;
   if (!met.is_canopy) return met;
   const Eigen::Vector3d inside_W = p_W + (hit->distance_m + kBehind_m) * direction_W;

@@ -14,26 +14,27 @@
 ///
 /// **Leaves.** Of the liquid that enters a canopy's hull the share 1 - exp(-k l) stays on the
 /// leaves along the chord l (Beer's law: Ross, "The radiation regime and architecture of plant
-/// stands", 1981), with k = leaf area density times the mean projection of leaves (1/2 for leaves
-/// of all inclinations). The deposit of the first half of the chord is placed at the entry, the
-/// rest at the exit. The remaining jet continues behind the canopy.
+/// stands", 1981), with k = leaf area density of that hull times the mean projection of leaves (1/2
+/// for leaves of all inclinations). The deposit of the first half of the chord is placed at the
+/// entry, the rest at the exit. The remaining jet continues behind the canopy.
 ///
 /// **Loss.** A share of the liquid leaves the jet per metre: fine droplets and evaporation. Liquid
 /// that is in the air at the end of the reach is lost too, as is the last hundredth of a portion.
 
 #include <Eigen/Core>
 
+#include "engine/api/foliage.h"
 #include "engine/api/scene_query.h"
 
 namespace vinerow::vehicles {
 
 struct SprayParams {
-  double jet_speed_mps = 25.0;    ///< u_0
-  double jet_decay_m = 0.6;       ///< d
-  double reach_m = 4.0;           ///< longest x
-  double settling_mps = 0.3;      ///< s
-  double loss_length_m = 15.0;    ///< distance after which 1/e is left
-  double extinction_per_m = 3.0;  ///< k
+  double jet_speed_mps = 25.0;   ///< u_0
+  double jet_decay_m = 0.6;      ///< d
+  double reach_m = 4.0;          ///< longest x
+  double settling_mps = 0.3;     ///< s
+  double loss_length_m = 15.0;   ///< distance after which 1/e is left
+  double leaf_projection = 0.5;  ///< k over the leaf area density
 };
 
 class SprayJet {
@@ -62,10 +63,12 @@ struct SprayFate {
 };
 
 /// Traces a portion of liquid along a jet. No heap if `deposit` uses none.
+/// @param leaves  of the scene's world
 /// @param deposit  void(const Eigen::Vector3d& p_W, double ml): called for liquid on leaves
 template <class F>
-SprayFate trace_spray(const SceneQuery& scene, const SprayParams& params, const SprayJet& jet,
-                      double portion_ml, F&& deposit);
+SprayFate trace_spray(const SceneQuery& scene, const LeafAreaDensity& leaves,
+                      const SprayParams& params, const SprayJet& jet, double portion_ml,
+                      F&& deposit);
 
 namespace internal {
 
@@ -73,6 +76,7 @@ namespace internal {
 struct SprayMeeting {
   bool meets = false;
   bool is_canopy = false;
+  int mesh = -1;  ///< as RayHit::mesh
   double distance_m = 0.0;
   double chord_m = 0.0;  ///< through the canopy; 0: it has no far side
 };
@@ -85,8 +89,9 @@ constexpr double kMinShare = 0.01;
 }  // namespace internal
 
 template <class F>
-SprayFate trace_spray(const SceneQuery& scene, const SprayParams& params, const SprayJet& jet,
-                      double portion_ml, F&& deposit) {
+SprayFate trace_spray(const SceneQuery& scene, const LeafAreaDensity& leaves,
+                      const SprayParams& params, const SprayJet& jet, double portion_ml,
+                      F&& deposit) {
   SprayFate fate;
   double left_ml = portion_ml;
   const auto lose_along = [&](double along_m) {
@@ -122,7 +127,8 @@ SprayFate trace_spray(const SceneQuery& scene, const SprayParams& params, const 
       fate.canopy_ml += left_ml;
       return fate;
     }
-    const double half = std::exp(-0.5 * params.extinction_per_m * met.chord_m);
+    const double extinction_per_m = params.leaf_projection * leaves.of(met.mesh);
+    const double half = std::exp(-0.5 * extinction_per_m * met.chord_m);
     const double first_ml = left_ml * (1.0 - half), second_ml = (left_ml - first_ml) * (1.0 - half);
     p_W = entry_W + met.chord_m * direction;
     deposit(entry_W, first_ml);

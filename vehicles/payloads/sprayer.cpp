@@ -66,6 +66,8 @@ class Sprayer final : public Payload {
         params_(read_sprayer(parameters, context.part)),
         period_(context.period),
         scene_(*context.scene),
+        leaves_(params_.leaf_area_density_m2pm3 ? LeafAreaDensity(*params_.leaf_area_density_m2pm3)
+                                                : LeafAreaDensity(*context.world)),
         switch_(params_, *context.map),
         wind_(*context.world, *context.scene, context.random("wind")),
         patches_(*context.world, params_.step_m, params_.band_m),
@@ -189,7 +191,7 @@ class Sprayer final : public Payload {
     const Vector3d p_W = X_WB * nozzle.p_B - at.z() * period_.s() * v_W;
     const SprayJet jet(params_.spray, p_W, X_WB.q * direction_B, v_W, wind_W);
     const SprayFate fate =
-        trace_spray(scene_, params_.spray, jet, portion_ml,
+        trace_spray(scene_, leaves_, params_.spray, jet, portion_ml,
                     [this](const Vector3d& hit_W, double ml) { put(hit_W, ml); });
     fate_.canopy_ml += fate.canopy_ml;
     fate_.ground_ml += fate.ground_ml;
@@ -242,6 +244,7 @@ class Sprayer final : public Payload {
   SprayerParams params_;
   Duration period_;
   const SceneQuery& scene_;
+  LeafAreaDensity leaves_;
   SectionSwitch switch_;
   WindProbe wind_;
   CanopyPatches patches_;

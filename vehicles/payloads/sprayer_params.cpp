@@ -17,8 +17,6 @@ struct SprayerSettings {
   double rated_flow_lps = 0.2 / 60.0;
   double rated_pressure_bar = 3.0;
   double pressure_bar = 4.0;
-  double leaf_area_density_m2pm3 = 6.0;
-  double leaf_projection = 0.5;
   std::optional<double> lead_s;
 };
 
@@ -82,9 +80,10 @@ const ParameterTable<SprayerSettings>& sprayer_table() {
                   "speed at which the droplets fall")
           .number("loss_length_m", "m", jet(&SprayParams::loss_length_m), kPositive,
                   "distance after which 1/e of the liquid is left in the jet")
-          .number("leaf_area_density_m2pm3", "m2/m3", &S::leaf_area_density_m2pm3, kPositive,
-                  "leaf area (one side) in a cubic metre of canopy")
-          .number("leaf_projection", "", &S::leaf_projection, between(0.05, 1.0),
+          .number("leaf_area_density_m2pm3", "m2/m3", of(&P::leaf_area_density_m2pm3), kPositive,
+                  "leaf area (one side) in a cubic metre of canopy; default: that of the world's "
+                  "plants, and 6 where the world does not know it")
+          .number("leaf_projection", "", jet(&SprayParams::leaf_projection), between(0.05, 1.0),
                   "mean projection of a leaf's area across the jet")
           .choice("switching", of(&P::on_legs_only), {{"rows", false}, {"legs", true}},
                   "sections open beside a row of the map; legs: on the plan's legs only")
@@ -129,7 +128,6 @@ SprayerParams read_sprayer(const ParameterSet& parameters, const std::string& wh
   p.hollow_half_angle_rad = s.hollow_share * p.spray_half_angle_rad;
   // Turbulent flow through an orifice.
   p.nozzle_flow_lps = s.rated_flow_lps * std::sqrt(s.pressure_bar / s.rated_pressure_bar);
-  p.spray.extinction_per_m = s.leaf_area_density_m2pm3 * s.leaf_projection;
   p.lead_s = s.lead_s.value_or(p.valve_lag_s);
   return p;
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// Parameters of a sprayer: positions and flow of its nozzles, and rules for its sections.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,8 @@ struct SprayerParams {
   double hollow_half_angle_rad = 0.0;  ///< of the inner cone, which is empty; follows from a share
   double nozzle_flow_lps = 0.0;        ///< of one nozzle; follows from the working pressure
   double tank_l = 60.0;
-  SprayParams spray;  ///< its extinction follows from the leaves
+  SprayParams spray;
+  std::optional<double> leaf_area_density_m2pm3;  ///< absent: the world's
 
   // Sections: left and right.
   bool on_legs_only = false;

@@ -43,8 +43,16 @@ const ParameterTable<MeshItem>& mesh_item_table() {
                    {"obstacle", SurfaceClass::kObstacle}},
                   "kind of object; absent: terrain if it is under the whole world, else obstacle")
           .choice("label", &P::label, kLabelChoices, "what cameras call it; absent: by its surface")
+          .number("leaf_area_density_m2pm3", "m2/m3", &P::leaf_area_density_m2pm3,
+                  between(0.0, 100.0),
+                  "with surface: canopy, leaf area (one side) in its closed meshes; absent: not "
+                  "known")
           .boolean("collides", &P::collides, "true: vehicles and rays collide with it")
-          .boolean("visible", &P::visible, "true: pictures show it");
+          .boolean("visible", &P::visible, "true: pictures show it")
+          .rule([](const P& p) -> std::string {
+            if (!p.leaf_area_density_m2pm3 || p.surface == SurfaceClass::kCanopy) return "";
+            return "leaf_area_density_m2pm3 is only for surface: canopy";
+          });
   return table;
 }
 

@@ -30,6 +30,7 @@ struct MeshItem {
   /// Absent: terrain if it is below the whole world (ground_meshes.h), else an obstacle.
   std::optional<SurfaceClass> surface;
   std::optional<Label> label;  ///< for cameras; absent: by the surface
+  std::optional<double> leaf_area_density_m2pm3;  ///< of canopy
   bool collides = true;
   bool visible = true;
 };

@@ -18,6 +18,7 @@
 #include "worlds/mesh/mesh_params.h"
 #include "worlds/mesh/sdf_rows.h"
 #include "worlds/parts/alley_spawns.h"
+#include "worlds/parts/leaf_area.h"
 
 namespace vinerow::worlds {
 namespace {
@@ -68,9 +69,15 @@ class MeshLibrary {
     return {begin, world_.meshes.size()};
   }
 
-  /// What cameras call it.
-  void call(const MeshObject& object, std::optional<Label> label) {
-    for (std::size_t i = object.begin; i < object.end; ++i) world_.meshes[i].label = label;
+  /// Sets what cameras call it, and its leaves.
+  void describe(const MeshObject& object, std::optional<Label> label,
+                std::optional<double> leaf_area_density_m2pm3) {
+    for (std::size_t i = object.begin; i < object.end; ++i) {
+      world_.meshes[i].label = label;
+      if (leaf_area_density_m2pm3) {
+        world_.meshes[i].foliage = Foliage{*leaf_area_density_m2pm3};
+      }
+    }
   }
 
  private:
@@ -91,7 +98,7 @@ MeshObject place_item(const MeshItem& item, MeshLibrary& library) {
   const MeshObject object =
       library.place(name, loaded, X_WM, item.surface.value_or(SurfaceClass::kObstacle),
                     item.collides, item.visible);
-  library.call(object, item.label);
+  library.describe(object, item.label, item.leaf_area_density_m2pm3);
   return object;
 }
 
@@ -340,6 +347,7 @@ std::unique_ptr<WorldModel> make_mesh_world(const ParameterSet& parameters,
   if (!rows.empty()) add_rows(*world, rows, models.has_vine_meshes(), params);
   mapping::fill_occupancy(params.map, *world, {}, row_end_margin_m(params.planting));
   world->spawn_points.push_back({"centre", box.center(), 0.0});
+  settle_shelter(*world);
   return world;
 }
 

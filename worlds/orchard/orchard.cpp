@@ -12,6 +12,7 @@
 #include "engine/math/angles.h"
 #include "worlds/mapping/from_truth/map_parameters.h"
 #include "worlds/parts/alley_spawns.h"
+#include "worlds/parts/leaf_area.h"
 #include "worlds/parts/common.h"
 #include "worlds/parts/obstacles.h"
 #include "worlds/parts/terrain.h"
@@ -164,6 +165,7 @@ std::unique_ptr<WorldModel> make_orchard(const ParameterSet& parameters,
   } else {
     mapping::fill_occupancy(params.map, *world, on_map, 0.0);
   }
+  settle_shelter(*world);
   return world;
 }
 

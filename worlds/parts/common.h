@@ -19,7 +19,7 @@ struct Surroundings {
   Daylight daylight;
   Wind wind;
 };
-/// `soil`, `sun_azimuth_deg`, `sun_elevation_deg`, the group `wind`.
+/// `soil`, `sun_azimuth_deg`, `sun_elevation_deg`, `cloud_cover`, the group `wind`.
 const ParameterTable<Surroundings>& surroundings_table();
 /// @param seed  of the run, for random gusts
 /// @throws ConfigError as find_soil()

@@ -13,6 +13,7 @@ namespace {
 const Eigen::Vector3f kBark(0.075f, 0.052f, 0.036f);
 const Eigen::Vector3f kSteel(0.32f, 0.33f, 0.34f);
 const Eigen::Vector3f kWood(0.22f, 0.165f, 0.11f);
+constexpr double kWireRadius_m = 0.0025;
 constexpr double kBuriedDepth_m = 0.1;  // feet reach below the ground's triangles
 
 }  // namespace
@@ -125,9 +126,47 @@ TriangleMesh make_wires(const mapping::RowCurve& row, const mapping::GroundHeigh
       // At the ends the wire meets the leaning post.
       const double sign = i == 0 ? -1.0 : (i + 1 == stations.size() ? 1.0 : 0.0);
       const Eigen::Vector3d p(sign * height_m * std::tan(params.end_post_lean_rad), 0.0, height_m);
-      points.push_back({mapping::row_frame(row, ground, stations[i]) * p, 0.0025});
+      points.push_back({mapping::row_frame(row, ground, stations[i]) * p, kWireRadius_m});
     }
     append_tube(mesh, points, 3, kSteel);
+  }
+  return mesh;
+}
+
+TriangleMesh make_roof_wires(const mapping::RowCurve& row, const mapping::GroundHeight& ground,
+                             double start_m, double end_m, const TrellisParams& params,
+                             const RoofParams& roof) {
+  constexpr double kApart_m = 0.5;
+  TriangleMesh mesh;
+  const std::vector<double> stations = spread_posts(start_m, end_m, params.post_spacing_m);
+  const int gaps = std::max(1, static_cast<int>(std::ceil(roof.width_m / kApart_m - 1e-9)));
+  for (int w = 0; w <= gaps; ++w) {
+    const double left_m = roof.width_m * (static_cast<double>(w) / gaps - 0.5);
+    std::vector<TubePoint> points;
+    for (const double s_m : stations) {
+      const Pose X_WR = mapping::row_frame(row, ground, s_m);
+      points.push_back({X_WR * Eigen::Vector3d(0.0, left_m, roof.height_m), kWireRadius_m});
+    }
+    append_tube(mesh, points, 3, kSteel);
+  }
+  return mesh;
+}
+
+TriangleMesh make_roof_beams(const mapping::RowCurve& row, const mapping::GroundHeight& ground,
+                             const std::vector<double>& post_s_m, const RoofParams& roof) {
+  // The wires lie on the beams.
+  constexpr double kRadius_m = 0.03;
+  TriangleMesh mesh;
+  for (const double s_m : post_s_m) {
+    mesh.things.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
+    const Pose X_WR = mapping::row_frame(row, ground, s_m);
+    const auto end = [&](double side) {
+      return TubePoint{X_WR * Eigen::Vector3d(0.0, side * 0.5 * roof.width_m,
+                                              roof.height_m - kRadius_m - kWireRadius_m),
+                       kRadius_m};
+    };
+    const std::array<TubePoint, 2> beam = {end(-1.0), end(1.0)};
+    append_tube(mesh, beam, 6, kWood);
   }
   return mesh;
 }

@@ -47,6 +47,18 @@ TriangleMesh make_end_posts(const mapping::RowCurve& row, const mapping::GroundH
 TriangleMesh make_wires(const mapping::RowCurve& row, const mapping::GroundHeight& ground,
                         double start_m, double end_m, const TrellisParams& params);
 
+/// Roof of a pergola, half of its width to each side: wires along the row at most 0.5 m apart, and
+/// beams across above the posts.
+struct RoofParams {
+  double height_m = 1.85;  ///< above ground
+  double width_m = 2.5;
+};
+TriangleMesh make_roof_wires(const mapping::RowCurve& row, const mapping::GroundHeight& ground,
+                             double start_m, double end_m, const TrellisParams& params,
+                             const RoofParams& roof);
+TriangleMesh make_roof_beams(const mapping::RowCurve& row, const mapping::GroundHeight& ground,
+                             const std::vector<double>& post_s_m, const RoofParams& roof);
+
 /// Arc lengths of posts: both ends, and evenly between them at most the spacing apart.
 std::vector<double> spread_posts(double start_m, double end_m, double spacing_m);
 

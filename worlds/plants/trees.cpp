@@ -8,6 +8,7 @@
 #include "engine/api/world_model.h"
 #include "engine/math/angles.h"
 #include "worlds/parts/foliage.h"
+#include "worlds/parts/leaf_area.h"
 #include "worlds/parts/primitives.h"
 
 namespace vinerow::worlds {
@@ -120,11 +121,11 @@ void plant_tree_row(WorldModel& world, int row_number, const mapping::RowCurve& 
     X_WT.p = {p.x(), p.y(), ground(p.x(), p.y())};
     X_WT.q = quaternion_from_rpy({0.0, 0.0, std::atan2(d.y(), d.x()) + turn});
 
-    const auto add = [&](std::string name, const std::string& mesh_name, SurfaceClass surface,
-                         const std::function<TriangleMesh()>& make) -> MeshInstance& {
+    const auto add = [&](const char* what, SurfaceClass surface,
+                         const std::shared_ptr<const TriangleMesh>& mesh) -> MeshInstance& {
       MeshInstance instance;
-      instance.name = std::move(name);
-      instance.mesh = store.get(mesh_name, make);
+      instance.name = fmt::format("{}/{}", what, tree);
+      instance.mesh = mesh;
       instance.X_WM = X_WT;
       instance.surface = surface;
       instance.material.name = to_string(surface);
@@ -132,33 +133,45 @@ void plant_tree_row(WorldModel& world, int row_number, const mapping::RowCurve& 
       world.meshes.push_back(std::move(instance));
       return world.meshes.back();
     };
-    MeshInstance& hull = add("crown_hull/" + tree, "crown_hull/" + key, SurfaceClass::kCanopy,
-                             [&] { return make_crown_hull(crown); });
-    hull.visible = false;
-    hull.light = params.leaves ? Light::kPasses : Light::kMeets;
-    add("tree_trunk/" + tree, "tree_trunk/" + key, SurfaceClass::kTrunk,
-        [&] { return make_tree_trunk(params, crown, random("tree_trunk." + key)); });
     const CrownSpace space{crown.centre, crown.half_axes_m};
-    for (int level = 0; level < 3; ++level) {
+    const double area_m2 = params.leaves ? leaf_area_m2(*params.leaves, space) : 1.0;
+    if (area_m2 > 0.0) {
+      MeshInstance& hull =
+          add("crown_hull", SurfaceClass::kCanopy,
+              store.get("crown_hull/" + key, [&] { return make_crown_hull(crown); }));
+      hull.visible = false;
+      hull.light = params.leaves ? Light::kPasses : Light::kMeets;
+      if (params.leaves) {
+        hull.foliage = foliage_in(*hull.mesh, area_m2, leaf_width_m(*params.leaves));
+      }
+    }
+    add("tree_trunk", SurfaceClass::kTrunk, store.get("tree_trunk/" + key, [&] {
+      return make_tree_trunk(params, crown, random("tree_trunk." + key));
+    }));
+    for (int level = 0; level < 3 && area_m2 > 0.0; ++level) {
       const std::string mesh_name = fmt::format("crown/{}#lod{}", key, level);
-      MeshInstance& leaves =
-          add(fmt::format("crown/{}#lod{}", tree, level), mesh_name, SurfaceClass::kCanopy, [&] {
-            return params.leaves ? make_tree_leaves(*params.leaves, space, level, random(mesh_name))
-                                 : make_crown_foliage(crown.centre, crown.half_axes_m,
-                                                      tree_foliage_detail(params.leaf_cards, level),
-                                                      random(mesh_name));
-          });
+      MeshInstance& leaves = add("crown", SurfaceClass::kCanopy, store.get(mesh_name, [&] {
+        return params.leaves ? make_tree_leaves(*params.leaves, space, level, random(mesh_name))
+                             : make_crown_foliage(crown.centre, crown.half_axes_m,
+                                                  tree_foliage_detail(params.leaf_cards, level),
+                                                  random(mesh_name));
+      }));
+      leaves.name += fmt::format("#lod{}", level);
       leaves.collides = false;
       if (!params.leaves) leaves.material = leaf_material();
       if (!params.leaves || level > 0) leaves.light = Light::kPasses;
     }
-    if (params.leaves && params.leaves->fruits > 0) {
-      MeshInstance& fruit = add("fruit/" + tree, "fruit/" + key, SurfaceClass::kCanopy, [&] {
-        return make_fruit(*params.leaves, space, random("fruit." + key));
-      });
-      fruit.collides = false;
-      fruit.label = Label::kFruit;
-    }
+    if (!params.leaves) continue;
+    MeshInstance& twigs =
+        add("twigs", SurfaceClass::kTrunk,
+            store.get("twigs/" + key, [&] { return make_twigs(space, random("twigs." + key)); }));
+    twigs.collides = false;
+    const auto fruit = store.get(
+        "fruit/" + key, [&] { return make_fruit(*params.leaves, space, random("fruit." + key)); });
+    if (fruit->triangles.empty()) continue;
+    MeshInstance& hanging = add("fruit", SurfaceClass::kCanopy, fruit);
+    hanging.collides = false;
+    hanging.label = Label::kFruit;
   }
 }
 

@@ -27,8 +27,9 @@ struct TreeParams {
 
 /// Appends trees at the stations of a row: "crown_hull/row_03/tree_07" (collides, not drawn),
 /// "crown/row_03/tree_07#lod0" to "#lod2" (drawn), "tree_trunk/row_03/tree_07" (collides). Leaves
-/// are cards with the picture of a leaf, or those of TreeLeaves: then also "fruit/row_03/tree_07",
-/// and light meets leaves and fruit instead of the hull.
+/// are cards with the picture of a leaf, or those of TreeLeaves: then also "twigs/row_03/tree_07"
+/// and "fruit/row_03/tree_07" (flowers or fruit), and light meets them instead of the hull. A tree
+/// without leaves has no hull.
 void plant_tree_row(WorldModel& world, int row_number, const mapping::RowCurve& row,
                     const std::vector<double>& tree_s_m, const mapping::GroundHeight& ground,
                     const TreeParams& params, MeshStore& store);

@@ -210,7 +210,7 @@ class VineGrower {
                 const NodeDraws& draws) const {
     Vector3d next = dir + 0.17 * Vector3d(draws.wander_along, draws.wander_across, 0.0);
     if (growth_.pruning == Pruning::kPergola) {
-      const double roof_m = space_.top_m - kRoofBelowTop_m;
+      const double roof_m = roof_height_m(space_);
       next += Vector3d(0.0, 0.25 * start.side, 0.8 * (roof_m - p.z()) - 0.5 * dir.z());
     } else {
       const double catch_m = 0.22 * space_.width_m;
@@ -355,6 +355,10 @@ const ParameterTable<VineGrowth>& growth_table() {
           .include(&P::variety, variety_table())
           .rule(find_fault_in_growth);
   return table;
+}
+
+double roof_height_m(const VineSpace& space) {
+  return space.top_m - kRoofBelowTop_m;
 }
 
 VineOrgans grow_vines(const VineGrowth& growth, const VineSpace& space, double length_m,

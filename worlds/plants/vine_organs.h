@@ -63,6 +63,9 @@ struct VineSpace {
   double top_m = 2.0;
 };
 
+/// Of the wires of a pergola's roof, above the ground.
+double roof_height_m(const VineSpace& space);
+
 /// @param length_m  of the stretch; its vines are spread evenly
 VineOrgans grow_vines(const VineGrowth& growth, const VineSpace& space, double length_m,
                       int vine_count, std::uint64_t seed, const std::string& name);

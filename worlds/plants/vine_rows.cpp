@@ -9,6 +9,7 @@
 #include "engine/api/parameter_table.h"
 #include "engine/api/world_model.h"
 #include "worlds/parts/foliage.h"
+#include "worlds/parts/leaf_area.h"
 #include "worlds/plants/leaf_outline.h"
 #include "worlds/plants/vine_meshes.h"
 
@@ -77,6 +78,7 @@ class Planter {
     int run_number = 0, chunk_number = 0;
     for (const Run& run : find_runs(row)) {
       std::vector<CanopyStretch> stretches;
+      leaf_area_m2_ = 0.0;
       for (const Chunk& chunk : cut_run(row, run, planting_.chunk_m)) {
         const std::string chunk_name = fmt::format("{}/chunk_{:02}", row_name, chunk_number++);
         const std::string shape_key = shape_of(chunk, chunk_name);
@@ -123,6 +125,10 @@ class Planter {
         SurfaceClass::kCanopy);
     hull.visible = false;
     hull.light = planting_.growth ? Light::kPasses : Light::kMeets;
+    if (planting_.growth) {
+      hull.foliage =
+          foliage_in(*hull.mesh, leaf_area_m2_, std::sqrt(planting_.growth->variety.leaf_area_m2));
+    }
     world_.meshes.push_back(std::move(hull));
   }
 
@@ -141,6 +147,7 @@ class Planter {
                   const std::string& shape_key) {
     const Pose X_WM = mapping::stretch_frame(row.curve, ground_, chunk.start_m, chunk.end_m);
     const VineOrgans& organs = organs_of(shape_key, chunk);
+    for (const LeafOrgan& leaf : organs.leaves) leaf_area_m2_ += leaf.area_m2;
     const auto add = [&](const char* what, Label label, const auto& list, const auto& make) {
       if (list.empty()) return;
       for (int level = 0; level < 3; ++level) {
@@ -215,6 +222,12 @@ class Planter {
     }
     add("wire/" + row_name, SurfaceClass::kWire,
         [&] { return make_wires(row.curve, ground_, start_m, end_m, trellis); });
+    if (!planting_.growth || planting_.growth->pruning != Pruning::kPergola) return;
+    const RoofParams roof{roof_height_m(planting_.space), planting_.space.width_m};
+    add("roof_wire/" + row_name, SurfaceClass::kWire,
+        [&] { return make_roof_wires(row.curve, ground_, start_m, end_m, trellis, roof); });
+    add("roof_beam/" + row_name, SurfaceClass::kPost,
+        [&] { return make_roof_beams(row.curve, ground_, row.post_s_m, roof); });
   }
 
   WorldModel& world_;
@@ -223,6 +236,7 @@ class Planter {
   MeshStore& store_;
   std::map<std::string, CanopyShape> shapes_;
   std::map<std::string, VineOrgans> organs_;
+  double leaf_area_m2_ = 0.0;  ///< of the run
 };
 
 }  // namespace

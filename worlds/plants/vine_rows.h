@@ -3,7 +3,8 @@
 ///
 /// Names: "canopy_hull/row_03/run_0" (collides, not drawn), "canopy/row_03/chunk_07#lod0" to
 /// "#lod2" (drawn, one of them by distance), "trunk/row_03/chunk_07#lod0" (collides) and "#lod1",
-/// "post/row_03", "end_post/row_03", "wire/row_03".
+/// "post/row_03", "end_post/row_03", "wire/row_03"; of a pergola also "roof_wire/row_03" and
+/// "roof_beam/row_03".
 ///
 /// Leaves are cards with the picture of a leaf, or organs of VineGrowth: then also
 /// "shoots/row_03/chunk_07#lod0" and "bunches/...", each with its levels, and light meets the

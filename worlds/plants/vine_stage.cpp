@@ -2,25 +2,13 @@
 
 #include <array>
 #include <cmath>
-#include <span>
+
+#include "worlds/plants/stage_table.h"
 
 namespace vinerow::worlds {
 namespace {
 
-struct Point {
-  double bbch, value;
-};
-
-/// Straight lines between points, constant beyond them.
-double interpolate(std::span<const Point> points, double bbch) {
-  if (bbch <= points.front().bbch) return points.front().value;
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    if (bbch > points[i].bbch) continue;
-    const Point &a = points[i - 1], &b = points[i];
-    return a.value + (b.value - a.value) * (bbch - a.bbch) / (b.bbch - a.bbch);
-  }
-  return points.back().value;
-}
+using Point = StagePoint;
 
 /// Leaves that are unfolded: 11 to 19 by definition. Coombe (Aust. J. Grape Wine Res. 1, 1995, 104)
 /// puts 53 at Eichhorn and Lorenz's stage 15, whose shoots have eight leaves; 57 at twelve to

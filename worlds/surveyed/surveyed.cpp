@@ -18,6 +18,7 @@
 #include "worlds/mapping/from_truth/map_parameters.h"
 #include "worlds/mapping/model/row_map.h"
 #include "worlds/parts/alley_spawns.h"
+#include "worlds/parts/leaf_area.h"
 #include "worlds/parts/common.h"
 #include "worlds/parts/obstacles.h"
 #include "worlds/parts/terrain.h"
@@ -261,6 +262,7 @@ std::unique_ptr<WorldModel> make_surveyed(const ParameterSet& parameters,
   plant_vine_rows(*world, vine_rows, ground, planting, store);
   mapping::fill_occupancy(params.map, *world, place_obstacles(params.obstacles, *world),
                           row_end_margin_m(planting));
+  settle_shelter(*world);
   return world;
 }
 

@@ -12,6 +12,7 @@
 #include "engine/math/angles.h"
 #include "worlds/mapping/model/row_map.h"
 #include "worlds/parts/alley_spawns.h"
+#include "worlds/parts/leaf_area.h"
 #include "worlds/parts/mesh_store.h"
 #include "worlds/vineyard/vineyard_params.h"
 
@@ -233,6 +234,7 @@ std::unique_ptr<WorldModel> make_vineyard(const ParameterSet& parameters,
   plant_vine_rows(*world, vine_rows, ground, planting, store);
   mapping::fill_occupancy(params.map, *world, place_obstacles(params.obstacles, *world),
                           row_end_margin_m(planting));
+  settle_shelter(*world);
   return world;
 }
 

@@ -130,7 +130,9 @@ SceneLook::SceneLook(const WorldModel& world, Channel channel)
       break;
   }
   grey(Vector3f::UnitX());
-  sky_ *= air_share_;
+  // Clouds scatter all bands alike.
+  const Vector3f cloud = light_.cloud_irradiance.cast<float>();
+  sky_ = air_share_ * sky_ + Vector3f::Constant((1.0f - air_share_) * cloud.x());
   // What the ground throws back is mostly from grass.
   const Infrared grass = infrared_of({0.07f, 0.10f, 0.04f}, Label::kGround);
   ground_ = (channel == Channel::kNir ? grass.nir : grass.red_edge) *
@@ -274,7 +276,9 @@ Vector3f SceneLook::far_radiance(const Vector3d& dir_W) const {
       sky.setConstant(sky.y());
       break;
     default:
-      sky.setConstant(air_share_ * sky.x());
+      sky.setConstant(air_share_ * sky.x() +
+                      (1.0f - air_share_) *
+                          static_cast<float>(imaging::cloud_radiance(light_, dir_W.z()).x()));
       break;
   }
   return sky + disc * sun_;

@@ -17,6 +17,7 @@ using test::PlainScene;
 
 constexpr double kStart_s = 771'717'600.0;  // 2024-06-15 10:00
 constexpr double kMask_deg = 10.0;
+const LeafAreaDensity kUsual(kUsualLeafAreaDensity_m2pm3);
 
 GnssSky sky_of_barolo() {
   std::vector<CircularOrbit> orbits = gps_orbits();
@@ -27,11 +28,11 @@ GnssSky sky_of_barolo() {
 
 /// What tracks with the defaults, but without fading.
 GnssView look(const SceneQuery& scene, const Vector3d& p_W, double time_s = 0.0,
-              double jamming_dB = 0.0) {
+              double jamming_dB = 0.0, const LeafAreaDensity& leaves = kUsual) {
   ParameterSet parameters(gnss_signal_table().specs(), "gnss");
   parameters.set("fading_share", 0.0);
-  GnssTracking tracking(gnss_signal_table().read(parameters, "s"), sky_of_barolo(), scene, 0.2,
-                        true, RandomStream(1, "rover", "s"));
+  GnssTracking tracking(gnss_signal_table().read(parameters, "s"), sky_of_barolo(), scene, leaves,
+                        0.2, true, RandomStream(1, "rover", "s"));
   return tracking.look(time_s, p_W, false, jamming_dB);
 }
 
@@ -93,14 +94,36 @@ TEST(GnssTracking, LeavesTakeSoMuchPerMetreOfThem) {
   EXPECT_GT(hidden_from_phase, hidden_from_code);
 }
 
+TEST(GnssTracking, TheLossGrowsWithTheLeafArea) {
+  // The hedge with half and twice the usual 6 m2/m3: 3 and 12 dB for each metre.
+  PlainScene scene;
+  scene.boxes.push_back({{1, -1e5, -1}, {3, 1e5, 1e5}});
+  for (const double density_m2pm3 : {3.0, 12.0}) {
+    int hidden = 0;
+    for_each_hour([&](double time_s, const std::vector<Vector3d>& seen) {
+      int code = 0;
+      for (const Vector3d& d : seen) {
+        const double leaves_m = d.x() > 1e-3 ? 2.0 / d.x() : 0.0;
+        const double cn0_dBHz = 38.0 + 10.0 * d.z() - density_m2pm3 * leaves_m;
+        ASSERT_GT(std::abs(cn0_dBHz - 20.0), 1e-3);
+        code += cn0_dBHz >= 20.0;
+      }
+      const GnssView view = look(scene, {0, 0, 1}, time_s, 0.0, LeafAreaDensity(density_m2pm3));
+      EXPECT_EQ(view.code.count(), code) << density_m2pm3 << " " << time_s;
+      hidden += static_cast<int>(seen.size()) - code;
+    });
+    EXPECT_GT(hidden, 20);
+  }
+}
+
 TEST(GnssTracking, WeakSatellitesCountLessInTheGeometry) {
   // All have the usual 45 dB-Hz; 10 dB less are ten times the noise, which is all of a phase's
   // variance and a tenth of a code's: 10 and 0.9 + 0.1 * 10 times the variance.
   ParameterSet parameters(gnss_signal_table().specs(), "gnss");
   parameters.set("zenith_cn0_dBHz", 45.0).set("horizon_cn0_dBHz", 45.0);
   const PlainScene open;
-  GnssTracking tracking(gnss_signal_table().read(parameters, "s"), sky_of_barolo(), open, 0.2, true,
-                        RandomStream(1, "rover", "s"));
+  GnssTracking tracking(gnss_signal_table().read(parameters, "s"), sky_of_barolo(), open, kUsual,
+                        0.2, true, RandomStream(1, "rover", "s"));
   const GnssView clear = tracking.look(0.0, {0, 0, 1}, false, 0.0);
   const GnssView jammed = tracking.look(0.0, {0, 0, 1}, false, 10.0);
   Dilution a, b;
@@ -114,8 +137,8 @@ TEST(GnssTracking, AfterABlockageCodeComesBackBeforePhase) {
   ParameterSet parameters(gnss_signal_table().specs(), "gnss");
   parameters.set("reacquisition_s", 1.0).set("carrier_lock_s", 3.0);
   const PlainScene open;
-  GnssTracking tracking(gnss_signal_table().read(parameters, "s"), sky_of_barolo(), open, 0.2, true,
-                        RandomStream(1, "rover", "s"));
+  GnssTracking tracking(gnss_signal_table().read(parameters, "s"), sky_of_barolo(), open, kUsual,
+                        0.2, true, RandomStream(1, "rover", "s"));
   const auto counts = [&](bool in_outage) {
     const GnssView view = tracking.look(0.0, {0, 0, 1}, in_outage, 0.0);
     return std::pair(view.code.count() > 0, view.carrier.count() > 0);

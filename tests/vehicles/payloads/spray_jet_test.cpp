@@ -21,7 +21,6 @@ SprayParams quiet() {
   SprayParams params;
   params.settling_mps = 0.0;
   params.loss_length_m = 1e12;
-  params.extinction_per_m = 2.0;
   return params;
 }
 
@@ -79,7 +78,9 @@ Traced trace(const WorldModel& world, const SprayParams& params, const Vector3d&
   const physics::WorldScene scene(world);
   Traced result;
   const SprayJet jet(params, p_W, direction_W, Vector3d::Zero(), wind_W);
-  result.fate = trace_spray(scene, params, jet, 10.0, [&](const Vector3d& p, double ml) {
+  // k = 2 per metre.
+  const LeafAreaDensity leaves(4.0);
+  result.fate = trace_spray(scene, leaves, params, jet, 10.0, [&](const Vector3d& p, double ml) {
     result.deposits.emplace_back(p, ml);
   });
   return result;

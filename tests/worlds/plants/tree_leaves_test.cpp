@@ -4,10 +4,13 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "engine/api/map.h"
 #include "engine/math/angles.h"
 #include "engine/physics/static_scene.h"
+#include "tests/support/folder_test.h"
 #include "tests/worlds/world_fixture.h"
 #include "worlds/plants/leaf_outline.h"
 #include "worlds/plants/tree_leaves.h"
@@ -59,6 +62,133 @@ TEST(TreeLeaves, FillTheCrownWithTheirArea) {
         EXPECT_LT(from.cwiseQuotient(crown.half_axes_m).norm(), level == 2 ? 1.6 : 1.2);
       }
     }
+  }
+}
+
+TEST(TreeLeaves, HaveTheAreaOfTheirStage) {
+  const CrownSpace crown{{0.0, 0.0, 2.0}, {1.2, 0.9, 1.1}};
+  const double volume_m3 = 4.0 / 3.0 * kPi * crown.half_axes_m.prod();
+  TreeLeaves apple;
+  const auto share_at = [&](double bbch) {
+    apple.bbch = bbch;
+    const double share = leaf_area_m2(apple, crown) / volume_m3 / 2.6;
+    for (int level = 0; level < 2; ++level) {
+      const TriangleMesh mesh = make_tree_leaves(apple, crown, level, RandomStream(1, "", "tree"));
+      EXPECT_NEAR(area_m2(mesh) / volume_m3 / 2.6, share, 0.02 + 0.12 * share) << bbch << level;
+    }
+    return share;
+  };
+  // Forshey et al. 1987: 10 % at full bloom, 23 % at petal fall, eightfold four weeks after bloom,
+  // when apples have about 20 mm.
+  EXPECT_NEAR(share_at(65.0), 0.10, 0.01);
+  EXPECT_NEAR(share_at(69.0), 0.23, 0.01);
+  EXPECT_NEAR(share_at(72.0), 0.80, 0.01);
+  EXPECT_EQ(share_at(79.0), 1.0);
+  EXPECT_EQ(share_at(0.0), 0.0);
+  EXPECT_EQ(share_at(97.0), 0.0);
+  EXPECT_LT(share_at(95.0), 0.8);
+  TreeLeaves olive;
+  olive.crop = Crop::kOlive;
+  olive.bbch = 0.0;
+  EXPECT_GT(leaf_area_m2(olive, crown), 0.7 * 2.6 * volume_m3) << "olives are evergreen";
+}
+
+TEST(TreeLeaves, OfALaterStageAreTheSameLeaves) {
+  // Every leaf of petal fall lies where one of the full crown lies.
+  const CrownSpace crown{{0.0, 0.0, 2.0}, {1.2, 0.9, 1.1}};
+  TreeLeaves apple;
+  const TriangleMesh full = make_tree_leaves(apple, crown, 0, RandomStream(1, "", "tree"));
+  apple.bbch = 69.0;
+  const TriangleMesh young = make_tree_leaves(apple, crown, 0, RandomStream(1, "", "tree"));
+  const auto firsts = [](const TriangleMesh& mesh) {
+    std::vector<std::array<float, 3>> points;
+    for (const std::uint32_t t : mesh.things) {
+      const Eigen::Vector3f& v = mesh.vertices[mesh.triangles[t][0]];
+      points.push_back({v.x(), v.y(), v.z()});
+    }
+    std::sort(points.begin(), points.end());
+    return points;
+  };
+  const auto a = firsts(young), b = firsts(full);
+  EXPECT_LT(a.size(), b.size());
+  std::size_t found = 0;
+  for (const auto& p : a) {
+    const auto near = [&](const auto& q) {
+      return std::abs(p[0] - q[0]) + std::abs(p[1] - q[1]) + std::abs(p[2] - q[2]) < 0.005f;
+    };
+    found += std::any_of(b.begin(), b.end(), near) ? 1u : 0u;
+  }
+  EXPECT_EQ(found, a.size());
+}
+
+TEST(TreeFruit, GrowsFromFlowers) {
+  const CrownSpace crown{{0.0, 0.0, 2.0}, {1.2, 0.9, 1.1}};
+  TreeLeaves apple;
+  const auto at = [&](double bbch) {
+    apple.bbch = bbch;
+    return make_fruit(apple, crown, RandomStream(1, "", "fruit"));
+  };
+  const auto first_width_m = [](const TriangleMesh& mesh) {
+    Eigen::AlignedBox3f box;
+    const std::uint32_t end =
+        mesh.things.size() > 1 ? mesh.things[1] : static_cast<std::uint32_t>(mesh.triangles.size());
+    for (std::uint32_t t = 0; t < end; ++t) {
+      for (const std::uint32_t v : mesh.triangles[t]) box.extend(mesh.vertices[v]);
+    }
+    return box.sizes().maxCoeff();
+  };
+  for (const double bbch : {0.0, 19.0, 55.0, 92.0}) EXPECT_TRUE(at(bbch).triangles.empty()) << bbch;
+  // Clusters of five flowers, each as wide as a hand.
+  const TriangleMesh bloom = at(65.0);
+  EXPECT_EQ(bloom.things.size(), 3u * 60u);
+  EXPECT_NEAR(first_width_m(bloom), 0.09, 0.04);
+  EXPECT_GT(bloom.colours.front().minCoeff(), 0.45f);
+  EXPECT_LT(at(67.5).triangles.size(), bloom.triangles.size() / 2);
+  // 10 and 20 mm by definition of 71 and 72; half of the final size at 75.
+  EXPECT_EQ(at(71.0).things.size(), 60u);
+  const double ripe_m = first_width_m(at(89.0));
+  // 70 mm, from 0.85 to 1.1 of it; a sphere of 20 faces is a little smaller.
+  EXPECT_GT(ripe_m, 0.85 * 0.85 * 0.07);
+  EXPECT_LT(ripe_m, 1.1 * 0.07);
+  EXPECT_NEAR(first_width_m(at(71.0)) / ripe_m, 10.0 / 70.0, 0.01);
+  EXPECT_NEAR(first_width_m(at(72.0)) / ripe_m, 20.0 / 70.0, 0.01);
+  EXPECT_NEAR(first_width_m(at(75.0)) / ripe_m, 0.5, 0.06);
+  // Green turns red.
+  const auto redness = [&](double bbch) {
+    const Eigen::Vector3f c = at(bbch).colours.front();
+    return c.x() / c.y();
+  };
+  EXPECT_LT(redness(79.0), 1.0f);
+  EXPECT_GT(redness(89.0), 5.0f);
+}
+
+TEST(TreeLeaves, ABareTreeHasTwigsAndNoHull) {
+  ParameterSet parameters = test::world_parameters("orchard");
+  parameters.set("plant_rows", 1.0).set("row_length_m", 12.0);
+  ParameterSet leaves = parameters.make_group("leaves");
+  leaves.set("bbch", 0.0);
+  parameters.set("leaves", std::vector<ParameterSet>{leaves});
+  const std::shared_ptr<const WorldModel> world = test::make_world("orchard", parameters);
+  int twigs = 0;
+  for (const MeshInstance& instance : world->meshes) {
+    EXPECT_NE(instance.surface, SurfaceClass::kCanopy) << instance.name;
+    twigs += instance.name.starts_with("twigs/") ? 1 : 0;
+  }
+  EXPECT_GT(twigs, 0);
+}
+
+TEST(TreeLeaves, AStageThatRunsBesideOthersIsRefused) {
+  for (const double bbch : {20.0, 35.0, 50.0}) {
+    ParameterSet parameters = test::world_parameters("orchard");
+    EXPECT_EQ(test::config_error_of([&] {
+                ParameterSet leaves = parameters.make_group("leaves");
+                leaves.set("bbch", bbch);
+                parameters.set("leaves", std::vector<ParameterSet>{leaves});
+                test::make_world("orchard", parameters);
+              }),
+              fmt::format("leaves: bbch = {}, stages 20 to 50 run beside leaves and flowers: give "
+                          "0 to 19 or 51 to 99",
+                          bbch));
   }
 }
 

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
+#include "engine/api/foliage.h"
 #include "engine/api/map.h"
 #include "engine/core/error.h"
 #include "engine/core/random.h"
@@ -68,6 +70,72 @@ TEST(VineWorld, LightPassesBetweenLeavesWhereTheHullIsClosed) {
   const Gaps winter = find_gaps(world_at(0));
   EXPECT_EQ(winter.hull, 1.0);
   EXPECT_EQ(winter.light, 1.0);
+}
+
+TEST(VineWorld, GapsFollowFromTheHullsLeafArea) {
+  // Beer's law with the density that sprays and satellite signals use: exp(-k l) along a chord l,
+  // k half the density. Shoots and the rows of leaves along them make the difference.
+  for (const double bbch : {57.0, 75.0, 81.0}) {
+    const auto world = world_at(bbch);
+    const physics::StaticScene scene(world);
+    const LeafAreaDensity leaves(*world);
+    const auto& line = world->rows->rows[1].line_W;
+    const Eigen::Vector3d along = (line.back() - line.front()).normalized();
+    const Eigen::Vector3d across(-along.y(), along.x(), 0.0);
+    const SurfaceMask canopy = mask_of(SurfaceClass::kCanopy);
+    double expected = 0.0, rays = 0.0, passed = 0.0, density = 0.0;
+    for (double s_m = 3.0; s_m < 19.0; s_m += 0.053) {
+      for (double z_m = 0.95; z_m < 1.85; z_m += 0.047) {
+        Eigen::Vector3d p_W = line.front() + s_m * along - across;
+        p_W.z() += z_m;
+        const auto entry = scene.queries().cast_ray(p_W, across, 2.0, canopy);
+        if (!entry) continue;
+        const Eigen::Vector3d inside_W = p_W + (entry->distance_m + 1e-4) * across;
+        const auto exit = scene.queries().cast_ray(inside_W, across, 2.0, canopy);
+        ASSERT_TRUE(exit);
+        expected += std::exp(-0.5 * leaves.of(entry->mesh) * exit->distance_m);
+        passed += scene.light().cast_ray(p_W, across, 2.0, canopy) ? 0.0 : 1.0;
+        density = leaves.of(entry->mesh);
+        rays += 1.0;
+      }
+    }
+    std::printf("BBCH %.0f: %.1f m2/m3, %.0f %% of rays pass, %.0f %% by Beer's law\n", bbch,
+                density, 100 * passed / rays, 100 * expected / rays);
+    EXPECT_NEAR(passed / rays, expected / rays, 0.06) << bbch;
+  }
+}
+
+TEST(VineWorld, APergolaHasARoof) {
+  ParameterSet parameters = test::world_parameters("vineyard");
+  parameters.set("row_count", 2.0).set("row_length_m", 22.0).set("relief_m", 0.0);
+  parameters.set("waves_m", 0.0).set("canopy_width_m", 2.4).set("arm_height_m", 1.6);
+  ParameterSet vines = parameters.make_group("vines");
+  vines.set("bbch", 0.0).set("pruning", std::string("pergola"));
+  parameters.set("vines", std::vector<ParameterSet>{vines});
+  const auto world = test::make_world("vineyard", parameters);
+  EXPECT_EQ(count_named(*world, "roof_wire/"), 2);
+  EXPECT_EQ(count_named(*world, "roof_beam/"), 2);
+  for (const MeshInstance& instance : world->meshes) {
+    if (!instance.name.starts_with("roof_")) continue;
+    const bool is_wire = instance.surface == SurfaceClass::kWire;
+    EXPECT_EQ(is_wire, instance.name.starts_with("roof_wire/"));
+    const bool is_first = instance.name.ends_with("row_00");
+    const auto& line = world->rows->rows[is_first ? 0 : 1].line_W;
+    const Eigen::Vector3d along = (line.back() - line.front()).normalized();
+    double left_m = 0.0, right_m = 0.0, top_m = 0.0;
+    for (const Eigen::Vector3f& v : instance.mesh->vertices) {
+      const Eigen::Vector3d p = v.cast<double>() - line.front();
+      const double to_left_m = along.x() * p.y() - along.y() * p.x();
+      left_m = std::max(left_m, to_left_m);
+      right_m = std::min(right_m, to_left_m);
+      top_m = std::max(top_m, p.z());
+    }
+    // 0.25 m below the canopy's top at 2 m, beams below the wires; half of the width to each side.
+    EXPECT_NEAR(top_m, is_wire ? 1.7525 : 1.7475, 5e-3);
+    EXPECT_NEAR(left_m, 1.2, 0.01);
+    EXPECT_NEAR(right_m, -1.2, 0.01);
+  }
+  EXPECT_EQ(count_named(*world_at(0), "roof_"), 0);
 }
 
 /// Distance to the nearest triangle that light meets, each tested alone (Moeller and Trumbore

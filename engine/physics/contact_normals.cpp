@@ -129,9 +129,9 @@ ContactNormals::ContactNormals(const WorldModel& world) : world_(world) {
   for (std::size_t i = 0; i < world.meshes.size(); ++i) {
     const MeshInstance& instance = world.meshes[i];
     if (!is_rigid(instance)) continue;
-    const auto [entry, is_new] = bends_.try_emplace(instance.mesh.get());
-    if (is_new) entry->second = find_edge_bends(*instance.mesh);
-    bends_of_instance_[i] = &entry->second;
+    const TriangleMesh* mesh = instance.mesh.get();
+    const auto bends = bends_.try_emplace(mesh, [mesh] { return find_edge_bends(*mesh); }).first;
+    bends_of_instance_[i] = &bends->second;
   }
 }
 
@@ -176,7 +176,7 @@ std::optional<Vector3d> ContactNormals::correct_on_mesh(int mesh_index, int tria
                                                         const Vector3d& p_W,
                                                         const Vector3d& normal_W,
                                                         double distance_m) const {
-  const EdgeBends& bends = *bends_of_instance_[mesh_index];
+  const EdgeBends& bends = bends_of_instance_[mesh_index]->get();
   if (triangle < 0 || triangle >= static_cast<int>(bends.size())) return normal_W;
   const MeshInstance& instance = world_.meshes[mesh_index];
   const TriangleMesh& mesh = *instance.mesh;

@@ -9,7 +9,8 @@
 /// dropped (the neighbouring triangle reports the true one). Normals that deviate by no more than
 /// the narrow phase's noise are set to the face normal.
 ///
-/// Cost: three bytes per triangle for meshes, nothing for height fields; no heap at run time.
+/// Cost: three bytes per triangle of the meshes that were in a contact, computed at the first; then
+/// no heap. Nothing for height fields.
 
 #include <Eigen/Core>
 #include <array>
@@ -19,6 +20,7 @@
 #include <vector>
 
 #include "engine/api/forward.h"
+#include "engine/physics/lazy.h"
 
 namespace vinerow::physics {
 
@@ -53,8 +55,8 @@ class ContactNormals {
                                                  double distance_m) const;
 
   const WorldModel& world_;
-  std::map<const TriangleMesh*, EdgeBends> bends_;
-  std::vector<const EdgeBends*> bends_of_instance_;
+  std::map<const TriangleMesh*, Lazy<EdgeBends>> bends_;
+  std::vector<const Lazy<EdgeBends>*> bends_of_instance_;
 };
 
 }  // namespace vinerow::physics

@@ -27,7 +27,7 @@ Eigen::AlignedBox3f calc_bounds_W(const MeshInstance& instance) {
   return {(bounds.min() - margin).cast<float>(), (bounds.max() + margin).cast<float>()};
 }
 
-std::unique_ptr<Tree> make_tree(const TriangleMesh& mesh) {
+Tree make_tree(const TriangleMesh& mesh) {
   std::vector<Eigen::AlignedBox3f> boxes;
   boxes.reserve(mesh.triangles.size());
   for (const auto& triangle : mesh.triangles) {
@@ -35,7 +35,7 @@ std::unique_ptr<Tree> make_tree(const TriangleMesh& mesh) {
     for (const std::uint32_t v : triangle) box.extend(mesh.vertices[v]);
     boxes.push_back(box);
   }
-  return std::make_unique<Tree>(boxes);
+  return Tree(boxes);
 }
 
 /// Oriented box with its own frame O, where it is |x_i| <= half_extents_m_i, relative to a tree's
@@ -106,15 +106,13 @@ void search_terrain(const HeightField& field, const Pose& X_WBox, const Vector3d
 }  // namespace
 
 MeshDistance::MeshDistance(const WorldModel& world) : world_(world) {
-  std::map<const TriangleMesh*, const Tree*> known;
+  std::map<const TriangleMesh*, const Lazy<Tree>*> known;
   std::vector<Eigen::AlignedBox3f> boxes;
   for (const MeshInstance& instance : world.meshes) {
     if (!instance.collides) continue;
-    const Tree*& tree = known[instance.mesh.get()];
-    if (!tree) {
-      trees_.push_back(make_tree(*instance.mesh));
-      tree = trees_.back().get();
-    }
+    const TriangleMesh* mesh = instance.mesh.get();
+    const Lazy<Tree>*& tree = known[mesh];
+    if (!tree) tree = &trees_.emplace_back([mesh] { return make_tree(*mesh); });
     entries_.push_back({&instance, tree});
     boxes.push_back(calc_bounds_W(instance));
   }
@@ -132,7 +130,7 @@ double MeshDistance::to_box_m(const Pose& X_WBox, const Vector3d& h, double max_
     if ((mask & mask_of(entry.instance->surface)) == 0) return;
     const QueryBox query(X_OW * entry.instance->X_WM, h);
     const TriangleMesh& mesh = *entry.instance->mesh;
-    entry.tree->search(query, best2, [&](std::uint32_t triangle) {
+    entry.tree->get().search(query, best2, [&](std::uint32_t triangle) {
       const auto& [i, j, k] = mesh.triangles[triangle];
       const Vector3d a = query.to_O(mesh.vertices[i].cast<double>());
       const Vector3d b = query.to_O(mesh.vertices[j].cast<double>());

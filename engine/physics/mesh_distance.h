@@ -2,17 +2,19 @@
 /// Exact distance from an oriented box to the triangles of a world.
 
 #include <Eigen/Core>
-#include <memory>
+#include <deque>
 #include <vector>
 
 #include "engine/api/forward.h"
 #include "engine/api/scene_query.h"
 #include "engine/math/box_tree.h"
+#include "engine/physics/lazy.h"
 
 namespace vinerow::physics {
 
-/// Tree over the instances, and one tree per mesh, shared by its instances. Triangles and vertices
-/// are read in place from the WorldModel; the search is exact, in double precision.
+/// Tree over the instances, and one tree per mesh, shared by its instances and built when a search
+/// first comes near one of them. Triangles and vertices are read in place from the WorldModel; the
+/// search is exact, in double precision.
 class MeshDistance {
  public:
   using Tree = BoxTree<float, 3>;
@@ -28,10 +30,10 @@ class MeshDistance {
  private:
   struct Entry {
     const MeshInstance* instance;
-    const Tree* tree;
+    const Lazy<Tree>* tree;
   };
   const WorldModel& world_;
-  std::vector<std::unique_ptr<Tree>> trees_;
+  std::deque<Lazy<Tree>> trees_;
   std::vector<Entry> entries_;
   Tree instances_;
 };

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <deque>
+#include <limits>
 #include <map>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -13,6 +16,7 @@
 #include "engine/api/world_model.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
+#include "engine/math/box_tree.h"
 #include "engine/physics/triangle_ray.h"
 
 namespace vinerow::physics {
@@ -59,6 +63,7 @@ struct MeshRays::Impl {
   struct Placed {
     const MeshInstance* instance;
     int mesh_index;
+    bool stands_once;
     Eigen::Matrix3d R_MW;
     Vector3d p_MW;
   };
@@ -149,18 +154,37 @@ struct MeshRays::Impl {
 
   /// Embree's ray starts at the bounds of the meshes, so that a distant start costs no digits in
   /// single precision. @returns false if the ray misses them
-  bool begin(const SceneRay& ray, Lane& lane) const {
+  bool begin(const SceneRay& ray, SurfaceMask mask, Lane& lane) const {
     if (placed.empty() || !ray.p_W.allFinite() || !ray.dir_W.allFinite() ||
         !(ray.max_distance_m >= 0.0)) {
       return false;
     }
     const std::optional<double> start_m = enter_m(bounds_W, ray.p_W, ray.dir_W, ray.max_distance_m);
     if (!start_m) return false;
+    const bool has_trees_now = has_trees.load(std::memory_order_acquire);
+    if (!has_trees_now && !may_meet(ray, mask)) return false;
     lane.p_W = ray.p_W;
     lane.dir_W = ray.dir_W;
     lane.tree_start_m = *start_m;
     lane.best_m = ray.max_distance_m;
     return true;
+  }
+
+  /// Whether a ray enters the box of an instance. Rays from the air to the sky and to the ground
+  /// beside the plants need no tree of triangles, which takes seconds for a large parcel.
+  bool may_meet(const SceneRay& ray, SurfaceMask mask) const {
+    const auto enters = [&](const Eigen::AlignedBox3f& box) {
+      return enter_m(box.cast<double>(), ray.p_W, ray.dir_W, ray.max_distance_m).has_value();
+    };
+    constexpr double kNever = std::numeric_limits<double>::infinity();
+    double open = kNever;  // search() ends when this is 0
+    instances.search([&](const Eigen::AlignedBox3f& box) { return enters(box) ? 0.0 : kNever; },
+                     open,
+                     [&](std::uint32_t item) {
+                       const SurfaceMask own = mask_of(placed[item].instance->surface);
+                       if ((mask & own) != 0 && enters(boxes_W[item])) open = 0.0;
+                     });
+    return open == 0.0;
   }
 
   Cast make_cast(Lane* lanes) const {
@@ -193,7 +217,11 @@ struct MeshRays::Impl {
   std::deque<Boxes> boxes;                                      // geometries point to the elements
   std::map<const TriangleMesh*, Eigen::AlignedBox3d> moving_M;  ///< boxes of meshes that move
   Eigen::AlignedBox3d bounds_W;
+  std::vector<Eigen::AlignedBox3f> boxes_W;  ///< of the instances, as bounds_W; of a world alone
+  BoxTree<float, 3> instances;               ///< on them
   double margin_m = 0.0;
+  std::atomic<bool> has_trees = false;
+  std::once_flag trees_once;
 
   ~Impl() {
     if (scene) rtcReleaseScene(scene);
@@ -255,18 +283,29 @@ struct MeshRays::Impl {
     return geometry;
   }
 
-  /// A mesh with a single instance is added to the scene directly, which saves its rays a
-  /// transform.
   void add(const MeshInstance& instance, int mesh_index, bool stands_once) {
-    RTCGeometry geometry =
-        stands_once ? new_triangles(*instance.mesh, instance.X_WM, mask_of(instance.surface))
-                    : new_instance(instance);
-    const unsigned id = rtcAttachGeometry(scene, geometry);
-    rtcReleaseGeometry(geometry);
-    VINEROW_DEMAND(id == placed.size());
-    Placed entry{&instance, mesh_index, Eigen::Matrix3d::Identity(), Vector3d::Zero()};
+    Placed entry{&instance, mesh_index, stands_once, Eigen::Matrix3d::Identity(), Vector3d::Zero()};
     settle(entry);
     placed.push_back(entry);
+  }
+
+  /// Builds the trees at the first call. A mesh with a single instance is added to the scene
+  /// directly, which saves its rays a transform. Thread safe.
+  void ensure_trees() {
+    if (has_trees.load(std::memory_order_acquire)) return;
+    std::call_once(trees_once, [this] {
+      for (std::size_t i = 0; i < placed.size(); ++i) {
+        const MeshInstance& instance = *placed[i].instance;
+        RTCGeometry geometry = placed[i].stands_once ? new_triangles(*instance.mesh, instance.X_WM,
+                                                                     mask_of(instance.surface))
+                                                     : new_instance(instance);
+        const unsigned id = rtcAttachGeometry(scene, geometry);
+        rtcReleaseGeometry(geometry);
+        VINEROW_DEMAND(id == i);
+      }
+      rtcCommitScene(scene);
+      has_trees.store(true, std::memory_order_release);
+    });
   }
 
   /// Takes over where the instance is.
@@ -291,15 +330,36 @@ struct MeshRays::Impl {
   void calc_bounds(const std::map<const TriangleMesh*, Eigen::AlignedBox3d>& boxes_M) {
     bounds_W.setEmpty();
     for (const Placed& entry : placed) {
-      const Eigen::AlignedBox3d& box = boxes_M.at(entry.instance->mesh.get());
-      if (box.isEmpty()) continue;
-      for (int corner = 0; corner < 8; ++corner) {
-        bounds_W.extend(entry.instance->X_WM *
-                        box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
-      }
+      bounds_W.extend(box_W_of(entry, boxes_M));
     }
     bounds_W.min().array() -= margin_m;
     bounds_W.max().array() += margin_m;
+  }
+
+  static Eigen::AlignedBox3d box_W_of(
+      const Placed& entry, const std::map<const TriangleMesh*, Eigen::AlignedBox3d>& boxes_M) {
+    const Eigen::AlignedBox3d& box = boxes_M.at(entry.instance->mesh.get());
+    Eigen::AlignedBox3d box_W;
+    if (box.isEmpty()) return box_W;
+    for (int corner = 0; corner < 8; ++corner) {
+      box_W.extend(entry.instance->X_WM *
+                   box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
+    }
+    return box_W;
+  }
+
+  /// Boxes of the instances, widened as the bounds and by the rounding to single precision, which
+  /// the margin exceeds.
+  void calc_boxes(const std::map<const TriangleMesh*, Eigen::AlignedBox3d>& boxes_M) {
+    for (const Placed& entry : placed) {
+      Eigen::AlignedBox3d box = box_W_of(entry, boxes_M);
+      if (!box.isEmpty()) {
+        box.min().array() -= 2.0 * margin_m;
+        box.max().array() += 2.0 * margin_m;
+      }
+      boxes_W.push_back(box.cast<float>());
+    }
+    instances = BoxTree<float, 3>(boxes_W);
   }
 };
 
@@ -330,7 +390,7 @@ MeshRays::MeshRays(const WorldModel& world, bool (*is_met)(const MeshInstance&))
     impl_->add(instance, static_cast<int>(i), uses[instance.mesh.get()] == 1);
   }
   impl_->calc_bounds(boxes_M);
-  rtcCommitScene(impl_->scene);
+  impl_->calc_boxes(boxes_M);
 }
 
 MeshRays::MeshRays(std::span<const MeshInstance> meshes, double reach_m)
@@ -347,6 +407,7 @@ MeshRays::MeshRays(std::span<const MeshInstance> meshes, double reach_m)
 
 void MeshRays::move() {
   if (impl_->placed.empty()) return;
+  impl_->ensure_trees();
   for (std::size_t i = 0; i < impl_->placed.size(); ++i) {
     Impl::Placed& entry = impl_->placed[i];
     RTCGeometry geometry = rtcGetGeometry(impl_->scene, static_cast<unsigned>(i));
@@ -367,7 +428,8 @@ bool MeshRays::empty() const {
 std::optional<RayHit> MeshRays::cast(const Vector3d& p_W, const Vector3d& dir_W,
                                      double max_distance_m, SurfaceMask mask) const {
   Impl::Lane lane;
-  if (!impl_->begin({p_W, dir_W, max_distance_m}, lane)) return std::nullopt;
+  if (!impl_->begin({p_W, dir_W, max_distance_m}, mask, lane)) return std::nullopt;
+  impl_->ensure_trees();
   Impl::Cast cast = impl_->make_cast(&lane);
   const Vector3d p_start_W = p_W + lane.tree_start_m * dir_W;
   RTCRayHit ray;
@@ -398,7 +460,7 @@ void MeshRays::cast_packet(std::span<const SceneRay> rays, std::span<std::option
   bool is_any = false;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const SceneRay& ray = rays[i];
-    if (!impl_->begin(ray, lanes[i])) continue;
+    if (!impl_->begin(ray, mask, lanes[i])) continue;
     valid[i] = -1;
     is_any = true;
     const Vector3d p_start_W = ray.p_W + lanes[i].tree_start_m * ray.dir_W;
@@ -419,6 +481,7 @@ void MeshRays::cast_packet(std::span<const SceneRay> rays, std::span<std::option
     packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
   if (is_any) {
+    impl_->ensure_trees();
     Impl::Cast cast = impl_->make_cast(lanes.data());
     cast.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     rtcIntersect8(valid.data(), impl_->scene, &cast, &packet);

@@ -5,7 +5,8 @@
 /// whose box the ray may meet. `TriangleRay` decides in double precision, from the triangle's own
 /// vertices. The hit therefore does not depend on Embree's code, which differs between processors,
 /// and a parcel hundreds of metres wide costs no accuracy. A mesh with several instances is stored
-/// once. A mesh that moves is an instance too.
+/// once. A mesh that moves is an instance too. Embree's trees of a world are built when a ray first
+/// enters the box of one of its meshes.
 
 #include <Eigen/Core>
 #include <memory>

@@ -7,6 +7,7 @@
 #include "engine/api/world_model.h"
 #include "engine/physics/bullet_convert.h"
 #include "engine/physics/check_world.h"
+#include "engine/physics/lazy.h"
 
 namespace vinerow::physics {
 namespace {
@@ -16,6 +17,26 @@ namespace {
 constexpr double kStaticMargin_m = 0.0;
 // Largest number of triangles that the node index of the quantized tree can address.
 constexpr std::size_t kMaxQuantizedTriangles = 2'000'000;
+
+/// Builds Bullet's tree when a body first comes near the mesh. Bullet's own ray casts would find no
+/// tree; this program casts rays by Embree.
+class MeshShape final : public btBvhTriangleMeshShape {
+ public:
+  MeshShape(btStridingMeshInterface* mesh, bool is_quantized)
+      : btBvhTriangleMeshShape(mesh, is_quantized, false), tree_([this] {
+          buildOptimizedBvh();
+          return true;
+        }) {}
+
+  void processAllTriangles(btTriangleCallback* callback, const btVector3& low,
+                           const btVector3& high) const override {
+    tree_.get();
+    btBvhTriangleMeshShape::processAllTriangles(callback, low, high);
+  }
+
+ private:
+  Lazy<bool> tree_;
+};
 
 }  // namespace
 
@@ -28,8 +49,7 @@ StaticGeometry::StaticGeometry(const WorldModel& world) {
     if (found == meshes_.end()) {
       found = meshes_.emplace(instance.mesh.get(), make_mesh_shape(*instance.mesh)).first;
     }
-    places_.push_back(
-        {found->second.shape.get(), to_bullet(instance.X_WM), static_cast<int>(i)});
+    places_.push_back({found->second.shape.get(), to_bullet(instance.X_WM), static_cast<int>(i)});
   }
 }
 
@@ -67,7 +87,7 @@ std::vector<std::unique_ptr<btCollisionObject>> StaticGeometry::make_objects() c
   return objects;
 }
 
-StaticGeometry::MeshShape StaticGeometry::make_mesh_shape(const TriangleMesh& mesh) {
+StaticGeometry::SharedShape StaticGeometry::make_mesh_shape(const TriangleMesh& mesh) {
   btIndexedMesh part;
   part.m_numTriangles = static_cast<int>(mesh.triangles.size());
   part.m_triangleIndexBase = reinterpret_cast<const unsigned char*>(mesh.triangles.data());
@@ -77,13 +97,13 @@ StaticGeometry::MeshShape StaticGeometry::make_mesh_shape(const TriangleMesh& me
   part.m_vertexStride = sizeof(Eigen::Vector3f);
   part.m_indexType = PHY_INTEGER;
   part.m_vertexType = PHY_FLOAT;
-  MeshShape result;
+  SharedShape result;
   result.arrays = std::make_unique<btTriangleIndexVertexArray>();
   result.arrays->addIndexedMesh(part, PHY_INTEGER);
   // addIndexedMesh assumes the library's precision for the vertices.
   result.arrays->getIndexedMeshArray()[0].m_vertexType = PHY_FLOAT;
   const bool quantized = mesh.triangles.size() <= kMaxQuantizedTriangles;
-  result.shape = std::make_unique<btBvhTriangleMeshShape>(result.arrays.get(), quantized);
+  result.shape = std::make_unique<MeshShape>(result.arrays.get(), quantized);
   result.shape->setMargin(kStaticMargin_m);
   return result;
 }

@@ -16,7 +16,8 @@ namespace vinerow::physics {
 constexpr int kTerrainIndex = -1;
 
 /// Heights, vertices and triangles are referenced in the WorldModel; only Bullet's trees use new
-/// memory. Instances of one mesh share its tree. The shapes are constant while bodies move, so
+/// memory. Instances of one mesh share its tree, which is built when a body first comes near one of
+/// them. The shapes are constant while bodies move, so
 /// several collision worlds can share them, also on several threads.
 class StaticGeometry {
  public:
@@ -33,15 +34,15 @@ class StaticGeometry {
     btTransform X_WM;
     int user_index;
   };
-  struct MeshShape {
+  struct SharedShape {
     std::unique_ptr<btTriangleIndexVertexArray> arrays;
     std::unique_ptr<btBvhTriangleMeshShape> shape;
   };
   void add_terrain(const HeightField& field);
-  MeshShape make_mesh_shape(const TriangleMesh& mesh);
+  SharedShape make_mesh_shape(const TriangleMesh& mesh);
 
   std::unique_ptr<btHeightfieldTerrainShape> terrain_;
-  std::map<const TriangleMesh*, MeshShape> meshes_;
+  std::map<const TriangleMesh*, SharedShape> meshes_;
   std::vector<Place> places_;
 };
 

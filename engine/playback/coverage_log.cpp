@@ -12,7 +12,7 @@
 #include "engine/metrics/survey_coverage.h"
 #include "engine/playback/log_trace.h"
 #include "engine/playback/run_frames.h"
-#include "engine/sim/simulation.h"
+#include "engine/sim/run_shelf.h"
 
 namespace vinerow::playback {
 namespace {
@@ -98,7 +98,7 @@ std::vector<SurveyCoverage> read_coverage(const std::filesystem::path& log,
   metrics::CoverageOptions options = metrics::read_coverage_options(parameters);
   options.cell_m = choice.cell_m.value_or(options.cell_m);
   if (!choice.parcel_W.empty()) options.parcel_W = choice.parcel_W;
-  const std::unique_ptr<WorldModel> world = build_world(scenario, registry);
+  const std::shared_ptr<const WorldModel> world = world_of(scenario, registry, choice.shelf.get());
   if (options.parcel_W.empty()) options.parcel_W = world->rows->boundary_W;
 
   std::vector<std::string> names;

@@ -9,6 +9,10 @@
 #include "engine/api/registry.h"
 #include "engine/metrics/picture_coverage.h"
 
+namespace vinerow {
+class RunShelf;
+}
+
 namespace vinerow::playback {
 
 /// Coverage by the pictures of one camera.
@@ -28,6 +32,7 @@ struct SurveyCoverage {
 struct CoverageChoice {
   Polygon parcel_W;
   std::optional<double> cell_m;
+  std::shared_ptr<RunShelf> shelf;  ///< has the world, if the run has just ended; may be null
 };
 
 /// Coverage of every camera with pictures in the log, in the scenario's order.

@@ -17,6 +17,7 @@
 #include "engine/playback/log_trace.h"
 #include "engine/playback/phase_moments.h"
 #include "engine/render/scene.h"
+#include "engine/sim/run_shelf.h"
 #include "engine/sim/simulation.h"
 
 namespace vinerow::playback {
@@ -187,7 +188,7 @@ PictureReport render_log(const std::filesystem::path& log, const std::filesystem
   scenario.pictures.height = options.height.value_or(scenario.pictures.height);
   const std::vector<scenario::CameraConfig> cameras = chosen_cameras(scenario, options.cameras);
 
-  const std::unique_ptr<WorldModel> world = build_world(scenario, registry);
+  const std::shared_ptr<const WorldModel> world = world_of(scenario, registry, options.shelf.get());
   PictureReport report;
   auto renderer = render::make_renderer(*world);
   if (!renderer) {

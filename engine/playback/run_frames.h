@@ -16,6 +16,10 @@ namespace vinerow::render {
 struct Image;
 }
 
+namespace vinerow {
+class RunShelf;
+}
+
 namespace vinerow::playback {
 
 /// Options that replace settings of the scenario in the log.
@@ -32,6 +36,7 @@ struct PictureOptions {
   std::function<void(const render::Image&)> take_frame;
   std::function<void(int done, int total)> progress;
   std::function<bool()> interrupted;  ///< called before each frame; true ends the drawing
+  std::shared_ptr<RunShelf> shelf;    ///< has the world, if the run has just ended; may be null
 };
 
 struct PictureReport {

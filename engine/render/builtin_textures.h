@@ -1,8 +1,6 @@
 #pragma once
 /// Procedural textures, generated once per process without inputs.
 
-#include <vector>
-
 #include "engine/imaging/pixels.h"
 
 namespace vinerow::render {
@@ -19,8 +17,9 @@ constexpr int kGrassLayer = 2 * kLeafLayersPerKind;  ///< 4 layers: tufts, root 
 constexpr int kGrassLayers = 4;
 constexpr int kCardLayers = kGrassLayer + kGrassLayers;
 
-/// kCardLayers square pictures of equal size.
-const std::vector<imaging::Pixels>& card_textures();
+/// Square pictures of equal size, each painted at the first call. Thread safe.
+/// @param layer  in [0, kCardLayers)
+const imaging::Pixels& card_texture(int layer);
 
 /// Ground tile seen from above. R grass brightness, G grass dryness, B soil brightness, A height
 /// (of clods and blades).

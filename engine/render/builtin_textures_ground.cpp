@@ -58,25 +58,33 @@ void paint_grass(GreyPlane& brightness, GreyPlane& dryness, GreyPlane& height) {
   }
 }
 
-/// Paints clods, crumbs and a few pale stones and straws.
-float soil_value(float u, float v, float& height) {
-  float id = 0.0f;
-  const float warp = 0.6f * tiled_fbm(u, v, 16, 3, 60);
-  const float clod = tiled_worley(u * 26.0f + warp, v * 26.0f + warp, 26, 61, id);
-  const float clod_shade = 0.30f * (1.0f - clod) + 0.12f * (id - 0.5f);
-  float crumb_id = 0.0f;
-  const float crumb = tiled_worley(u * 90.0f, v * 90.0f, 90, 64, crumb_id);
-  const float fine = tiled_fbm(u, v, 32, 4, 67) - 0.5f;
-  float value = 0.30f + clod_shade + 0.16f * (0.6f - crumb) + 0.45f * fine;
-  height = 0.5f * (1.0f - clod) + 0.2f * (1.0f - crumb);
-  float stone_id = 0.0f;
-  const float stone = tiled_worley(u * 17.0f, v * 17.0f, 17, 71, stone_id);
-  if (stone_id > 0.86f && stone < 0.16f + 0.10f * (stone_id - 0.86f) / 0.14f) {
-    value = 0.72f + 0.25f * (stone_id - 0.86f) / 0.14f - 1.2f * stone;
-    height = 0.9f;
+/// Clods, crumbs and a few pale stones.
+class Soil {
+ public:
+  /// Brightness of the soil. @param height  receives its height in [0, 1]
+  float value(float u, float v, float& height) const {
+    float id = 0.0f;
+    const float warp = 0.6f * warp_.at(u, v);
+    const float clod = clods_.at(u * 26.0f + warp, v * 26.0f + warp, id);
+    const float clod_shade = 0.30f * (1.0f - clod) + 0.12f * (id - 0.5f);
+    float crumb_id = 0.0f;
+    const float crumb = crumbs_.at(u * 90.0f, v * 90.0f, crumb_id);
+    const float fine = fine_.at(u, v) - 0.5f;
+    float value = 0.30f + clod_shade + 0.16f * (0.6f - crumb) + 0.45f * fine;
+    height = 0.5f * (1.0f - clod) + 0.2f * (1.0f - crumb);
+    float stone_id = 0.0f;
+    const float stone = stones_.at(u * 17.0f, v * 17.0f, stone_id);
+    if (stone_id > 0.86f && stone < 0.16f + 0.10f * (stone_id - 0.86f) / 0.14f) {
+      value = 0.72f + 0.25f * (stone_id - 0.86f) / 0.14f - 1.2f * stone;
+      height = 0.9f;
+    }
+    return value;
   }
-  return value;
-}
+
+ private:
+  TiledFbm warp_{16, 3, 60}, fine_{32, 4, 67};
+  TiledWorley clods_{26, 61}, crumbs_{90, 64}, stones_{17, 71};
+};
 
 }  // namespace
 
@@ -87,12 +95,13 @@ const imaging::Pixels& ground_texture() {
     GreyPlane dry(kSize, 0.3f);
     GreyPlane height(kSize, 0.1f);
     paint_grass(grass, dry, height);
+    const Soil ground;
     imaging::Pixels pixels(kSize, kSize);
     for (int y = 0; y < kSize; ++y) {
       for (int x = 0; x < kSize; ++x) {
         float soil_height = 0.0f;
-        const float soil = soil_value((static_cast<float>(x) + 0.5f) / kSize,
-                                      (static_cast<float>(y) + 0.5f) / kSize, soil_height);
+        const float soil = ground.value((static_cast<float>(x) + 0.5f) / kSize,
+                                        (static_cast<float>(y) + 0.5f) / kSize, soil_height);
         std::uint8_t* p = pixels.at(x, y);
         p[0] = byte(grass.at(x, y));
         p[1] = byte(dry.at(x, y));
@@ -110,19 +119,20 @@ const imaging::Pixels& noise_texture() {
     constexpr int kSize = 512;
     imaging::Pixels pixels(kSize, kSize);
     // Stretches the narrow range of a sum of octaves to the full range.
+    const TiledFbm first(4, 6, 11), second(8, 5, 23), clouds(3, 7, 37), blotches(16, 3, 53);
     const auto stretch = [](float v) { return (v - 0.5f) * 1.7f + 0.5f; };
     for (int y = 0; y < kSize; ++y) {
       for (int x = 0; x < kSize; ++x) {
         const float u = (static_cast<float>(x) + 0.5f) / kSize;
         const float v = (static_cast<float>(y) + 0.5f) / kSize;
         std::uint8_t* p = pixels.at(x, y);
-        const float a = tiled_fbm(u, v, 4, 6, 11);
+        const float a = first.at(u, v);
         p[0] = byte(stretch(a));
-        p[1] = byte(stretch(tiled_fbm(u, v, 8, 5, 23)));
+        p[1] = byte(stretch(second.at(u, v)));
         const float bx = u + 0.11f * (a - 0.5f);
         const float by = v + 0.11f * (tiled_noise(u * 6.0f, v * 6.0f, 6, 5) - 0.5f);
-        p[2] = byte(stretch(tiled_fbm(bx, by, 3, 7, 37)));
-        p[3] = byte(stretch(tiled_fbm(u, v, 16, 3, 53)));
+        p[2] = byte(stretch(clouds.at(bx, by)));
+        p[3] = byte(stretch(blotches.at(u, v)));
       }
     }
     return pixels;

@@ -1,6 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <vector>
+#include <mutex>
 
 #include "engine/render/builtin_textures.h"
 #include "engine/render/noise.h"
@@ -80,21 +81,20 @@ void paint_leaf(imaging::Pixels& card, const Leaf& leaf, bool vine) {
       const float u = (dx * c + dy * s) / leaf.radius;
       const float v = (-dx * s + dy * c) / leaf.radius;
       const float r = std::hypot(u, v);
-      float inside = 0.0f;
-      float vein = 9.0f;
+      const auto alpha_of = [&](float in) { return std::clamp(in / pixel + 0.5f, 0.0f, 1.0f); };
+      // No lobe reaches beyond 1: this skips the costly outline outside.
+      if (vine && alpha_of((1.0f - r) * 0.8f) <= 0.0f) continue;
+      const float t = vine ? std::atan2(v, u) : 0.0f;
+      const float inside = vine ? (vine_leaf_radius(t) - r) * 0.8f : tree_leaf_inside(u, v);
+      const float alpha = alpha_of(inside);
+      if (alpha <= 0.0f) continue;
+      float vein = vine ? 9.0f : std::abs(v);
       if (vine) {
-        const float t = std::atan2(v, u);
-        inside = (vine_leaf_radius(t) - r) * 0.8f;
         for (const float centre : {0.0f, 1.05f, -1.05f, 2.0f, -2.0f}) {
           const float d = t - centre;
           if (std::cos(d) > 0.0f) vein = std::min(vein, std::abs(std::sin(d)) * r);
         }
-      } else {
-        inside = tree_leaf_inside(u, v);
-        vein = std::abs(v);
       }
-      const float alpha = std::clamp(inside / pixel + 0.5f, 0.0f, 1.0f);
-      if (alpha <= 0.0f) continue;
       const float mottle = tiled_noise(u * 7.0f + 50.0f, v * 7.0f + 50.0f, 97, leaf.seed) - 0.5f;
       float brightness = leaf.brightness + 0.10f * mottle;
       brightness += vein < 0.022f ? 0.12f : 0.0f;
@@ -198,25 +198,33 @@ imaging::Pixels grass_card(std::uint32_t seed) {
   return card;
 }
 
+imaging::Pixels make_card(int layer) {
+  if (layer >= kGrassLayer) {
+    return grass_card(5000u + static_cast<std::uint32_t>(layer - kGrassLayer) * 50u);
+  }
+  const bool vine = layer < kLeafLayersPerKind;
+  const int of_kind = layer % kLeafLayersPerKind;
+  const std::uint32_t seed = vine ? 100u : 900u;
+  const auto number = [&](int first) { return static_cast<std::uint32_t>(of_kind - first); };
+  if (of_kind < kLeafSpray) {
+    return leaf_card(vine, 1, vine ? 0.52f : 0.86f, seed + number(kLeafSingle));
+  }
+  if (of_kind < kLeafClump) {
+    return leaf_card(vine, vine ? 13 : 26, vine ? 0.185f : 0.24f,
+                     seed + 10 + number(kLeafSpray) * 40);
+  }
+  return leaf_card(vine, vine ? 62 : 110, vine ? 0.088f : 0.115f,
+                   seed + 200 + number(kLeafClump) * 80);
+}
+
 }  // namespace
 
-const std::vector<imaging::Pixels>& card_textures() {
-  static const std::vector<imaging::Pixels> cards = [] {
-    std::vector<imaging::Pixels> made;
-    for (const bool vine : {true, false}) {
-      const std::uint32_t seed = vine ? 100u : 900u;
-      for (std::uint32_t i = 0; i < 2; ++i)
-        made.push_back(leaf_card(vine, 1, vine ? 0.52f : 0.86f, seed + i));
-      for (std::uint32_t i = 0; i < 3; ++i)
-        made.push_back(leaf_card(vine, vine ? 13 : 26, vine ? 0.185f : 0.24f, seed + 10 + i * 40));
-      for (std::uint32_t i = 0; i < 3; ++i)
-        made.push_back(
-            leaf_card(vine, vine ? 62 : 110, vine ? 0.088f : 0.115f, seed + 200 + i * 80));
-    }
-    for (std::uint32_t i = 0; i < kGrassLayers; ++i) made.push_back(grass_card(5000 + i * 50));
-    return made;
-  }();
-  return cards;
+const imaging::Pixels& card_texture(int layer) {
+  static std::array<std::once_flag, kCardLayers> once;
+  static std::array<imaging::Pixels, kCardLayers> cards;
+  const auto i = static_cast<std::size_t>(layer);
+  std::call_once(once.at(i), [&] { cards[i] = make_card(layer); });
+  return cards[i];
 }
 
 }  // namespace vinerow::render

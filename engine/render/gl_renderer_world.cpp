@@ -100,8 +100,8 @@ void GlRenderer::make_textures() {
   upload_texture(gl_, imaging::mip_chain(mask_.pixels), true);
   unit(kUnitLeaves);
   std::vector<std::vector<imaging::Pixels>> layers;
-  for (const imaging::Pixels& card : card_textures()) {
-    layers.push_back(imaging::mip_chain_with_coverage(card));
+  for (int layer = 0; layer < kCardLayers; ++layer) {
+    layers.push_back(imaging::mip_chain_with_coverage(card_texture(layer)));
   }
   upload_texture_array(gl_, layers);
 

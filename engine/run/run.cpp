@@ -189,6 +189,7 @@ void draw_pictures(const std::filesystem::path& log, const Registry& registry,
   playback::PictureOptions drawing;
   drawing.progress = options.picture_progress;
   drawing.interrupted = options.interrupted;
+  drawing.shelf = options.shelf;
   if (options.interrupted && options.interrupted()) {
     result.picture_note = "interrupted";
     return;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/scenario/scenario_seed.h"
+#include "engine/sim/simulation.h"
 
 namespace vinerow {
 
@@ -34,6 +35,12 @@ BuiltWorld RunShelf::world(const scenario::Scenario& scenario, const Registry& r
 std::size_t RunShelf::built() const {
   const std::lock_guard lock(mutex_);
   return built_;
+}
+
+std::shared_ptr<const WorldModel> world_of(const scenario::Scenario& scenario,
+                                           const Registry& registry, RunShelf* shelf) {
+  if (shelf == nullptr) return build_world(scenario, registry);
+  return shelf->world(scenario, registry).model;
 }
 
 }  // namespace vinerow

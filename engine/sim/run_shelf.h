@@ -37,4 +37,9 @@ class RunShelf {
   std::size_t built_ = 0;
 };
 
+/// World of a scenario: the shelf's, or a new one without a shelf. @param shelf  may be null
+/// @throws ConfigError
+std::shared_ptr<const WorldModel> world_of(const scenario::Scenario& scenario,
+                                           const Registry& registry, RunShelf* shelf);
+
 }  // namespace vinerow

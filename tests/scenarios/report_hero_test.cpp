@@ -26,10 +26,11 @@ class Hero : public ::testing::Test {
     add_camera("rover", scenario::CameraKind::kChase, "rover");
     add_camera("drone", scenario::CameraKind::kChase, "drone");
     add_camera("above", scenario::CameraKind::kTop, "");
-    run_.world = std::make_unique<WorldModel>();
+    const auto world = std::make_shared<WorldModel>();
     PlantRow row;
     row.line_W = {{0, 1, 0}, {20, 1, 0}};
-    run_.world->rows->rows.push_back(row);
+    world->rows->rows.push_back(row);
+    run_.world = world;
     for (const char* name : {"rover", "drone"}) {
       VehicleLog& vehicle = vehicles_.emplace_back();
       vehicle.name = name;

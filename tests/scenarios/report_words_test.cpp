@@ -136,20 +136,19 @@ TEST(ReportPapers, AreNamedInFullOnceWhereTheyAreCited) {
 }
 
 /// Two rows from west to east, 2 m apart, one alley between them.
-RunFolder two_rows() {
-  RunFolder run;
-  run.world = std::make_unique<WorldModel>();
+std::shared_ptr<WorldModel> two_rows() {
+  auto world = std::make_shared<WorldModel>();
   for (const int i : {0, 1}) {
     PlantRow row;
     row.id = i;
     row.line_W = {{0, 2.0 * i, 0}, {20, 2.0 * i, 0}};
-    run.world->rows->rows.push_back(row);
+    world->rows->rows.push_back(row);
   }
   Alley alley;
   alley.width_m = 2.0;
   alley.line_W = {{0, 1, 0}, {20, 1, 0}};
-  run.world->rows->alleys = {alley};
-  return run;
+  world->rows->alleys = {alley};
+  return world;
 }
 
 VehicleLog driving(const std::vector<Eigen::Vector2d>& places) {
@@ -168,7 +167,8 @@ VehicleLog driving(const std::vector<Eigen::Vector2d>& places) {
 }
 
 TEST(ReportFaces, TellWhichSidesOfRowsLieBesideNoAlley) {
-  const RunFolder run = two_rows();
+  RunFolder run;
+  run.world = two_rows();
   // Rows point east: north of row 0 is its left side, south of row 1 its right side.
   const auto faces = row_faces(run, driving({{-3, 1}, {23, 1}}));
   ASSERT_EQ(faces.size(), 4u);
@@ -186,7 +186,9 @@ TEST(ReportFaces, TellWhichSidesOfRowsLieBesideNoAlley) {
 }
 
 TEST(ReportSetup, TellsSlopeAndSensorsOfTheScenario) {
-  RunFolder run = two_rows();
+  const std::shared_ptr<WorldModel> world = two_rows();
+  RunFolder run;
+  run.world = world;
   // z = 0.15 x + 0.08 y: 17 % in all, 15 % along the rows, which point east, 8 % across.
   HeightField field;
   field.columns = field.rows = 61;
@@ -196,8 +198,8 @@ TEST(ReportSetup, TellsSlopeAndSensorsOfTheScenario) {
       field.heights_m.push_back(static_cast<float>(0.15 * (i - 20) + 0.08 * (j - 30)));
     }
   }
-  run.world->terrain = field;
-  run.world->soil.name = "wet_soil";
+  world->terrain = field;
+  world->soil.name = "wet_soil";
   run.scenario.emplace();
   scenario::VehicleConfig rover;
   rover.name = "<rover>";

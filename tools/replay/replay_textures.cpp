@@ -45,11 +45,10 @@ json array_of(const Eigen::Vector3d& v) {
 
 ReplayTextures make_replay_textures(const Daylight& daylight) {
   ReplayTextures textures;
-  const std::vector<Pixels>& cards = render::card_textures();
   const std::pair<const char*, int> pictures[] = {
       {"leaf", render::kLeafSingle}, {"spray", render::kLeafSpray}, {"clump", render::kLeafClump}};
   for (const auto& [name, layer] : pictures) {
-    const Pixels& card = cards[static_cast<std::size_t>(layer)];
+    const Pixels& card = render::card_texture(layer);
     add_texture(textures, name, levels_from(imaging::mip_chain_with_coverage(card), kCardSize),
                 {0, 3});
   }

@@ -55,9 +55,10 @@ int steps_for(std::size_t vehicles) {
 }
 
 PageMaterial read_material(const std::filesystem::path& folder, const Registry& registry,
+                           RunShelf* shelf,
                            const std::function<void(int done, int total)>& progress) {
   PageMaterial m;
-  m.run = read_run_folder(folder, registry);
+  m.run = read_run_folder(folder, registry, shelf);
   if (progress) {
     m.step = [&progress, done = 0, total = steps_for(m.run.vehicles.size())]() mutable {
       progress(done++, total);
@@ -290,8 +291,9 @@ std::string page(const PageMaterial& m) {
 
 void write_report(const std::filesystem::path& run_folder, const Registry& registry,
                   const std::filesystem::path& out_file,
-                  const std::function<void(int done, int total)>& progress) {
-  const report::PageMaterial material = report::read_material(run_folder, registry, progress);
+                  const std::function<void(int done, int total)>& progress, RunShelf* shelf) {
+  const report::PageMaterial material =
+      report::read_material(run_folder, registry, shelf, progress);
   const std::string page = report::page(material);
   write_whole_file(out_file, page);
   if (progress) progress(1, 1);

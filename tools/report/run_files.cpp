@@ -25,14 +25,16 @@ void write_further_files(const scenario::Scenario& scenario, const Registry& reg
   if (wanted.coverage_and_maps) {
     // Ground covered by the vehicles' pictures, and maps made by jobs.
     try_to_write("coverage", "coverage", [&] {
-      return write_coverage(wanted.out / "log.mcap", registry, {}, wanted.out / "coverage.png");
+      playback::CoverageChoice choice;
+      choice.shelf = wanted.shelf;
+      return write_coverage(wanted.out / "log.mcap", registry, choice, wanted.out / "coverage.png");
     });
     try_to_write("pictures of maps", "map", [&] { return write_job_pictures(scenario, result); });
   }
   if (wanted.report) {
     try_to_write("report", "report", [&] {
       const std::filesystem::path report = wanted.out / "report.html";
-      write_report(wanted.out, registry, report, wanted.report_progress);
+      write_report(wanted.out, registry, report, wanted.report_progress, wanted.shelf.get());
       return std::vector{report};
     });
   }

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ struct FurtherFiles {
   std::filesystem::path out;  ///< folder of the run
   bool coverage_and_maps = true;
   bool report = true;
+  std::shared_ptr<RunShelf> shelf;  ///< of the run, with its world; may be null
   /// Called when files of a kind are written: "coverage", "map", "report".
   std::function<void(const char* kind, const std::vector<std::filesystem::path>&)> written;
   /// Called if files cannot be made. @param not_stored  true: the disk is full or fails

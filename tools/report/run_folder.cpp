@@ -8,7 +8,7 @@
 #include "engine/core/error.h"
 #include "engine/core/files.h"
 #include "engine/playback/run_frames.h"
-#include "engine/sim/simulation.h"
+#include "engine/sim/run_shelf.h"
 
 namespace vinerow::tools::report {
 namespace {
@@ -53,7 +53,7 @@ void open_log(RunFolder& run) {
   run.log = std::move(log);
 }
 
-void read_scenario(RunFolder& run, const Registry& registry) {
+void read_scenario(RunFolder& run, const Registry& registry, RunShelf* shelf) {
   const fs::path file = run.path / "scenario.resolved.yaml";
   if (fs::is_regular_file(file)) {
     run.resolved_yaml = read_bytes(file).value_or("");
@@ -69,7 +69,7 @@ void read_scenario(RunFolder& run, const Registry& registry) {
         fmt::format("{}: is scenario '{}', but summary.json next to it belongs to '{}'",
                     file.string(), run.scenario->name, run.text("scenario")));
   }
-  run.world = build_world(*run.scenario, registry);
+  run.world = world_of(*run.scenario, registry, shelf);
   run.models = playback::vehicles_of_scenario(*run.scenario, registry);
 }
 
@@ -99,12 +99,12 @@ double RunFolder::end_s() const {
   return number("simulated_s");
 }
 
-RunFolder read_run_folder(const fs::path& folder, const Registry& registry) {
+RunFolder read_run_folder(const fs::path& folder, const Registry& registry, RunShelf* shelf) {
   RunFolder run;
   run.path = folder;
   run.summary = read_summary(folder);
   open_log(run);
-  read_scenario(run, registry);
+  read_scenario(run, registry, shelf);
   run.frames = files_in(folder / "frames", ".png");
   if (run.scenario) {
     for (const scenario::VehicleConfig& vehicle : run.scenario->vehicles) {

@@ -13,6 +13,10 @@
 #include "engine/record/log_reader.h"
 #include "engine/scenario/scenario.h"
 
+namespace vinerow {
+class RunShelf;
+}
+
 namespace vinerow::tools::report {
 
 using Json = nlohmann::ordered_json;
@@ -22,7 +26,7 @@ struct RunFolder {
   Json summary;
   std::string resolved_yaml;                     ///< "" if the run left none
   std::optional<scenario::Scenario> scenario;    ///< of resolved_yaml
-  std::unique_ptr<WorldModel> world;             ///< null if the scenario is unknown
+  std::shared_ptr<const WorldModel> world;       ///< null if the scenario is unknown
   std::vector<std::unique_ptr<Vehicle>> models;  ///< of the scenario's vehicles, in its order
   std::unique_ptr<record::LogReader> log;        ///< null if the run wrote none
   std::vector<std::filesystem::path> frames;     ///< frames/*.png, by name
@@ -41,7 +45,9 @@ struct RunFolder {
 /// @throws ConfigError "runs/x: contains no summary.json, so it is not the folder of a run" | "...:
 /// is not JSON, ..." | "runs/x/log.mcap: belongs to scenario 'a' (seed 1), but summary.json next to
 /// it to 'b' (seed 1)"
-RunFolder read_run_folder(const std::filesystem::path& folder, const Registry& registry);
+/// @param shelf  has the world, if the run has just ended; may be null
+RunFolder read_run_folder(const std::filesystem::path& folder, const Registry& registry,
+                          RunShelf* shelf);
 
 /// Files of a folder, by name; empty if there is no such folder. @param extension  ".png"
 std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder,

@@ -6,6 +6,7 @@
 #include "engine/core/error.h"
 #include "engine/run/run.h"
 #include "engine/sim/judge.h"
+#include "engine/sim/run_shelf.h"
 #include "tools/report/run_files.h"
 #include "tools/terminal/colour.h"
 #include "tools/terminal/interrupt.h"
@@ -107,6 +108,8 @@ run::RunStatus run_and_report(const scenario::Scenario& scenario, const Registry
   refuse_folder_of_replayed_log(options.out, choice.peers);
   options.log = !choice.no_log;
   options.pictures = !choice.no_pictures;
+  // Pictures and report show the world of the run: built once.
+  options.shelf = std::make_shared<RunShelf>();
   ProgressLine line(choice.quiet);
   RunPeers peers(scenario, registry, choice.peers, options.out, line);
   options.driver = peers.driver();
@@ -137,6 +140,7 @@ run::RunStatus run_and_report(const scenario::Scenario& scenario, const Registry
     further.out = options.out;
     further.coverage_and_maps = with_log && options.pictures;
     further.report = !choice.no_report;
+    further.shelf = options.shelf;
     further.written = [&line](const char* kind, const std::vector<std::filesystem::path>& files) {
       line.end();
       for (const std::filesystem::path& file : files) fmt::print("{:8} {}\n", kind, file.string());

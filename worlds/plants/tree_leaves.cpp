@@ -56,8 +56,8 @@ Vector3d point_in(const CrownSpace& crown, double share, RandomStream& random) {
   return crown.centre + radius * direction.cwiseProduct(crown.half_axes_m);
 }
 
-/// Share in [0, 1) of organ i, evenly spread over all of them (additive recurrence). Another
-/// orders the organs anew.
+/// Share in [0, 1) of organ i, evenly spread over all of them (additive recurrence).
+/// @param step  irrational; another one gives another order
 double rank_of(int i, double step) {
   const double turns = step * (i + 1);
   return turns - std::floor(turns);

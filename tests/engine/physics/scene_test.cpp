@@ -3,13 +3,16 @@
 #include <gtest/gtest.h>
 #include <xmmintrin.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <thread>
 
 #include "engine/api/world_model.h"
 #include "engine/core/random.h"
 #include "engine/physics/height_field_ray.h"
 #include "engine/physics/static_geometry.h"
+#include "engine/physics/world_scene.h"
 #include "tests/engine/physics/small_worlds.h"
 #include "tests/support/no_alloc.h"
 
@@ -304,6 +307,77 @@ TEST(Scene, SharedMeshesAreSeenWhereTheirInstancesStand) {
   }
 }
 
+/// Turned boxes of several classes, some on the same mesh.
+WorldModel scattered_boxes() {
+  WorldModel model;
+  RandomStream random(1, "", "boxes");
+  const auto shared = test::make_box_mesh({0.5f, 0.2f, 1.0f});
+  constexpr SurfaceClass kClasses[] = {SurfaceClass::kCanopy, SurfaceClass::kPost,
+                                       SurfaceClass::kObstacle};
+  for (int k = 0; k < 12; ++k) {
+    const auto mesh = k % 2 == 0 ? shared : test::make_box_mesh({0.3f, 0.4f, 0.1f * (k + 1.0f)});
+    const Vector3d p_W(random.uniform(-9, 9), random.uniform(-9, 9), random.uniform(0, 4));
+    MeshInstance box = test::make_instance("box", mesh, p_W, kClasses[k % 3]);
+    box.X_WM.q =
+        Eigen::Quaterniond(Eigen::AngleAxisd(random.uniform(0, 3), random_direction(random)));
+    model.meshes.push_back(box);
+  }
+  return model;
+}
+
+TEST(Scene, TheFirstRayOfASceneHitsWhatLaterOnesHit) {
+  // Before the trees are built the boxes of the meshes decide whether a ray needs them.
+  const WorldModel model = scattered_boxes();
+  const WorldScene built(model);
+  RandomStream random(2, "", "rays");
+  int met = 0;
+  for (int k = 0; k < 4000; ++k) {
+    const Vector3d p_W(random.uniform(-12, 12), random.uniform(-12, 12), random.uniform(-2, 6));
+    Vector3d dir_W = random_direction(random);
+    if (k % 8 == 0) dir_W = Vector3d::Unit(k / 8 % 3);  // along the sides of boxes
+    const double max_m = random.uniform(0.0, 20.0);
+    const SurfaceMask mask = k % 3 == 0 ? mask_of(SurfaceClass::kPost) : kAllSurfaces;
+    const WorldScene fresh(model);
+    const auto first = fresh.cast_ray(p_W, dir_W, max_m, mask);
+    const auto later = built.cast_ray(p_W, dir_W, max_m, mask);
+    ASSERT_EQ(first.has_value(), later.has_value()) << k;
+    if (!later) continue;
+    ++met;
+    EXPECT_EQ(first->distance_m, later->distance_m);
+    EXPECT_EQ(first->mesh, later->mesh);
+    EXPECT_EQ(first->triangle, later->triangle);
+  }
+  EXPECT_GT(met, 50);
+}
+
+TEST(Scene, SeveralThreadsMayBeTheFirst) {
+  const WorldModel model = scattered_boxes();
+  const WorldScene alone(model);
+  const auto ask = [](const WorldScene& scene) {
+    std::vector<double> answers;
+    RandomStream random(3, "", "first");
+    for (int k = 0; k < 200; ++k) {
+      const Vector3d p_W(random.uniform(-12, 12), random.uniform(-12, 12), random.uniform(-2, 6));
+      const auto hit = scene.cast_ray(p_W, random_direction(random), 20.0, kAllSurfaces);
+      answers.push_back(hit ? hit->distance_m : -1.0);
+      Pose X_WBox;
+      X_WBox.p = p_W;
+      answers.push_back(scene.distance_to_box_m(X_WBox, {0.5, 0.4, 0.3}, 5.0, kAllSurfaces));
+    }
+    return answers;
+  };
+  const std::vector<double> expected = ask(alone);
+  for (int round = 0; round < 10; ++round) {
+    const WorldScene scene(model);
+    std::array<std::vector<double>, 4> answers;
+    {
+      std::vector<std::jthread> threads;
+      for (auto& own : answers) threads.emplace_back([&] { own = ask(scene); });
+    }
+    for (const auto& own : answers) EXPECT_EQ(own, expected);
+  }
+}
+
 TEST(Scene, RaysTogetherHitWhatEachHitsAlone) {
   // Hills as a height field, and the same hills as meshes that stand three times: terrain, meshes
   // and instances in one packet.
@@ -328,6 +402,7 @@ TEST(Scene, RaysTogetherHitWhatEachHitsAlone) {
           {p, (middle + width * random_direction(random)).normalized(), random.uniform(1.0, 40.0)});
     }
   }
+  ASSERT_TRUE(scene.cast_ray({3.0, 1.0, 46.0}, -Vector3d::UnitZ(), 40.0));  // builds the trees
   rays[5].dir_W.x() = std::nan("");
   rays[17].max_distance_m = -1.0;
   for (const SurfaceMask mask : {kAllSurfaces, mask_of(SurfaceClass::kCanopy)}) {

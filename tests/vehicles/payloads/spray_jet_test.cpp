@@ -1,7 +1,7 @@
 /// The jet's way against integrated equations of motion; leaves against Beer's law.
 
-#include "engine/core/random.h"
 #include "vehicles/payloads/spray_jet.h"
+#include "engine/core/random.h"
 
 #include <gtest/gtest.h>
 
@@ -73,13 +73,13 @@ struct Traced {
   }
 };
 
+/// Leaves of 4 m2/m3: k = 2 per metre.
 Traced trace(const WorldModel& world, const SprayParams& params, const Vector3d& p_W,
-             const Vector3d& direction_W, const Vector3d& wind_W = Vector3d::Zero()) {
+             const Vector3d& direction_W, const Vector3d& wind_W = Vector3d::Zero(),
+             const LeafAreaDensity& leaves = LeafAreaDensity(4.0)) {
   const physics::WorldScene scene(world);
   Traced result;
   const SprayJet jet(params, p_W, direction_W, Vector3d::Zero(), wind_W);
-  // k = 2 per metre.
-  const LeafAreaDensity leaves(4.0);
   result.fate = trace_spray(scene, leaves, params, jet, 10.0, [&](const Vector3d& p, double ml) {
     result.deposits.emplace_back(p, ml);
   });
@@ -106,6 +106,20 @@ TEST(TraceSpray, WhatPassesOneRowReachesTheNext) {
   ASSERT_EQ(traced.deposits.size(), 4u);
   EXPECT_NEAR(traced.deposits[2].first.y(), 2.75, 1e-6);
   EXPECT_NEAR(traced.fate.canopy_ml, 10.0 * (1.0 - std::exp(-2.0)), 1e-2);
+}
+
+TEST(TraceSpray, EachRowCatchesByItsOwnLeaves) {
+  // 3 m2/m3, then what a row has that does not state its leaves: 6. Chords of 0.5 m.
+  const SprayParams params = quiet();
+  WorldModel world = make_box_rows({{.y_m = 1.0}, {.y_m = 3.0}});
+  world.meshes[0].foliage = Foliage{3.0};
+  const Traced traced =
+      trace(world, params, {10, 0, 1}, {0, 1, 0}, Vector3d::Zero(), LeafAreaDensity(world));
+  ASSERT_EQ(traced.deposits.size(), 4u);
+  const double first = 10.0 * (1.0 - std::exp(-0.5 * 3.0 * 0.5));
+  EXPECT_NEAR(traced.deposits[0].second + traced.deposits[1].second, first, 5e-3);
+  EXPECT_NEAR(traced.deposits[2].second + traced.deposits[3].second,
+              (10.0 - first) * (1.0 - std::exp(-0.5 * 6.0 * 0.5)), 1e-2);
 }
 
 TEST(TraceSpray, GroundPostsAndAirGetTheRest) {

@@ -11,7 +11,7 @@ std::optional<std::string> read_bytes(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::error_code error;
   if (!stream || std::filesystem::is_directory(file, error)) return std::nullopt;
-  // The size is only a hint: pipes and files of /proc have none.
+  // The size is only a hint: pipes and files of /proc do not state it.
   const std::uintmax_t hint = std::filesystem::file_size(file, error);
   constexpr std::size_t kLeast = 4096;
   std::string bytes(error ? kLeast : static_cast<std::size_t>(hint) + 1, '\0');

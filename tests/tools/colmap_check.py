@@ -35,7 +35,7 @@ def call(*words, log=None):
 
 
 def rebuild(pictures, work):
-    """Runs COLMAP with its defaults; returns the folder of its model as text."""
+    """Runs COLMAP with its defaults but 4096 features and the 12 nearest pictures to match; returns the folder of its model as text."""
     database = ["--database_path", work / "database.db"]
     call("colmap", "feature_extractor", *database, "--image_path", pictures, "--ImageReader.single_camera", 1, "--SiftExtraction.use_gpu", 0,
          "--SiftExtraction.num_threads", 2, "--SiftExtraction.max_num_features", 4096, log=work / "features.log")
@@ -117,14 +117,15 @@ def main() -> int:
     rows = [words for words in lines_of(model / "points3D.txt") if (len(words) - 8) // 2 >= 3]
     points = onto(numpy.array([[float(word) for word in words[1:4]] for words in rows]))
     off = surface_distances(points, folder, arguments.vinerow)
-    registered = len(names) / len(truth)
+    registered, near = len(names) / len(truth), float((off < 0.1).mean())
     print(f"registered {len(names)} of {len(truth)}")
     print(f"camera positions {100 * rms:.1f} cm rms")
     print(f"{len(points)} points of three photographs or more: median {100 * numpy.median(off):.1f} cm, rms "
-          f"{100 * numpy.sqrt((off ** 2).mean()):.1f} cm, {100 * (off < 0.1).mean():.0f} % within 10 cm of the surface")
+          f"{100 * numpy.sqrt((off ** 2).mean()):.1f} cm, {100 * near:.0f} % within 10 cm of the surface")
     if not arguments.keep:
         shutil.rmtree(folder)
-    return 0 if registered >= 0.95 and rms <= 0.05 and numpy.sqrt((off ** 2).mean()) <= 0.10 else 1
+    # A few false matches are metres off, so the rms of the points says little.
+    return 0 if registered >= 0.95 and rms <= 0.05 and near >= 0.90 else 1
 
 
 if __name__ == "__main__":

@@ -165,6 +165,7 @@ void RunControl::release(const std::string& peer) {
 }
 
 void RunControl::begin(Session& session) {
+  session.simulation().prepare();
   std::vector<Answer> answers;
   {
     const Lock lock(mutex_);

@@ -135,6 +135,10 @@ ContactNormals::ContactNormals(const WorldModel& world) : world_(world) {
   }
 }
 
+void ContactNormals::prepare() const {
+  for (const auto& [mesh, bends] : bends_) bends.get();
+}
+
 std::optional<Vector3d> ContactNormals::correct(int user_index, int triangle, const Vector3d& p_W,
                                                 const Vector3d& normal_W, double distance_m) const {
   return user_index < 0 ? correct_on_terrain(p_W, normal_W, distance_m)

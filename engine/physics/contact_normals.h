@@ -37,6 +37,9 @@ class ContactNormals {
   /// @param world  checked; outlives this object
   explicit ContactNormals(const WorldModel& world);
 
+  /// Computes the bends of all meshes now.
+  void prepare() const;
+
   /// @param user_index  of the static object (static_geometry.h)
   /// @param triangle    of its mesh; unused for the height field
   /// @param p_W,normal_W  point on the static surface; unit, away from it

@@ -121,6 +121,10 @@ MeshDistance::MeshDistance(const WorldModel& world) : world_(world) {
 
 MeshDistance::~MeshDistance() = default;
 
+void MeshDistance::prepare() const {
+  for (const Lazy<Tree>& tree : trees_) tree.get();
+}
+
 double MeshDistance::to_box_m(const Pose& X_WBox, const Vector3d& h, double max_distance_m,
                               SurfaceMask mask) const {
   double best2 = max_distance_m * max_distance_m;

@@ -23,6 +23,9 @@ class MeshDistance {
   explicit MeshDistance(const WorldModel& world);
   ~MeshDistance();
 
+  /// Builds all trees now.
+  void prepare() const;
+
   /// SceneQuery::distance_to_box_m.
   double to_box_m(const Pose& X_WBox, const Eigen::Vector3d& half_extents_m, double max_distance_m,
                   SurfaceMask mask) const;

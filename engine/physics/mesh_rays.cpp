@@ -421,6 +421,10 @@ void MeshRays::move() {
 
 MeshRays::~MeshRays() = default;
 
+void MeshRays::prepare() const {
+  if (!empty()) impl_->ensure_trees();
+}
+
 bool MeshRays::empty() const {
   return impl_->placed.empty();
 }

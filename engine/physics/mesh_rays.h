@@ -33,6 +33,8 @@ class MeshRays {
   void move();
 
   bool empty() const;
+  /// Builds the trees now.
+  void prepare() const;
   /// First hit. @param dir_W unit. No heap, thread safe.
   std::optional<RayHit> cast(const Eigen::Vector3d& p_W, const Eigen::Vector3d& dir_W,
                              double max_distance_m, SurfaceMask mask) const;

@@ -28,9 +28,11 @@ class MeshShape final : public btBvhTriangleMeshShape {
           return true;
         }) {}
 
+  void prepare() const { tree_.get(); }
+
   void processAllTriangles(btTriangleCallback* callback, const btVector3& low,
                            const btVector3& high) const override {
-    tree_.get();
+    prepare();
     btBvhTriangleMeshShape::processAllTriangles(callback, low, high);
   }
 
@@ -68,6 +70,12 @@ void StaticGeometry::add_terrain(const HeightField& field) {
                          0.5 * (static_cast<double>(*low) + static_cast<double>(*high)));
   places_.push_back(
       {terrain_.get(), btTransform(btQuaternion::getIdentity(), origin), kTerrainIndex});
+}
+
+void StaticGeometry::prepare() const {
+  for (const auto& [mesh, shared] : meshes_) {
+    static_cast<const MeshShape&>(*shared.shape).prepare();
+  }
 }
 
 std::vector<std::unique_ptr<btCollisionObject>> StaticGeometry::make_objects() const {

@@ -24,6 +24,9 @@ class StaticGeometry {
   /// @param world  checked; outlives this object
   explicit StaticGeometry(const WorldModel& world);
 
+  /// Builds all trees now.
+  void prepare() const;
+
   /// New collision objects on these shapes, for a single collision world, because its broad phase
   /// stores data in them. The height field comes first, then meshes in the world's order.
   std::vector<std::unique_ptr<btCollisionObject>> make_objects() const;

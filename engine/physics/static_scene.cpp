@@ -21,9 +21,17 @@ StaticScene::StaticScene(std::shared_ptr<const WorldModel> world)
 
 StaticScene::~StaticScene() = default;
 
+void StaticScene::prepare() const {
+  queries_.prepare();
+  normals_.prepare();
+  geometry_->prepare();
+  if (has_light_) light_->meshes().prepare();
+}
+
 const RayScene& StaticScene::light() const {
   std::call_once(light_once_, [this] {
     light_ = std::make_unique<const SurfaceRays>(*world_, queries_.terrain(), is_seen_by_light);
+    has_light_ = true;
   });
   return *light_;
 }

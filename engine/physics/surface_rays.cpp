@@ -8,22 +8,22 @@ SurfaceRays::SurfaceRays(const WorldModel& world, const HeightFieldRay* terrain,
                          bool (*is_met)(const MeshInstance&))
     : terrain_(terrain), meshes_(world, is_met) {}
 
-std::optional<RayHit> SurfaceRays::cast_on_terrain(const SceneRay& ray) const {
+std::optional<RayHit> SurfaceRays::with_terrain(SceneRay ray,
+                                                const std::optional<RayHit>& on_mesh) const {
+  if (on_mesh) ray.max_distance_m = on_mesh->distance_m;
   const auto hit = terrain_->cast(ray.p_W, ray.dir_W, ray.max_distance_m);
-  if (!hit) return std::nullopt;
+  // At the same distance a mesh counts.
+  if (!hit || (on_mesh && hit->distance_m >= on_mesh->distance_m)) return on_mesh;
   return RayHit{hit->distance_m, hit->normal_W, SurfaceClass::kTerrain, -1};
 }
 
 std::optional<RayHit> SurfaceRays::cast_ray(const Eigen::Vector3d& p_W,
                                             const Eigen::Vector3d& dir_W, double max_distance_m,
                                             SurfaceMask mask) const {
-  std::optional<RayHit> first;
-  if (terrain_ && (mask & mask_of(SurfaceClass::kTerrain)) != 0) {
-    first = cast_on_terrain({p_W, dir_W, max_distance_m});
-  }
-  const double reach_m = first ? first->distance_m : max_distance_m;
-  if (const std::optional<RayHit> hit = meshes_.cast(p_W, dir_W, reach_m, mask)) first = hit;
-  return first;
+  // Meshes first: most rays of sensors in a row end there, and need no long walk over terrain.
+  const std::optional<RayHit> hit = meshes_.cast(p_W, dir_W, max_distance_m, mask);
+  if (!terrain_ || (mask & mask_of(SurfaceClass::kTerrain)) == 0) return hit;
+  return with_terrain({p_W, dir_W, max_distance_m}, hit);
 }
 
 void SurfaceRays::cast_rays(std::span<const SceneRay> rays, std::span<std::optional<RayHit>> hits,
@@ -33,16 +33,9 @@ void SurfaceRays::cast_rays(std::span<const SceneRay> rays, std::span<std::optio
     const std::size_t count = std::min(MeshRays::kPacket, rays.size() - at);
     const auto some = rays.subspan(at, count);
     const auto met = hits.subspan(at, count);
-    // Meshes first: most rays of a scanner in a row end there, and need no long walk over terrain.
     meshes_.cast_packet(some, met, mask);
     if (!has_terrain) continue;
-    for (std::size_t i = 0; i < count; ++i) {
-      SceneRay ray = some[i];
-      if (met[i]) ray.max_distance_m = met[i]->distance_m;
-      const std::optional<RayHit> ground = cast_on_terrain(ray);
-      // At the same distance a mesh counts, as in cast_ray().
-      if (ground && (!met[i] || ground->distance_m < met[i]->distance_m)) met[i] = ground;
-    }
+    for (std::size_t i = 0; i < count; ++i) met[i] = with_terrain(some[i], met[i]);
   }
 }
 

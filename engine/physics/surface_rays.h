@@ -27,7 +27,8 @@ class SurfaceRays final : public RayScene {
   const MeshRays& meshes() const { return meshes_; }
 
  private:
-  std::optional<RayHit> cast_on_terrain(const SceneRay& ray) const;
+  /// The first of a ray's hits on meshes and on the terrain. @pre there is a terrain
+  std::optional<RayHit> with_terrain(SceneRay ray, const std::optional<RayHit>& on_mesh) const;
 
   const HeightFieldRay* terrain_;
   MeshRays meshes_;

@@ -139,6 +139,11 @@ double WorldScene::distance_to_box_m(const Pose& X_WBox, const Vector3d& half_ex
   return mesh_distance_.to_box_m(X_WBox, half_extents_m, max_distance_m, mask);
 }
 
+void WorldScene::prepare() const {
+  rays_.meshes().prepare();
+  mesh_distance_.prepare();
+}
+
 std::optional<RayHit> WorldScene::probe_rigid(const Vector3d& p_W, const Vector3d& dir_W,
                                               double max_distance_m) const {
   std::optional<RayHit> first;

@@ -46,6 +46,9 @@ class WorldScene : public SceneQuery {
   double distance_to_box_m(const Pose& X_WBox, const Eigen::Vector3d& half_extents_m,
                            double max_distance_m, SurfaceMask mask) const override;
 
+  /// Builds now what rays and distances would build when they first need it.
+  void prepare() const;
+
   /// Implements PhysicsWorld::probe_ground.
   std::optional<RayHit> probe_rigid(const Eigen::Vector3d& p_W, const Eigen::Vector3d& dir_W,
                                     double max_distance_m) const;

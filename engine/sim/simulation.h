@@ -68,6 +68,9 @@ class Simulation {
   /// Signals that command() may write.
   const std::vector<std::string>& outside_signals() const { return outside_.signals(); }
 
+  /// Builds now what the first rays, distances and contacts would build: for runs that a clock
+  /// paces.
+  void prepare() const { world_.scene->prepare(); }
   /// Runs until the run is over or `end` is reached; can be called again to continue.
   /// @throws SimulationError
   void run_until(Time end);

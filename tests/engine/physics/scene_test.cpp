@@ -12,6 +12,7 @@
 #include "engine/core/random.h"
 #include "engine/physics/height_field_ray.h"
 #include "engine/physics/static_geometry.h"
+#include "engine/physics/static_scene.h"
 #include "engine/physics/world_scene.h"
 #include "tests/engine/physics/small_worlds.h"
 #include "tests/support/no_alloc.h"
@@ -348,6 +349,25 @@ TEST(Scene, TheFirstRayOfASceneHitsWhatLaterOnesHit) {
     EXPECT_EQ(first->triangle, later->triangle);
   }
   EXPECT_GT(met, 50);
+}
+
+TEST(Scene, APreparedSceneBuildsNothingLater) {
+  auto model = std::make_shared<WorldModel>(scattered_boxes());
+  const StaticScene scene(model);
+  static_cast<void>(scene.light());
+  scene.prepare();
+  RandomStream random(4, "", "prepared");
+  const vinerow::test::AllocationCounter counter;
+  for (int k = 0; k < 100; ++k) {
+    const Vector3d p_W(random.uniform(-9, 9), random.uniform(-9, 9), random.uniform(0, 4));
+    const Vector3d dir_W = random_direction(random);
+    scene.queries().cast_ray(p_W, dir_W, 20.0, kAllSurfaces);
+    scene.light().cast_ray(p_W, dir_W, 20.0);
+    Pose X_WBox;
+    X_WBox.p = p_W;
+    scene.queries().distance_to_box_m(X_WBox, {0.5, 0.4, 0.3}, 5.0, kAllSurfaces);
+  }
+  EXPECT_EQ(counter.count(), 0u);
 }
 
 TEST(Scene, SeveralThreadsMayBeTheFirst) {

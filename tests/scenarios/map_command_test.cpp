@@ -279,6 +279,7 @@ TEST_F(MapCommand, RefusesInOneSentence) {
       "crosses its edge from point");
   expect_refused("map " + cloud_ + " --out /proc/none/map",
                  "folder '/proc/none/map' cannot be created");
+  EXPECT_FALSE(fs::exists(folder_->path() / "refused")) << "an empty folder stays";
 }
 
 TEST_F(MapCommand, FindsNoRowsInAMeadow) {
@@ -295,7 +296,7 @@ TEST_F(MapCommand, FindsNoRowsInAMeadow) {
   expect_refused("map " + folder_->file("meadow.xyz", text) + " --out " +
                      (folder_->path() / "meadow").string(),
                  "no rows found");
-  EXPECT_FALSE(fs::exists(folder_->path() / "meadow/map.json"));
+  EXPECT_FALSE(fs::exists(folder_->path() / "meadow"));
 }
 
 }  // namespace

@@ -181,7 +181,7 @@ void make_map(const MapArguments& arguments) {
   if (!arguments.truth.empty()) truth = mapping::read_cloud_truth(arguments.truth);
   mapping::CloudReadOptions read_options = params.reading;
   read_options.origin = find_map_origin(arguments);
-  io::make_folder(arguments.out);
+  const io::ResultFolder folder(arguments.out);
   if (!arguments.scenario.empty()) watch.end_phase("scenario");
 
   mapping::CloudReadReport read;

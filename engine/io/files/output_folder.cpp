@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <system_error>
+#include <utility>
 
 #include "engine/core/error.h"
 
@@ -15,6 +16,17 @@ void make_folder(const std::filesystem::path& folder) {
     throw ConfigError(
         fmt::format("folder '{}' cannot be created: {}", folder.string(), failed.message()));
   }
+}
+
+ResultFolder::ResultFolder(std::filesystem::path folder) : folder_(std::move(folder)) {
+  std::error_code failed;
+  is_new_ = !std::filesystem::exists(folder_, failed);
+  make_folder(folder_);
+}
+
+ResultFolder::~ResultFolder() {
+  std::error_code failed;
+  if (is_new_) std::filesystem::remove(folder_, failed);  // fails unless it is empty
 }
 
 void make_folder_of(const std::filesystem::path& file) {

@@ -71,7 +71,7 @@ class GnssTracking {
                LeafAreaDensity leaves, double period_s, bool locked, RandomStream random);
 
   /// Advances by one tick. Draws one number per satellite, visible or not.
-  /// @param deaf  no satellite is received
+  /// @param in_outage  no satellite is received
   /// @param jamming_dB  loss of C/N0 of every satellite
   GnssView look(double time_s, const Eigen::Vector3d& p_W, bool in_outage, double jamming_dB);
 

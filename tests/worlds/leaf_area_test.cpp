@@ -113,7 +113,7 @@ TEST(ShelterByLeaves, GrowsWithTheSeason) {
 TEST(ShelterByLeaves, NeedsPlantsWhoseLeavesAreKnown) {
   ParameterSet cards = test::world_parameters("vineyard");
   EXPECT_EQ(test::config_error_of([&] { test::make_world("vineyard", sheltered(cards)); }),
-            "wind.shelter_by_leaves = true, but the world does not know the leaf area of its "
+            "wind: shelter_by_leaves = true, but the world does not know the leaf area of its "
             "plants: give them leaves one by one (vines, leaves) or give wind.shelter");
   ParameterSet both = cards.make_group("wind");
   EXPECT_EQ(test::config_error_of([&] {

@@ -89,7 +89,8 @@ void settle_shelter(WorldModel& world) {
     });
     if (has_canopy) {
       throw ConfigError(
-          "wind.shelter_by_leaves = true, but the world does not know the leaf area of its plants: "
+          "wind: shelter_by_leaves = true, but the world does not know the leaf area of its "
+          "plants: "
           "give them leaves one by one (vines, leaves) or give wind.shelter");
     }
     return;  // bare plants

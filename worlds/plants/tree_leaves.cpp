@@ -49,6 +49,10 @@ const CropFigures& figures_of(Crop crop) {
   return crop == Crop::kApple ? apple : olive;
 }
 
+double volume_m3(const CrownSpace& crown) {
+  return 4.0 / 3.0 * kPi * crown.half_axes_m.prod();
+}
+
 /// Evenly in the ellipsoid. @param share  of its half axes that is used
 Vector3d point_in(const CrownSpace& crown, double share, RandomStream& random) {
   const Vector3d direction = random_direction(random);
@@ -113,8 +117,7 @@ const ParameterTable<TreeLeaves>& tree_leaves_table() {
 
 double leaf_area_m2(const TreeLeaves& leaves, const CrownSpace& crown) {
   const TreeStage stage = tree_stage(leaves.crop, leaves.bbch);
-  const double volume_m3 = 4.0 / 3.0 * kPi * crown.half_axes_m.prod();
-  return leaves.leaf_area_per_m3 * volume_m3 * stage.leaf_area * (1.0 - stage.fallen_share);
+  return leaves.leaf_area_per_m3 * volume_m3(crown) * stage.leaf_area * (1.0 - stage.fallen_share);
 }
 
 double leaf_width_m(const TreeLeaves& leaves) {
@@ -129,8 +132,7 @@ TriangleMesh make_tree_leaves(const TreeLeaves& leaves, const CrownSpace& crown,
   const CropFigures& crop = figures_of(leaves.crop);
   const TreeStage stage = tree_stage(leaves.crop, leaves.bbch);
   const Vector3d autumn(0.33, 0.24, 0.04);
-  const double volume_m3 = 4.0 / 3.0 * kPi * crown.half_axes_m.prod();
-  const double area_m2 = leaves.leaf_area_per_m3 * volume_m3;
+  const double area_m2 = leaves.leaf_area_per_m3 * volume_m3(crown);
   const double blade_m2 = kFewer[level] * crop.leaf_area_m2;
   const auto count = static_cast<int>(std::lround(area_m2 / blade_m2));
   const double number = leaf_number(stage);
@@ -199,8 +201,7 @@ TriangleMesh make_twigs(const CrownSpace& crown, RandomStream random) {
   // up.
   constexpr double kTwigs_per_m3 = 25.0, kRadius_m = 0.004;
   const Eigen::Vector3f bark(0.11f, 0.085f, 0.065f);
-  const double volume_m3 = 4.0 / 3.0 * kPi * crown.half_axes_m.prod();
-  const auto count = static_cast<int>(std::lround(kTwigs_per_m3 * volume_m3));
+  const auto count = static_cast<int>(std::lround(kTwigs_per_m3 * volume_m3(crown)));
   TriangleMesh mesh;
   for (int i = 0; i < count; ++i) {
     const Vector3d base = point_in(crown, 0.7, random);

@@ -134,8 +134,9 @@ void plant_tree_row(WorldModel& world, int row_number, const mapping::RowCurve& 
       return world.meshes.back();
     };
     const CrownSpace space{crown.centre, crown.half_axes_m};
-    const double area_m2 = params.leaves ? leaf_area_m2(*params.leaves, space) : 1.0;
-    if (area_m2 > 0.0) {
+    const double area_m2 = params.leaves ? leaf_area_m2(*params.leaves, space) : 0.0;
+    const bool is_bare = params.leaves && area_m2 <= 0.0;
+    if (!is_bare) {
       MeshInstance& hull =
           add("crown_hull", SurfaceClass::kCanopy,
               store.get("crown_hull/" + key, [&] { return make_crown_hull(crown); }));
@@ -148,7 +149,7 @@ void plant_tree_row(WorldModel& world, int row_number, const mapping::RowCurve& 
     add("tree_trunk", SurfaceClass::kTrunk, store.get("tree_trunk/" + key, [&] {
       return make_tree_trunk(params, crown, random("tree_trunk." + key));
     }));
-    for (int level = 0; level < 3 && area_m2 > 0.0; ++level) {
+    for (int level = 0; level < 3 && !is_bare; ++level) {
       const std::string mesh_name = fmt::format("crown/{}#lod{}", key, level);
       MeshInstance& leaves = add("crown", SurfaceClass::kCanopy, store.get(mesh_name, [&] {
         return params.leaves ? make_tree_leaves(*params.leaves, space, level, random(mesh_name))

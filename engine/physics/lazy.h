@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "engine/core/profile.h"
+
 namespace vinerow::physics {
 
 /// Thread safe: one thread makes the value, others wait for it. Once made, reading it costs one
@@ -24,6 +26,7 @@ class Lazy {
  private:
   const T& make() const {
     std::call_once(once_, [this] {
+      const ProfileSpan span("trees of distances and contacts", "set-up");
       value_.emplace(make_());
       made_.store(&*value_, std::memory_order_release);
     });

@@ -12,12 +12,14 @@
 #include <optional>
 
 #include "engine/core/error.h"
+#include "engine/core/profile.h"
 #include "engine/core/whole_file.h"
 #include "engine/io/files/output_folder.h"
 #include "engine/playback/canopy_file.h"
 #include "engine/playback/run_frames.h"
 #include "engine/run/junit.h"
 #include "engine/run/log_observer.h"
+#include "engine/run/run_profile.h"
 #include "engine/run/summary.h"
 #include "engine/sim/judge.h"
 #include "engine/sim/session.h"
@@ -49,7 +51,9 @@ std::optional<std::uint64_t> step_to_end(Session& session, const RunOptions& opt
     RunDriver::Next next{session.now() + kSlice};
     if (options.driver) next = options.driver->next(session, next.until);
     if (next.restart_seed) return next.restart_seed;
+    if (options.profile) options.profile->begin_slice(session.now());
     session.advance(next.until);
+    if (options.profile) options.profile->end_slice(session.now());
     if (options.interrupted && options.interrupted()) {
       const SimulationError error("run", session.now(), "interrupted by the user");
       session.simulation().emit(Event::Level::kError, error.culprit(), error.what());
@@ -102,8 +106,9 @@ std::map<std::string, std::map<std::string, double>> with_missing_numbers(
 void clear_earlier_run(const std::filesystem::path& folder) {
   std::error_code ignored;
   std::vector<std::filesystem::path> earlier;
-  for (const char* name : {"log.mcap", "report.html", "replay.html", "frames", "canopy",
-                           "robot_description", "summary.json", "junit.xml"}) {
+  for (const char* name :
+       {"log.mcap", "report.html", "replay.html", "frames", "canopy", "robot_description",
+        "summary.json", "junit.xml", "profile.csv", "profile.json"}) {
     earlier.push_back(folder / name);
   }
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
@@ -137,6 +142,7 @@ std::vector<std::filesystem::path> write_canopy(const Simulation& simulation,
 /// Builds a run and makes all checks that are possible before its first step. @throws ConfigError
 Session open_run(const scenario::Scenario& scenario, const Registry& registry,
                  const std::filesystem::path& products, std::shared_ptr<RunShelf> shelf) {
+  const ProfileSpan span("session", "set-up");
   SessionOptions options;
   options.products = products;
   options.shelf = std::move(shelf);
@@ -186,6 +192,7 @@ void judge_run(const scenario::Scenario& scenario, const Session& session, RunRe
 
 void draw_pictures(const std::filesystem::path& log, const Registry& registry,
                    const RunOptions& options, RunResult& result) {
+  const ProfileSpan span("pictures", "results");
   playback::PictureOptions drawing;
   drawing.progress = options.picture_progress;
   drawing.interrupted = options.interrupted;
@@ -217,6 +224,8 @@ std::optional<std::uint64_t> step_and_judge(Session& session, const RunOptions& 
     result.error = error.what();
   };
   const Clock::time_point start = Clock::now();
+  // A mission names its phases itself.
+  if (scenario.phases.empty()) set_profile_phase("", "run");
   try {
     if (options.driver) options.driver->begin(session);
     const auto restart_seed = step_to_end(session, options, start);
@@ -233,6 +242,8 @@ std::optional<std::uint64_t> step_and_judge(Session& session, const RunOptions& 
     simulation.emit(Event::Level::kError, error.culprit(), error.what());
   }
   result.wall_s = seconds_since(start);
+  set_profile_phase("", "results");
+  const ProfileSpan span("verdict", "results");
   judge_run(scenario, session, result);
   if (options.driver) options.driver->end(session);
   return std::nullopt;
@@ -292,6 +303,7 @@ RunResult run_scenario(const scenario::Scenario& scenario, const Registry& regis
     }
     return result;
   }
+  std::optional<ProfileSpan> opening(std::in_place, "output files", "set-up");
   io::make_folder(options.out);
   result.lock = std::make_shared<FolderLock>(options.out);
   // Space for the verdict, in case the disk fills up during the run.
@@ -311,6 +323,7 @@ RunResult run_scenario(const scenario::Scenario& scenario, const Registry& regis
     }
     events = std::make_unique<EventFile>(options.out / "events.jsonl");
     simulation.add_observer(events.get());
+    opening.reset();
     const auto seed = step_and_judge(session, options, log.get(), result);
     runs = seed.has_value();
     if (!runs) break;
@@ -323,7 +336,8 @@ RunResult run_scenario(const scenario::Scenario& scenario, const Registry& regis
   reserve.give_back();
   Simulation& simulation = session.simulation();
   const auto write_verdict = [&] {
-    write_whole_file(options.out / "summary.json", summary_json(result, simulation));
+    write_whole_file(options.out / "summary.json",
+                     summary_json(result, simulation, options.profile));
     write_whole_file(options.out / "junit.xml", junit_xml(scenario.name, result));
   };
   const bool wants_pictures = options.pictures && !scenario.pictures.cameras.empty();

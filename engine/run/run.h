@@ -21,6 +21,8 @@ class RunShelf;
 
 namespace vinerow::run {
 
+class RunProfile;
+
 /// Exit status of `vinerow run` (docs/reference/exit_status.md).
 enum class RunStatus { kAllMet = 0, kCriterionFailed = 1, kBadInput = 2, kBrokenOff = 3 };
 
@@ -38,6 +40,7 @@ struct RunOptions {
   bool pictures = true;
   bool measure_cost = true;           ///< computing time of each stage in summary.json
   std::shared_ptr<RunShelf> shelf;    ///< cache of worlds and file contents, shared with other runs
+  RunProfile* profile = nullptr;      ///< recorded by this thread; in summary.json
   std::shared_ptr<RunDriver> driver;  ///< may be null: the run goes to its end as fast as it can
   std::function<void(const Progress&)> progress;  ///< called about five times a second of wall time
   /// Called every simulated quarter second and before each picture; true ends the run or the

@@ -8,6 +8,7 @@
 
 #include "engine/api/abi_version.h"
 #include "engine/api/world_model.h"
+#include "engine/run/run_profile.h"
 
 namespace vinerow::run {
 namespace {
@@ -114,6 +115,21 @@ ordered_json cost_json(Simulation& simulation) {
   return list;
 }
 
+ordered_json profile_json(const RunProfile& profile) {
+  ordered_json list = ordered_json::array();
+  for (const RunProfile::Row& row : profile.rows()) {
+    list.push_back({{"part", row.part},
+                    {"phase", row.phase},
+                    {"stage", row.stage},
+                    {"calls", row.calls},
+                    {"wall_s", row.time_s},
+                    {"us_per_call", 1e6 * row.time_s / static_cast<double>(row.calls)},
+                    {"longest_us", 1e6 * row.longest_s}});
+    if (profile.counts_allocations()) list.back()["allocations"] = row.allocations;
+  }
+  return list;
+}
+
 std::string status_name(const RunResult& result) {
   switch (result.status) {
     case RunStatus::kAllMet:
@@ -138,7 +154,8 @@ std::string program_version() {
   return VINEROW_VERSION_STRING;
 }
 
-std::string summary_json(const RunResult& result, Simulation& simulation) {
+std::string summary_json(const RunResult& result, Simulation& simulation,
+                         const RunProfile* profile) {
   const scenario::Scenario& scenario = simulation.scenario();
   ordered_json summary;
   summary["scenario"] = scenario.name;
@@ -172,6 +189,7 @@ std::string summary_json(const RunResult& result, Simulation& simulation) {
   if (!result.picture_note.empty()) summary["picture_note"] = result.picture_note;
   summary["notes"] = simulation.world().notes;
   summary["cost"] = cost_json(simulation);
+  if (profile) summary["profile"] = profile_json(*profile);
   summary["versions"] = {{"vinerow", program_version()},
                          {"abi", fmt::format("{} ({})", VINEROW_ABI_VERSION, VINEROW_ABI_HEADERS)},
                          {"compiler", __VERSION__}};

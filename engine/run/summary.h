@@ -10,8 +10,10 @@
 namespace vinerow::run {
 
 /// @param simulation  for costs and notes; metrics are taken from `result`
+/// @param profile  may be null
 /// @returns the JSON text
-std::string summary_json(const RunResult& result, Simulation& simulation);
+std::string summary_json(const RunResult& result, Simulation& simulation,
+                         const RunProfile* profile);
 
 /// Version of this program, "0.1.0".
 std::string program_version();

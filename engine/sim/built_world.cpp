@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/core/error.h"
-
+#include "engine/core/profile.h"
 #include "engine/sim/simulation.h"
 
 namespace vinerow {
@@ -42,7 +42,11 @@ std::unique_ptr<WorldModel> build_world(const scenario::Scenario& scenario,
 BuiltWorld build_static_world(const scenario::Scenario& scenario, const Registry& registry,
                               FileShelf* shelf) {
   BuiltWorld world;
-  world.model = build_world(scenario, registry, shelf);
+  {
+    const ProfileSpan span("world", "set-up");
+    world.model = build_world(scenario, registry, shelf);
+  }
+  const ProfileSpan span("scene of the world", "set-up");
   world.scene = std::make_shared<const physics::StaticScene>(world.model);
   world.seed = scenario.seed;
   return world;

@@ -7,6 +7,7 @@
 
 #include "engine/api/map.h"
 #include "engine/core/error.h"
+#include "engine/core/profile.h"
 #include "engine/core/suggest.h"
 #include "engine/core/whole_file.h"
 #include "engine/scenario/scenario_phases.h"
@@ -246,11 +247,25 @@ void Mission::begin(std::size_t i, Time now) {
   report.state = PhaseState::kRunning;
   report.begin = now;
   run_.emit(Event::Level::kInfo, "mission", fmt::format("phase '{}' begins", report.name));
+  for (VehicleRuntime* vehicle : phases_[i].vehicles) {
+    set_profile_phase(vehicle->name(), report.name);
+  }
+  note_phases();
   if (phases_[i].job) {
+    const ProfileSpan span(report.name, "job");
     run_job(i, now);
   } else {
     start_vehicles(i, now);
   }
+}
+
+void Mission::note_phases() const {
+  std::string names;
+  for (const PhaseReport& report : reports_) {
+    if (report.state != PhaseState::kRunning) continue;
+    names += (names.empty() ? "" : " + ") + report.name;
+  }
+  set_profile_phase("", names.empty() ? "between phases" : names);
 }
 
 std::map<std::string, Product> Mission::inputs_of(std::size_t i) const {
@@ -408,7 +423,9 @@ void Mission::settle(std::size_t i, Time now, PhaseState state, const std::strin
     report.end = now;
     for (VehicleRuntime* vehicle : phases_[i].vehicles) {
       vehicle->end(vehicle->crash() || vehicle->finished());
+      set_profile_phase(vehicle->name(), "after its phase");
     }
+    note_phases();
   }
   const bool good = state == PhaseState::kSucceeded;
   std::string text = fmt::format("phase '{}' {}", report.name, to_string(state));

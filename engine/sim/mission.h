@@ -57,6 +57,8 @@ class Mission {
     std::string job_failure;
   };
 
+  /// Names what runs now to a profile, for the work that belongs to no vehicle.
+  void note_phases() const;
   void build_job(Phase& phase);
   /// @param metrics  of the phase's vehicles, by vehicle and name; the values are ignored
   /// @throws ConfigError as check_criteria (judge.h)

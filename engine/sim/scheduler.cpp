@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/core/error.h"
+#include "engine/core/profile.h"
 
 namespace vinerow {
 namespace {
@@ -15,6 +16,28 @@ std::string in_seconds(Duration d) {
 }
 
 }  // namespace
+
+const char* to_string(Stage stage) {
+  switch (stage) {
+    case Stage::kSense:
+      return "sense";
+    case Stage::kEstimate:
+      return "estimate";
+    case Stage::kPlan:
+      return "plan";
+    case Stage::kGuide:
+      return "guide";
+    case Stage::kControl:
+      return "control";
+    case Stage::kActuate:
+      return "actuate";
+    case Stage::kPayload:
+      return "payload";
+    case Stage::kJudge:
+      return "judge";
+  }
+  return "?";
+}
 
 int Scheduler::add(Stage stage, std::string name, Duration period, Duration offset,
                    std::function<void(Time)> run, Time begin) {
@@ -48,6 +71,7 @@ void Scheduler::run_due(Time now) {
   Time earliest{std::numeric_limits<std::int64_t>::max()};
   for (Task& task : tasks_) {
     if (task.next == now) {
+      const ProfileSpan span(task.name, to_string(task.stage));
       if (measure_) {
         const std::int64_t start_ns = clock_();
         task.run(now);

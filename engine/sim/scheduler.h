@@ -16,6 +16,7 @@ namespace vinerow {
 
 /// Order within one instant. Physics then advances the state to the next instant.
 enum class Stage { kSense, kEstimate, kPlan, kGuide, kControl, kActuate, kPayload, kJudge };
+const char* to_string(Stage stage);  ///< "sense"
 
 class Scheduler {
  public:

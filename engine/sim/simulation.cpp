@@ -10,6 +10,7 @@
 #include "engine/api/map.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
+#include "engine/core/profile.h"
 #include "engine/core/suggest.h"
 #include "engine/sim/camera_check.h"
 #include "engine/sim/mission.h"
@@ -59,6 +60,7 @@ Simulation::Simulation(const scenario::Scenario& scenario, const Registry& regis
   physics::PhysicsSettings settings;
   settings.step = scenario_.physics_step;
   settings.gravity_mps2 = scenario_.gravity_mps2;
+  const ProfileSpan span("run", "set-up");
   physics_ = std::make_unique<physics::PhysicsWorld>(settings, world_.scene, *world_.model);
 
   refuse_hidden_cameras(scenario_.pictures, world(), physics_->scene());
@@ -89,6 +91,7 @@ Simulation::Simulation(const scenario::Scenario& scenario, const Registry& regis
                               const std::string& text) { emit(level, source, text); }};
   std::vector<StartBox> starts;
   for (const scenario::VehicleConfig& vehicle : scenario_.vehicles) {
+    const ProfileSpan vehicle_span(vehicle.name, "set-up");
     vehicles_.push_back(std::make_unique<VehicleRuntime>(vehicle, run, starts));
     // In a mission, a vehicle starts with its phase.
     if (scenario_.phases.empty()) {
@@ -227,8 +230,11 @@ void Simulation::work_instant() {
     const std::string doubt = density_warning(world());
     if (!doubt.empty()) emit(Event::Level::kWarning, "world", doubt);
   }
-  for (const auto& vehicle : vehicles_) vehicle->publish_truth(now_);
-  outside_.deliver(now_);
+  {
+    const ProfileSpan span("truth and commands from outside", "sense");
+    for (const auto& vehicle : vehicles_) vehicle->publish_truth(now_);
+    outside_.deliver(now_);
+  }
   if (mission_) {
     for (const auto& [vehicle, reason] : lost_vehicles_) {
       mission_->fail_phase_of(vehicle, now_, reason);
@@ -238,7 +244,11 @@ void Simulation::work_instant() {
   }
   scheduler_.run_due(now_);
   pass_on_events();
-  hash_new_signals();
+  {
+    const ProfileSpan span("digest", "record");
+    hash_new_signals();
+  }
+  const ProfileSpan span("log and other observers", "record");
   for (RunObserver* observer : observers_) observer->on_instant(now_);
 }
 
@@ -263,7 +273,10 @@ void Simulation::hash_new_signals() {
 void Simulation::step_physics() {
   const Duration step = scenario_.physics_step;
   for (const auto& vehicle : vehicles_) vehicle->before_physics(now_, step);
-  physics_->step(step);
+  {
+    const ProfileSpan span("rigid bodies", "physics");
+    physics_->step(step);
+  }
   now_ = now_ + step;
   ++steps_;
   for (const auto& vehicle : vehicles_) vehicle->after_physics(now_, step);

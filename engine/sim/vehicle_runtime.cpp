@@ -9,6 +9,7 @@
 #include "engine/api/map.h"
 #include "engine/api/may_fail.h"
 #include "engine/core/error.h"
+#include "engine/core/profile.h"
 #include "engine/sim/map_edges.h"
 
 namespace vinerow {
@@ -146,8 +147,15 @@ void VehicleRuntime::publish_diagnostics(Time now) {
   }
 }
 
+void VehicleRuntime::before_physics(Time now, Duration step) {
+  if (parked_) return;
+  const ProfileSpan span(config_.name, "physics");
+  vehicle_->before_physics(now, step);
+}
+
 void VehicleRuntime::after_physics(Time now, Duration step) {
   if (parked_) return;
+  const ProfileSpan span(config_.name, "physics");
   vehicle_->after_physics(now, step);
   watch_.check(now, *parts_);
 }

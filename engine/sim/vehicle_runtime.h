@@ -73,9 +73,7 @@ class VehicleRuntime {
 
   /// Reads the bodies and writes "truth"; called at every instant.
   void publish_truth(Time now);
-  void before_physics(Time now, Duration step) {
-    if (!parked_) vehicle_->before_physics(now, step);
-  }
+  void before_physics(Time now, Duration step);
   /// Advances the vehicle and checks that its state is finite and inside the envelope. @throws
   /// SimulationError
   void after_physics(Time now, Duration step);

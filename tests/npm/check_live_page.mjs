@@ -2,17 +2,12 @@
 // A headless Chromium opens the page of a live run and uses it as a person would. Pictures go into FOLDER.
 // Exit status 77 (skipped) without Chromium, or where `npm ci` has not been run here.
 import assert from "node:assert/strict";
-import { spawn, spawnSync } from "node:child_process";
-import { existsSync, mkdirSync, rmSync } from "node:fs";
-import { dirname, join } from "node:path";
-import { fileURLToPath } from "node:url";
+import { spawn } from "node:child_process";
+import { mkdirSync, rmSync } from "node:fs";
+import { join } from "node:path";
+import { chromiumOrSkip } from "./chromium.mjs";
 
-const here = dirname(fileURLToPath(import.meta.url));
-const program = ["chromium", "chromium-browser", "google-chrome"].find((name) => spawnSync("sh", ["-c", "command -v " + name]).status === 0);
-if (!program || !existsSync(join(here, "node_modules", "ws"))) {
-  console.log("skipped: chromium or node_modules is absent");
-  process.exit(77);
-}
+const program = chromiumOrSkip("ws");
 const { Browser } = await import("./browser.mjs");
 
 const [command, scenario, folder] = process.argv.slice(2);

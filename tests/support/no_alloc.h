@@ -3,14 +3,17 @@
 /// allocates nothing". Link vinerow_no_alloc to use it.
 
 #include <cstddef>
+#include <cstdint>
 
 namespace vinerow::test {
 
 class AllocationCounter {
  public:
   AllocationCounter();
-  ~AllocationCounter();
   std::size_t count() const;  ///< allocations since construction
+
+ private:
+  std::uint64_t at_start_;
 };
 
 }  // namespace vinerow::test

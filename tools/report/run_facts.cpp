@@ -93,6 +93,21 @@ std::string timings(const RunFolder& run) {
       duration_text(std::max(0.0, run.end_s())), run.number("wall_s"),
       run.number("real_time_factor"));
   std::vector<std::vector<std::string>> rows;
+  const auto number_in = [](const Json& entry, const char* key) {
+    return number_cell(number_of(entry.value(key, Json())));
+  };
+  for (const Json& row : list_in(run.summary, "profile")) {
+    rows.push_back({"<code>" + escaped(row.value("part", "")) + "</code>",
+                    escaped(row.value("phase", "")), escaped(row.value("stage", "")),
+                    number_in(row, "calls"), number_in(row, "wall_s"),
+                    number_in(row, "us_per_call"), number_in(row, "longest_us"),
+                    row.contains("allocations") ? number_in(row, "allocations") : ""});
+  }
+  if (!rows.empty()) {
+    return out + table({"part", "phase", "stage", "calls", "computing time, s", "µs per call",
+                        "longest, µs", "allocations"},
+                       rows, "cost");
+  }
   for (const Json& phase : list_in(run.summary, "phases")) {
     const auto wall = phase.find("wall_s");
     if (wall == phase.end() || phase.value("kind", "") != "job") continue;
@@ -100,11 +115,9 @@ std::string timings(const RunFolder& run) {
         {"phase " + escaped(phase.value("name", "")), "", "", number_cell(number_of(*wall)), ""});
   }
   for (const Json& task : list_in(run.summary, "cost")) {
-    const auto number = [&](const char* key) {
-      return number_cell(number_of(task.value(key, Json())));
-    };
-    rows.push_back({"<code>" + escaped(task.value("task", "")) + "</code>", number("period_s"),
-                    number("ticks"), number("wall_s"), number("us_per_tick")});
+    rows.push_back({"<code>" + escaped(task.value("task", "")) + "</code>",
+                    number_in(task, "period_s"), number_in(task, "ticks"),
+                    number_in(task, "wall_s"), number_in(task, "us_per_tick")});
   }
   return out + (rows.empty()
                     ? ""

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/core/error.h"
+#include "engine/core/profile.h"
 #include "engine/core/whole_file.h"
 #include "tools/pictures/coverage_picture_files.h"
 #include "tools/pictures/map_picture_files.h"
@@ -13,6 +14,7 @@ namespace vinerow::tools {
 void write_further_files(const scenario::Scenario& scenario, const Registry& registry,
                          const run::RunResult& result, const FurtherFiles& wanted) {
   const auto try_to_write = [&](const char* what, const char* kind, const auto& write) {
+    const ProfileSpan span(what, "results");
     try {
       const std::vector<std::filesystem::path> files = write();
       if (wanted.written) wanted.written(kind, files);

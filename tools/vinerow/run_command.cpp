@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 
 #include "engine/core/error.h"
+#include "engine/core/profile.h"
 #include "engine/run/run.h"
 #include "engine/sim/judge.h"
 #include "engine/sim/run_shelf.h"
@@ -11,6 +13,7 @@
 #include "tools/terminal/colour.h"
 #include "tools/terminal/interrupt.h"
 #include "tools/terminal/progress_line.h"
+#include "tools/vinerow/profile_output.h"
 #include "tools/vinerow/subcommands.h"
 
 namespace vinerow::tools {
@@ -113,6 +116,7 @@ run::RunStatus run_and_report(const scenario::Scenario& scenario, const Registry
   ProgressLine line(choice.quiet);
   RunPeers peers(scenario, registry, choice.peers, options.out, line);
   options.driver = peers.driver();
+  options.profile = choice.profile;
   watch_for_interrupt();
   const bool with_log = options.log && scenario.record.enabled;
   options.progress = [&line](const run::Progress& progress) { show_simulation(line, progress); };
@@ -163,6 +167,17 @@ run::RunStatus run_and_report(const scenario::Scenario& scenario, const Registry
                "render {}/log.mcap' draws the pictures, 'vinerow report {}' writes the report\n",
                out, out);
   }
+  if (choice.profile) {
+    try {
+      fmt::print("{}", profile_table(*choice.profile));
+      write_profile(*choice.profile, options.out);
+      fmt::print("trace    {} (open it in Perfetto or speedscope)\n",
+                 (options.out / "profile.json").string());
+    } catch (const WriteError& error) {
+      unwritten = true;
+      fmt::print(stderr, "vinerow: no profile: {}\n", error.what());
+    }
+  }
   if (unwritten) return run::RunStatus::kBrokenOff;
   return is_repeated ? result.status : run::RunStatus::kCriterionFailed;
 }
@@ -171,6 +186,7 @@ void add_run_command(CLI::App& app, int& exit_status) {
   struct Arguments {
     ScenarioArguments scenario;
     RunChoice choice;
+    bool profile = false;
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
@@ -182,11 +198,21 @@ void add_run_command(CLI::App& app, int& exit_status) {
   command->add_flag("--no-pictures", arguments->choice.no_pictures, "draw no pictures");
   command->add_flag("--no-report", arguments->choice.no_report, "write no report.html");
   command->add_flag("--quiet", arguments->choice.quiet, "show no progress");
+  command->add_flag("--profile", arguments->profile,
+                    "measure computing time and heap allocations by part, stage and phase: a "
+                    "table, and a trace for Perfetto or speedscope");
   add_peer_options(*command, arguments->choice.peers);
   command->callback([arguments, &exit_status] {
     complete_peer_options(arguments->choice.peers);
+    std::optional<run::RunProfile> profile;
+    if (arguments->profile) profile.emplace(make_profile());
+    arguments->choice.profile = profile ? &*profile : nullptr;
+    const ProfileRecording recording(arguments->choice.profile);
     Registry registry;
-    const scenario::Scenario scenario = load(arguments->scenario, registry);
+    const scenario::Scenario scenario = [&] {
+      const ProfileSpan span("scenario file and plug-ins", "set-up");
+      return load(arguments->scenario, registry);
+    }();
     exit_status = static_cast<int>(run_and_report(scenario, registry, arguments->choice));
   });
 }

@@ -11,6 +11,10 @@
 #include "engine/scenario/scenario.h"
 #include "tools/vinerow/run_peers.h"
 
+namespace vinerow::run {
+class RunProfile;
+}
+
 namespace vinerow::tools {
 
 /// Each adds one command. @param exit_status  set by the command when it has run
@@ -51,6 +55,7 @@ void add_scenario_arguments(CLI::App& command, ScenarioArguments& arguments,
 struct RunChoice {
   std::filesystem::path out;  ///< empty: runs/<scenario name>
   bool no_log = false, no_pictures = false, no_report = false, quiet = false;
+  run::RunProfile* profile = nullptr;  ///< to be written with the results; may be null
   PeerChoice peers;
 };
 /// Runs a scenario like `vinerow run`: progress, verdict, pictures, report. @returns the exit

@@ -12,7 +12,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kBlockCells = 16;
+constexpr int kBlockLevel = 2;
+constexpr int kBlockCells = HeightRanges::kCells << kBlockLevel;
 
 /// Traversal of the squares of a grid along a line: each square with its range of t.
 class GridWalk {
@@ -60,29 +61,9 @@ struct HeightFieldRay::Walk {
 };
 
 HeightFieldRay::HeightFieldRay(const HeightField& field)
-    : field_(field), inverse_cell_per_m_(1.0 / field.cell_m) {
+    : field_(field), inverse_cell_per_m_(1.0 / field.cell_m), ranges_(field) {
   block_columns_ = (field.columns - 2) / kBlockCells + 1;
   block_rows_ = (field.rows - 2) / kBlockCells + 1;
-  blocks_.reserve(static_cast<std::size_t>(block_columns_) * block_rows_);
-  lowest_m_ = kInfinity;
-  highest_m_ = -kInfinity;
-  for (int bj = 0; bj < block_rows_; ++bj) {
-    for (int bi = 0; bi < block_columns_; ++bi) {
-      Range range{std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()};
-      const int last_j = std::min((bj + 1) * kBlockCells, field.rows - 1);
-      const int last_i = std::min((bi + 1) * kBlockCells, field.columns - 1);
-      for (int j = bj * kBlockCells; j <= last_j; ++j) {
-        for (int i = bi * kBlockCells; i <= last_i; ++i) {
-          const float h = field.heights_m[static_cast<std::size_t>(j) * field.columns + i];
-          range.low_m = std::min(range.low_m, h);
-          range.high_m = std::max(range.high_m, h);
-        }
-      }
-      blocks_.push_back(range);
-      lowest_m_ = std::min<double>(lowest_m_, range.low_m);
-      highest_m_ = std::max<double>(highest_m_, range.high_m);
-    }
-  }
   double steepest2_m2 = 0.0;  // square of the rise per cell
   for (int j = 0; j + 1 < field.rows; ++j) {
     for (int i = 0; i + 1 < field.columns; ++i) {
@@ -106,6 +87,46 @@ bool HeightFieldRay::rises_above(const Vector3d& p_W, const Vector3d& dir_W) con
          dir_W.z() * dir_W.z() > (1.0 + kRounding) * steepest_ * steepest_ * level2 &&
          field_.contains(p_W.x(), p_W.y()) &&
          p_W.z() > field_.height_m(p_W.x(), p_W.y()) + kRounding_m;
+}
+
+/// Limits the ray to its section between two heights. Before it the side is constant, so it need
+/// not be traversed. @returns false if nothing is left
+bool HeightFieldRay::clip(Walk& walk, double low_m, double high_m, double& t0, double& t1) {
+  // The margin keeps rounding from cutting off a crossing of the highest or lowest sample.
+  constexpr double kMargin_m = 1e-3;
+  low_m -= kMargin_m;
+  high_m += kMargin_m;
+  if (walk.dz == 0.0) return walk.z <= high_m && walk.z >= low_m;
+  const double at_low = (low_m - walk.z) / walk.dz;
+  const double at_high = (high_m - walk.z) / walk.dz;
+  const double enter = std::min(at_low, at_high);
+  if (enter > t0) {
+    walk.side = walk.dz < 0.0 ? 1 : -1;
+    t0 = enter;
+  }
+  t1 = std::min(t1, std::max(at_low, at_high));
+  return t0 <= t1;
+}
+
+/// Limits the ray to where it is as high as some ground under it. What is left covers less ground,
+/// whose heights differ less: this is repeated until little is gained. @returns false if nothing is
+/// left
+bool HeightFieldRay::clip_to_ground(Walk& walk, double& t0, double& t1) const {
+  const auto square = [&](int axis, double t, int squares) {
+    const auto cell = static_cast<int>(walk.g[axis] + t * walk.d[axis]);
+    return std::clamp(cell / HeightRanges::kCells, 0, squares - 1);
+  };
+  for (bool gains = true; gains;) {
+    const auto [i0, i1] =
+        std::minmax({square(0, t0, ranges_.columns()), square(0, t1, ranges_.columns())});
+    const auto [j0, j1] =
+        std::minmax({square(1, t0, ranges_.rows()), square(1, t1, ranges_.rows())});
+    const HeightRanges::Range range = ranges_.of(i0, j0, i1, j1);
+    const double length = t1 - t0;
+    if (!clip(walk, range.low_m, range.high_m, t0, t1)) return false;
+    gains = t1 - t0 < 0.5 * length;
+  }
+  return true;
 }
 
 /// Finds the crossing inside one cell. @returns true if found
@@ -158,7 +179,7 @@ bool HeightFieldRay::cross_cell(Walk& walk, int i, int j, double t0, double t1) 
 }
 
 bool HeightFieldRay::cross_block(Walk& walk, int bi, int bj, double t0, double t1) const {
-  const Range range = blocks_[static_cast<std::size_t>(bj) * block_columns_ + bi];
+  const HeightRanges::Range range = ranges_.square(kBlockLevel, bi, bj);
   const double z0 = walk.z + walk.dz * t0;
   const double z1 = walk.z + walk.dz * t1;
   // Strictly above or below the whole block: no crossing, and the side is known.
@@ -215,24 +236,7 @@ std::optional<HeightFieldRay::Hit> HeightFieldRay::cast(const Vector3d& p_W, con
   }
   if (!(t0 <= t1)) return std::nullopt;
 
-  // Section within the height range. Before it the side is constant, so it need not be traversed.
-  // The margin keeps rounding from cutting off a crossing of the highest or lowest sample.
-  constexpr double kMargin_m = 1e-3;
-  const double low_m = lowest_m_ - kMargin_m;
-  const double high_m = highest_m_ + kMargin_m;
-  if (walk.dz != 0.0) {
-    const double at_low = (low_m - walk.z) / walk.dz;
-    const double at_high = (high_m - walk.z) / walk.dz;
-    const double enter = std::min(at_low, at_high);
-    if (enter > t0) {
-      walk.side = walk.dz < 0.0 ? 1 : -1;
-      t0 = enter;
-    }
-    t1 = std::min(t1, std::max(at_low, at_high));
-    if (!(t0 <= t1)) return std::nullopt;
-  } else if (walk.z > high_m || walk.z < low_m) {
-    return std::nullopt;
-  }
+  if (!clip(walk, ranges_.all().low_m, ranges_.all().high_m, t0, t1)) return std::nullopt;
 
   // A short ray inside one cell, such as a wheel's, needs no traversal.
   const auto cell_of = [&](int axis, double t, int last) {
@@ -244,6 +248,7 @@ std::optional<HeightFieldRay::Hit> HeightFieldRay::cast(const Vector3d& p_W, con
   if (i == cell_of(0, t1, field_.columns - 2) && j == cell_of(1, t1, field_.rows - 2)) {
     found = cross_cell(walk, i, j, t0, t1);
   } else {
+    if (!clip_to_ground(walk, t0, t1)) return std::nullopt;
     const double g_blocks[2] = {walk.g[0] / kBlockCells, walk.g[1] / kBlockCells};
     const double d_blocks[2] = {walk.d[0] / kBlockCells, walk.d[1] / kBlockCells};
     const int low[2] = {0, 0};

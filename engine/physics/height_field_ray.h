@@ -4,15 +4,16 @@
 ///
 /// Along a ray the height above the surface, D(t) = z(t) - h(x(t), y(t)), is continuous and, in
 /// each cell, linear on either side of the diagonal. The ray visits the cells that it crosses and
-/// stops where D changes sign. It skips blocks of cells whose height range it does not meet. A ray
-/// that starts above the surface and rises more steeply than the surface anywhere visits no cell: D
-/// only grows. Both sides of the surface are hit; the surface ends at the grid's edge.
+/// stops where D changes sign. It skips what lies above or below all samples under it, of a long
+/// section first and then block by block. A ray that starts above the surface and rises more
+/// steeply than the surface anywhere visits no cell: D only grows. Both sides of the surface are
+/// hit; the surface ends at the grid's edge.
 
 #include <Eigen/Core>
 #include <optional>
-#include <vector>
 
 #include "engine/api/forward.h"
+#include "engine/physics/height_ranges.h"
 
 namespace vinerow::physics {
 
@@ -32,19 +33,17 @@ class HeightFieldRay {
   const HeightField& field() const { return field_; }
 
  private:
-  struct Range {
-    float low_m, high_m;
-  };
   struct Walk;
   bool rises_above(const Eigen::Vector3d& p_W, const Eigen::Vector3d& dir_W) const;
+  static bool clip(Walk& walk, double low_m, double high_m, double& t0, double& t1);
+  bool clip_to_ground(Walk& walk, double& t0, double& t1) const;
   bool cross_cell(Walk& walk, int i, int j, double t0, double t1) const;
   bool cross_block(Walk& walk, int bi, int bj, double t0, double t1) const;
 
   const HeightField& field_;
   double inverse_cell_per_m_;
   int block_columns_, block_rows_;
-  std::vector<Range> blocks_;  ///< heights of kBlockCells x kBlockCells cells, x fastest
-  double lowest_m_, highest_m_;
+  HeightRanges ranges_;
   double steepest_ = 0.0;  ///< largest rise per horizontal metre of all triangles
 };
 

@@ -65,8 +65,8 @@ double gap_m(const Triangle& triangle, const AxisBox& box) {
 struct NearestTriangle : btTriangleCallback {
   btTransform X_BM;
   AxisBox body_B;
-  const btCompoundShape* compound;
-  std::vector<AxisBox>* shapes_B;  ///< empty until needed
+  const btCompoundShape* compound;  ///< null: the body has a single shape
+  std::vector<AxisBox>* shapes_B;   ///< empty until needed
   double margin_m = 0.0;
   double distance_m = 0.0;
 
@@ -74,7 +74,7 @@ struct NearestTriangle : btTriangleCallback {
     const Triangle triangle{X_BM * corners_M[0], X_BM * corners_M[1], X_BM * corners_M[2]};
     if (box_gap_m(triangle, body_B) >= distance_m) return;
     double gap = gap_m(triangle, body_B);
-    if (gap <= margin_m) gap = shapes_gap_m(triangle);
+    if (gap <= margin_m && compound) gap = shapes_gap_m(triangle);
     distance_m = std::min(distance_m, gap);
   }
 
@@ -113,7 +113,7 @@ bool MeshGate::is_clear(const btCollisionObject& mesh, const btCollisionObject& 
                         double margin_m) {
   const btCollisionShape& shape = *body.getCollisionShape();
   if (mesh.getCollisionShape()->getShapeType() != TRIANGLE_MESH_SHAPE_PROXYTYPE ||
-      !shape.isCompound()) {
+      !(shape.isCompound() || shape.isConvex())) {
     return false;
   }
   const btTransform& X_WB = body.getWorldTransform();
@@ -132,7 +132,7 @@ bool MeshGate::is_clear(const btCollisionObject& mesh, const btCollisionObject& 
   NearestTriangle nearest;
   nearest.X_BM = X_MB.inverse();
   shape.getAabb(btTransform::getIdentity(), nearest.body_B.low, nearest.body_B.high);
-  nearest.compound = static_cast<const btCompoundShape*>(&shape);
+  nearest.compound = shape.isCompound() ? static_cast<const btCompoundShape*>(&shape) : nullptr;
   nearest.shapes_B = &shapes_B_;
   nearest.margin_m = margin_m;
   nearest.distance_m = wide_m;

@@ -1,8 +1,9 @@
 #pragma once
-/// Cheap proof that a body of one or several shapes (a compound) does not touch a static mesh. The
-/// posts of a row are one mesh whose bounding box covers the alleys next to it. The narrow phase
-/// would search that mesh's tree for every shape of a vehicle between the rows, and compute the
-/// distance of each triangle in a box along the mesh's axes, which is larger than the vehicle.
+/// Cheap proof that a body of one convex shape or several (a compound) does not touch a static
+/// mesh. The posts of a row are one mesh whose bounding box covers the alleys next to it. The
+/// narrow phase would search that mesh's tree for every shape of a vehicle between the rows, and
+/// compute the distance of each triangle in a box along the mesh's axes, which is larger than the
+/// vehicle.
 
 #include <btBulletCollisionCommon.h>
 
@@ -21,7 +22,7 @@ struct AxisBox {
 class MeshGate {
  public:
   /// @param mesh  static, never moved; a static object of another shape is never reported as clear
-  /// @param body  of a compound shape that never changes, otherwise it is never reported as clear
+  /// @param body  of a shape that never changes, convex or compound; another is never clear
   /// @param margin_m  distance to the mesh up to which the body counts as touching; always the same
   /// @returns true if no triangle is within `margin_m` of the body; false if one may be
   bool is_clear(const btCollisionObject& mesh, const btCollisionObject& body, double margin_m);

@@ -19,6 +19,9 @@ constexpr SurfaceMask kRowMask = kPlantMask | mask_of(SurfaceClass::kWire);
 constexpr Duration kTouchGap{500'000'000};
 /// Largest motion of a point of the hull between two looks. Chosen.
 constexpr double kLookEvery_m = 0.02;
+/// A look searches this much farther than the minimum so far. More saves looks, but each searches a
+/// wider space. Chosen.
+constexpr double kBeyondMinimum_m = 0.3;
 /// Largest number of looks in a tick. Chosen: 20 m of motion, more than any vehicle in one tick.
 constexpr int kMaxLooks = 1000;
 
@@ -84,8 +87,10 @@ class Clearance final : public Metric {
     // Skip if the hull cannot be nearer than the minimum: d_now >= d_last - moved.
     if (looked_at_ && last_distance_m_ - moved_m(*looked_at_, X_WBox) > min_clearance_m_) return;
     looked_at_ = X_WBox;
+    // A plant beyond the reach changes no result; then the reach is a lower bound of the distance.
+    const double reach_m = std::min(radius_m_, min_clearance_m_ + kBeyondMinimum_m);
     last_distance_m_ =
-        scene_->distance_to_box_m(X_WBox, vehicle_->collision_half_extents_m, radius_m_, kRowMask);
+        scene_->distance_to_box_m(X_WBox, vehicle_->collision_half_extents_m, reach_m, kRowMask);
     min_clearance_m_ = std::min(min_clearance_m_, last_distance_m_);
     if (last_distance_m_ > 0.0) return;
     const double canopy_m = scene_->distance_to_box_m(X_WBox, vehicle_->collision_half_extents_m,
@@ -107,9 +112,9 @@ class Clearance final : public Metric {
   double radius_m_;
   double hull_reach_m_;
   double min_clearance_m_;
-  double last_distance_m_ = 0.0;
+  double last_distance_m_ = 0.0;   ///< at the last look, or a lower bound of it
   std::optional<Pose> before_;     ///< at the last tick
-  std::optional<Pose> looked_at_;  ///< when last_distance_m_ was measured
+  std::optional<Pose> looked_at_;  ///< at the last look
   std::optional<Time> last_touch_;
   int canopy_touches_ = 0;
   SignalReader<Odometry> truth_;

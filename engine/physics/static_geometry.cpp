@@ -110,6 +110,10 @@ StaticGeometry::SharedShape StaticGeometry::make_mesh_shape(const TriangleMesh& 
   result.arrays->addIndexedMesh(part, PHY_INTEGER);
   // addIndexedMesh assumes the library's precision for the vertices.
   result.arrays->getIndexedMeshArray()[0].m_vertexType = PHY_FLOAT;
+  // Otherwise Bullet goes over all triangles six times for it.
+  const Eigen::AlignedBox3d bounds = mesh.bounds();
+  result.arrays->setPremadeAabb(to_bullet(Eigen::Vector3d(bounds.min())),
+                                to_bullet(Eigen::Vector3d(bounds.max())));
   const bool quantized = mesh.triangles.size() <= kMaxQuantizedTriangles;
   result.shape = std::make_unique<MeshShape>(result.arrays.get(), quantized);
   result.shape->setMargin(kStaticMargin_m);

@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -37,6 +38,14 @@ class PlyRows {
     row_ = 0;
     numbers.assign(element.properties.size(), 0.0);
     lists.resize(element.properties.size());
+    row_bytes_ = 0;
+    for (const PlyProperty& property : element.properties) {
+      row_bytes_ += size_of(property.type);
+      if (property.list_count_type) {
+        row_bytes_ = 0;
+        break;
+      }
+    }
   }
 
   /// Maximum number of rows in the rest of the file, as a bound for reserved memory.
@@ -85,6 +94,17 @@ class PlyRows {
   }
 
   void read_binary() {
+    // Taking the bytes of a row at once is most of the speed.
+    if (row_bytes_ > 0 && row_bytes_ <= BlockFile::kBytes) {
+      const std::uint8_t* bytes = file.take(row_bytes_);
+      if (bytes == nullptr) fail_cut_off();
+      for (std::size_t k = 0; k < element_->properties.size(); ++k) {
+        const Scalar type = element_->properties[k].type;
+        numbers[k] = value_at(type, bytes);
+        bytes += size_of(type);
+      }
+      return;
+    }
     for (std::size_t k = 0; k < element_->properties.size(); ++k) {
       const PlyProperty& property = element_->properties[k];
       if (!property.list_count_type) {
@@ -96,8 +116,32 @@ class PlyRows {
       check_count(property, count);
       if (count > static_cast<double>(file.remaining() / size)) fail_cut_off();
       lists[k].resize(static_cast<std::size_t>(count));
-      for (double& value : lists[k]) value = take(property.type);
+      if (size * lists[k].size() > BlockFile::kBytes) {
+        for (double& value : lists[k]) value = take(property.type);
+        continue;
+      }
+      const std::uint8_t* bytes = file.take(size * lists[k].size());
+      if (bytes == nullptr) fail_cut_off();
+      for (double& value : lists[k]) {
+        value = value_at(property.type, bytes);
+        bytes += size;
+      }
     }
+  }
+  double value_at(Scalar type, const std::uint8_t* bytes) const {
+    // The usual types of vertices and faces, in this machine's order.
+    if (header.order == std::endian::native) {
+      if (type == Scalar::kF32) return native<float>(bytes);
+      if (type == Scalar::kI32) return native<std::int32_t>(bytes);
+      if (type == Scalar::kU32) return native<std::uint32_t>(bytes);
+    }
+    return load(type, bytes, header.order);
+  }
+  template <class T>
+  static double native(const std::uint8_t* bytes) {
+    T value;
+    std::memcpy(&value, bytes, sizeof value);
+    return value;
   }
   double take(Scalar type) {
     const std::uint8_t* bytes = file.take(size_of(type));
@@ -133,6 +177,7 @@ class PlyRows {
   }
 
   const PlyElement* element_ = nullptr;
+  std::size_t row_bytes_ = 0;  ///< of a binary row; 0: it has lists
   std::uint64_t row_ = 0;
 };
 

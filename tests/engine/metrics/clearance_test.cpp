@@ -94,6 +94,21 @@ TEST(Clearance, IsTheGapBetweenHullAndLeaves) {
   EXPECT_EQ(bench.result("contact_count"), 0.0);
 }
 
+/// It looks only where a new minimum is possible, and no farther than it matters: the minimum must
+/// not suffer.
+TEST(Clearance, FollowsTheLeastGapOfAWeavingHull) {
+  Bench bench({hedge()});
+  double least_m = 1e9;
+  for (int k = 0; k < 4000; ++k) {
+    // Nearer and away again, each time a little nearer, at up to 3 cm a tick.
+    const double y = -1.0 + 0.8 * std::sin(0.03 * k) + 0.0002 * k;
+    bench.at(0.1 * k, {0.0, y, 0.8});
+    least_m = std::min(least_m, 1.5 - kHalfWidth_m - y);
+    ASSERT_NEAR(bench.result("min_clearance_m"), least_m, 1e-6) << "tick " << k;
+  }
+  EXPECT_LT(least_m, 0.6);
+}
+
 TEST(Clearance, KnowsWhereTheHullIsInTheBody) {
   Bench bench({hedge()});
   // Turned to face the hedge: the hull's length and its centre ahead of B count.

@@ -95,12 +95,11 @@ struct Rasters {
 };
 
 Rasters make_rasters(const CloudMap& map, const ParcelCloud& cloud, const GisFrame& frame) {
+  // Points are converted twice: keeping the places of all would take twice the memory of the cloud.
+  const auto place = [&](std::size_t k) { return frame.from_W(cloud.point_W(k)); };
   Eigen::AlignedBox2d box;
-  std::vector<Vector3d> places;
-  places.reserve(cloud.points.size());
   for (std::size_t k = 0; k < cloud.points.size(); ++k) {
-    places.push_back(frame.from_W(cloud.point_W(k)));
-    box.extend(Vector2d(places.back().head<2>()));
+    box.extend(Vector2d(place(k).head<2>()));
   }
   constexpr double kMaxPixels = 100e6;
   double cell_m = pixel_m(map.report.density_per_m2);
@@ -114,7 +113,8 @@ Rasters make_rasters(const CloudMap& map, const ParcelCloud& cloud, const GisFra
   dsm.columns = static_cast<int>(line(box.max().x()) - line(box.min().x())) + 1;
   dsm.rows = static_cast<int>(line(box.max().y()) - line(box.min().y())) + 1;
   dsm.values.assign(static_cast<std::size_t>(dsm.columns) * dsm.rows, io::CrsRaster::kNoHeight);
-  for (const Vector3d& p : places) {
+  for (std::size_t k = 0; k < cloud.points.size(); ++k) {
+    const Vector3d p = place(k);
     const int i =
         std::clamp(static_cast<int>((p.x() - dsm.north_west.x()) / dsm.cell), 0, dsm.columns - 1);
     const int j =

@@ -37,6 +37,9 @@ namespace {
 constexpr double kMinSide_m = 0.005;
 // Most sides of a section; RowHullOptions::corners allows no more.
 constexpr std::size_t kMaxSides = 16;
+// Points of a slice lie between its knots to within rounding: levels are compared with more than
+// that.
+constexpr double kRounding_m = 1e-4;
 // Below this a side does not become shorter when it or its neighbour moves.
 constexpr double kNoShrink = 1e-9;
 
@@ -154,6 +157,8 @@ void HullFit::collect(double reach_m) {
       }
     }
     for (int k = 0; k < c_; ++k) {
+      std::sort(found[k].begin(), found[k].end(),
+                [](const Candidate& one, const Candidate& other) { return one.v_m > other.v_m; });
       begins_[static_cast<std::size_t>(i) * c_ + k] =
           static_cast<std::uint32_t>(candidates_.size());
       candidates_.insert(candidates_.end(), found[k].begin(), found[k].end());
@@ -198,9 +203,17 @@ void HullFit::improve(int j, int k, double price_m3, double tolerance_m, double 
     const double per_m = 1.0 / (knots_[j] - knots_[other]);
     const double rise = h(other)[k] - own_m;
     const int a = std::min(j, other), b = std::max(j, other);
+    // A point whose break is at low: linear in s, so that the ends of a slice bound it.
+    const auto lowest_v_m = [&](double s_m) {
+      const double weight = (s_m - knots_[other]) * per_m;
+      return own_m + (1.0 - weight) * rise + tolerance_m + low * weight;
+    };
     for (int i = a; i < b; ++i) {
       const std::size_t list = static_cast<std::size_t>(i) * c_ + k;
+      const double last_v_m =
+          std::min(lowest_v_m(knots_[i]), lowest_v_m(knots_[i + 1])) - kRounding_m;
       for (std::uint32_t p = begins_[list]; p < begins_[list + 1]; ++p) {
+        if (candidates_[p].v_m < last_v_m) break;
         const double weight = (candidates_[p].s_m - knots_[other]) * per_m;
         const double over_m = candidates_[p].v_m - own_m - (1.0 - weight) * rise - tolerance_m;
         if (over_m <= low * weight || over_m >= high * weight) continue;
@@ -343,7 +356,10 @@ std::int64_t HullFit::outside(int a, int b, double tolerance_m) const {
     std::int64_t own = 0;
     for (int i = a; i < b; ++i) {
       const std::size_t list = static_cast<std::size_t>(i) * c_ + k;
+      const double last_v_m =
+          std::min(at + rise * knots_[i], at + rise * knots_[i + 1]) - kRounding_m;
       for (std::uint32_t p = begins_[list]; p < begins_[list + 1]; ++p) {
+        if (candidates_[p].v_m < last_v_m) break;
         own += candidates_[p].v_m > at + rise * candidates_[p].s_m;
       }
     }

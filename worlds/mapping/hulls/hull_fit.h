@@ -110,7 +110,7 @@ class HullFit {
   std::vector<double> knots_;     // s of each section, from the start of the stretch
   std::vector<int> prev_, next_;  // linked list of the sections that are left; -1 at the ends
   std::vector<double> h_, floor_;
-  std::vector<Candidate> candidates_;  // by slice and side
+  std::vector<Candidate> candidates_;  // by slice and side, the outermost first
   std::vector<std::uint32_t> begins_;
   std::vector<double> breaks_;
 };

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
@@ -149,7 +151,11 @@ void sample_tile(const Survey& survey, std::int64_t tile, std::vector<SampledPoi
   const int side = survey.tiles.side();
   const double cell_m = survey.tiles.cell_m();
   const Vector2d corner = survey.tiles.corner_W(tile);
-  std::vector<std::uint16_t> showing;
+  // Most tiles are whole in all of their pictures: then no place need be looked up in them.
+  const bool all_whole =
+      std::find(views.whole.begin(), views.whole.end(), false) == views.whole.end();
+  std::vector<std::uint16_t> showing(views.shown_in.size());
+  std::iota(showing.begin(), showing.end(), std::uint16_t{0});
   for (int cell = 0; cell < side * side; ++cell) {
     const double v = random.uniform(), u = random.uniform();
     const Vector2d aim = corner + cell_m * Vector2d(cell % side + u, cell / side + v);
@@ -158,11 +164,13 @@ void sample_tile(const Survey& survey, std::int64_t tile, std::vector<SampledPoi
     const auto ground_m = survey.ground_m(aim);
     if (!ground_m) continue;
     const Vector3d aim_W(aim.x(), aim.y(), *ground_m);
-    showing.clear();
-    for (std::size_t k = 0; k < views.shown_in.size(); ++k) {
-      if (views.whole[k] ||
-          survey.views[static_cast<std::size_t>(views.shown_in[k])].shows(aim_W)) {
-        showing.push_back(static_cast<std::uint16_t>(k));
+    if (!all_whole) {
+      showing.clear();
+      for (std::size_t k = 0; k < views.shown_in.size(); ++k) {
+        if (views.whole[k] ||
+            survey.views[static_cast<std::size_t>(views.shown_in[k])].shows(aim_W)) {
+          showing.push_back(static_cast<std::uint16_t>(k));
+        }
       }
     }
     if (showing.empty()) continue;

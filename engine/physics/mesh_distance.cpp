@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
+#include <utility>
 
 #include "engine/api/height_field.h"
 #include "engine/api/mesh.h"
@@ -25,17 +25,6 @@ Eigen::AlignedBox3f calc_bounds_W(const MeshInstance& instance) {
   const Vector3d margin =
       Vector3d::Constant(1e-5) + 1e-6 * bounds.max().cwiseAbs().cwiseMax(bounds.min().cwiseAbs());
   return {(bounds.min() - margin).cast<float>(), (bounds.max() + margin).cast<float>()};
-}
-
-Tree make_tree(const TriangleMesh& mesh) {
-  std::vector<Eigen::AlignedBox3f> boxes;
-  boxes.reserve(mesh.triangles.size());
-  for (const auto& triangle : mesh.triangles) {
-    Eigen::AlignedBox3f box;
-    for (const std::uint32_t v : triangle) box.extend(mesh.vertices[v]);
-    boxes.push_back(box);
-  }
-  return Tree(boxes);
 }
 
 /// Oriented box with its own frame O, where it is |x_i| <= half_extents_m_i, relative to a tree's
@@ -105,24 +94,15 @@ void search_terrain(const HeightField& field, const Pose& X_WBox, const Vector3d
 
 }  // namespace
 
-MeshDistance::MeshDistance(const WorldModel& world) : world_(world) {
-  std::map<const TriangleMesh*, const Lazy<Tree>*> known;
+MeshDistance::MeshDistance(const WorldModel& world, std::shared_ptr<MeshTrees> trees)
+    : world_(world), trees_(std::move(trees)) {
   std::vector<Eigen::AlignedBox3f> boxes;
   for (const MeshInstance& instance : world.meshes) {
     if (!instance.collides) continue;
-    const TriangleMesh* mesh = instance.mesh.get();
-    const Lazy<Tree>*& tree = known[mesh];
-    if (!tree) tree = &trees_.emplace_back([mesh] { return make_tree(*mesh); });
-    entries_.push_back({&instance, tree});
+    entries_.push_back({&instance, &trees_->of(*instance.mesh)});
     boxes.push_back(calc_bounds_W(instance));
   }
   instances_ = Tree(boxes);
-}
-
-MeshDistance::~MeshDistance() = default;
-
-void MeshDistance::prepare() const {
-  for (const Lazy<Tree>& tree : trees_) tree.get();
 }
 
 double MeshDistance::to_box_m(const Pose& X_WBox, const Vector3d& h, double max_distance_m,

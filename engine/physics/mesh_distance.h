@@ -2,13 +2,12 @@
 /// Exact distance from an oriented box to the triangles of a world.
 
 #include <Eigen/Core>
-#include <deque>
+#include <memory>
 #include <vector>
 
 #include "engine/api/forward.h"
 #include "engine/api/scene_query.h"
-#include "engine/math/box_tree.h"
-#include "engine/physics/lazy.h"
+#include "engine/physics/mesh_trees.h"
 
 namespace vinerow::physics {
 
@@ -17,14 +16,12 @@ namespace vinerow::physics {
 /// search is exact, in double precision.
 class MeshDistance {
  public:
-  using Tree = BoxTree<float, 3>;
+  using Tree = MeshTrees::Tree;
 
   /// @param world  checked; outlives this object
-  explicit MeshDistance(const WorldModel& world);
-  ~MeshDistance();
-
-  /// Builds all trees now.
-  void prepare() const;
+  /// @param trees  not null
+  explicit MeshDistance(const WorldModel& world,
+                        std::shared_ptr<MeshTrees> trees = std::make_shared<MeshTrees>());
 
   /// SceneQuery::distance_to_box_m.
   double to_box_m(const Pose& X_WBox, const Eigen::Vector3d& half_extents_m, double max_distance_m,
@@ -36,7 +33,7 @@ class MeshDistance {
     const Lazy<Tree>* tree;
   };
   const WorldModel& world_;
-  std::deque<Lazy<Tree>> trees_;
+  std::shared_ptr<MeshTrees> trees_;
   std::vector<Entry> entries_;
   Tree instances_;
 };

@@ -5,8 +5,10 @@
 /// whose box the ray may meet. `TriangleRay` decides in double precision, from the triangle's own
 /// vertices. The hit therefore does not depend on Embree's code, which differs between processors,
 /// and a parcel hundreds of metres wide costs no accuracy. A mesh with several instances is stored
-/// once. A mesh that moves is an instance too. Embree's trees of a world are built when a ray first
-/// enters the box of one of its meshes.
+/// once. A mesh that moves is an instance too.
+///
+/// Embree's trees of a parcel take longer to build than a hundred thousand rays to cast. The first
+/// rays search the trees that distances use, mesh by mesh, and hit the same triangles.
 
 #include <Eigen/Core>
 #include <memory>
@@ -15,6 +17,7 @@
 
 #include "engine/api/forward.h"
 #include "engine/api/scene_query.h"
+#include "engine/physics/mesh_trees.h"
 
 namespace vinerow::physics {
 
@@ -22,7 +25,9 @@ class MeshRays {
  public:
   /// @param world   checked (check_world.h); outlives this object
   /// @param is_met  of check_world.h
-  MeshRays(const WorldModel& world, bool (*is_met)(const MeshInstance&));
+  /// @param trees   for the first rays; null: Embree's trees are built for the first ray
+  MeshRays(const WorldModel& world, bool (*is_met)(const MeshInstance&),
+           std::shared_ptr<MeshTrees> trees = nullptr);
   /// Meshes that move: each is at X_WM until move().
   /// @param meshes   not empty ones; outlive this object
   /// @param reach_m  bound of the coordinates that they reach
@@ -33,7 +38,7 @@ class MeshRays {
   void move();
 
   bool empty() const;
-  /// Builds the trees now.
+  /// Builds Embree's trees now.
   void prepare() const;
   /// First hit. @param dir_W unit. No heap, thread safe.
   std::optional<RayHit> cast(const Eigen::Vector3d& p_W, const Eigen::Vector3d& dir_W,

@@ -1,12 +1,13 @@
 #include "engine/physics/surface_rays.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace vinerow::physics {
 
 SurfaceRays::SurfaceRays(const WorldModel& world, const HeightFieldRay* terrain,
-                         bool (*is_met)(const MeshInstance&))
-    : terrain_(terrain), meshes_(world, is_met) {}
+                         bool (*is_met)(const MeshInstance&), std::shared_ptr<MeshTrees> trees)
+    : terrain_(terrain), meshes_(world, is_met, std::move(trees)) {}
 
 std::optional<RayHit> SurfaceRays::with_terrain(SceneRay ray,
                                                 const std::optional<RayHit>& on_mesh) const {

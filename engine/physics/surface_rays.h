@@ -1,6 +1,7 @@
 #pragma once
 /// Rays on the terrain and on a choice of a world's meshes.
 
+#include <memory>
 #include <optional>
 #include <span>
 
@@ -16,8 +17,9 @@ class SurfaceRays final : public RayScene {
   /// @param world    checked; outlives this object
   /// @param terrain  of the world, null if it lacks one; outlives this object
   /// @param is_met   of check_world.h
+  /// @param trees    as of MeshRays
   SurfaceRays(const WorldModel& world, const HeightFieldRay* terrain,
-              bool (*is_met)(const MeshInstance&));
+              bool (*is_met)(const MeshInstance&), std::shared_ptr<MeshTrees> trees = nullptr);
 
   std::optional<RayHit> cast_ray(const Eigen::Vector3d& p_W, const Eigen::Vector3d& dir_W,
                                  double max_distance_m, SurfaceMask mask) const override;

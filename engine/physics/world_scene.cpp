@@ -92,8 +92,9 @@ bool RigidMap::any_near(double x0, double y0, double x1, double y1) const {
 
 WorldScene::WorldScene(const WorldModel& world)
     : terrain_(make_terrain(world)),
-      rays_(world, terrain(), is_seen_by_rays),
-      mesh_distance_(world),
+      trees_(std::make_shared<MeshTrees>()),
+      rays_(world, terrain(), is_seen_by_rays, trees_),
+      mesh_distance_(world, trees_),
       rigid_map_(world) {
   // The ray caster's single precision moves triangles by far less.
   constexpr double kMargin_m = 1.0;
@@ -141,7 +142,7 @@ double WorldScene::distance_to_box_m(const Pose& X_WBox, const Vector3d& half_ex
 
 void WorldScene::prepare() const {
   rays_.meshes().prepare();
-  mesh_distance_.prepare();
+  trees_->prepare();
 }
 
 std::optional<RayHit> WorldScene::probe_rigid(const Vector3d& p_W, const Vector3d& dir_W,

@@ -58,6 +58,7 @@ class WorldScene : public SceneQuery {
 
  private:
   std::optional<HeightFieldRay> terrain_;
+  std::shared_ptr<MeshTrees> trees_;
   SurfaceRays rays_;
   MeshDistance mesh_distance_;
   RigidMap rigid_map_;

@@ -5,6 +5,7 @@
 #include "engine/physics/physics_world.h"
 #include "engine/sim/scheduler.h"
 #include "tests/benchmarks/bench_worlds.h"
+#include "tests/benchmarks/driving_rover.h"
 
 namespace vinerow::kernel_bench {
 namespace {
@@ -36,33 +37,15 @@ void throw_balls(physics::PhysicsWorld& world, const std::vector<physics::BodyId
 /// One rover and `state.range(0)` flying bodies on a 200 x 200 height field at 1 kHz; the rover
 /// drives.
 void step_of_rover_and_bodies(benchmark::State& state) {
-  Registry registry;
-  register_all(registry);
   const WorldModel model = bench::rolling_field();
-  physics::PhysicsWorld world({}, model);
-  VehicleContext context;
-  context.vehicle = context.part = "rover";
-  context.physics_step = kStep;
-  auto rover = registry.make_vehicle(
-      "diff_drive_rover",
-      ParameterSet(registry.spec(PartKind::kVehicle, "diff_drive_rover").parameters), context);
-  Pose X_WB;
-  X_WB.p.z() = model.terrain->height_m(0, 0) + rover->description().height_above_ground_m;
-  rover->spawn(world, X_WB);
+  bench::DrivingRover rover(model, kStep);
   std::vector<physics::BodyId> balls;
   for (int i = 0; i < state.range(0); ++i)
-    balls.push_back(world.add_body(ball({5.0 * i + 5.0, 0, 50})));
-  // Circles of some ten metres, so that the rover stays on the field.
-  const std::vector<double> circle{3.0, 5.0, 3.0, 5.0};
-  rover->actuate(circle);
-  Time now;
+    balls.push_back(rover.world().add_body(ball({5.0 * i + 5.0, 0, 50})));
   int steps = 0;
   for (auto _ : state) {
-    if (++steps % kThrowAgain == 0) throw_balls(world, balls);
-    rover->before_physics(now, kStep);
-    world.step(kStep);
-    now = now + kStep;
-    rover->after_physics(now, kStep);
+    if (++steps % kThrowAgain == 0) throw_balls(rover.world(), balls);
+    rover.step();
   }
 }
 BENCHMARK(step_of_rover_and_bodies)->Arg(0)->Arg(2)->Unit(benchmark::kMicrosecond);

@@ -138,8 +138,8 @@ NAMESPACE = {
 
 # An outside library is included in one folder only: pattern of the header -> folders.
 OUTSIDE = {
-    r"bt[A-Z]|Bullet": [PHYSICS],
-    r"embree": [PHYSICS],
+    r"bt[A-Z]|Bullet": [PHYSICS, "tests/benchmarks"],
+    r"embree": [PHYSICS, "tests/benchmarks"],
     r"assimp/": ["engine/io/meshes"],
     r"gdal|ogr_|cpl_": [IO],
     r"GeographicLib/": [MATH, IO],

@@ -1,5 +1,5 @@
-/// The proof that a body of several shapes is clear of a static mesh, and what it must never hide:
-/// a contact. Spheres against an upright box: who touches is known in closed form.
+/// The proof that a body of one shape or several is clear of a static mesh, and what it must never
+/// hide: a contact. Spheres against an upright box: who touches is known in closed form.
 
 #include "engine/physics/mesh_gate.h"
 #include "engine/api/world_model.h"
@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "engine/core/random.h"
 #include "tests/engine/physics/small_worlds.h"
@@ -18,7 +19,11 @@ namespace {
 using Eigen::Vector3d;
 
 const Vector3d kPost_half_m(0.05, 0.05, 1.0);
-const Vector3d kSpheres_B[] = {{0.5, 0.4, 0}, {0.5, -0.4, 0}, {-0.5, 0.4, 0.1}, {-0.5, -0.4, 0.1}};
+using Centres = std::vector<Vector3d>;
+/// Several spheres are a compound; one in the middle of the body is a single shape.
+const Centres kFour_B{{0.5, 0.4, 0}, {0.5, -0.4, 0}, {-0.5, 0.4, 0.1}, {-0.5, -0.4, 0.1}};
+const Centres kTwo_B(kFour_B.begin(), kFour_B.begin() + 2), kBeside_B{kFour_B.front()};
+const Centres kMiddle_B{Vector3d::Zero()};
 constexpr double kRadius_m = 0.15;
 
 /// Four posts of one mesh, as a row has them: its bounding box covers what lies between them.
@@ -41,26 +46,26 @@ WorldModel make_posts() {
 }
 
 /// Gap between the nearest sphere and the nearest post; negative: they overlap.
-double gap_m(const Pose& X_WB, int spheres) {
+double gap_m(const Pose& X_WB, const Centres& spheres_B) {
   double gap = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < spheres; ++i) {
+  for (const Vector3d& sphere_B : spheres_B) {
     for (const Vector3d& post_W : kPosts_W) {
-      const Vector3d from_post = (X_WB * kSpheres_B[i] - post_W).cwiseAbs();
+      const Vector3d from_post = (X_WB * sphere_B - post_W).cwiseAbs();
       gap = std::min(gap, (from_post - kPost_half_m).cwiseMax(0.0).norm() - kRadius_m);
     }
   }
   return gap;
 }
 
-/// Places a body of `spheres` spheres at poses of `next` and compares who touches.
+/// Places a body of spheres at poses of `next` and compares who touches.
 template <typename Next>
-void compare_contacts(int spheres, const Next& next) {
+void compare_contacts(const Centres& spheres_B, const Next& next) {
   const WorldModel model = make_posts();
   PhysicsWorld world({}, model);
   BodySpec spec = test::make_sphere(kRadius_m, 5.0, {0, 0, 10});
   spec.shapes.clear();
-  for (int i = 0; i < spheres; ++i) {
-    spec.shapes.push_back({SphereShape{kRadius_m}, Pose{{1, 0, 0, 0}, kSpheres_B[i]}});
+  for (const Vector3d& sphere_B : spheres_B) {
+    spec.shapes.push_back({SphereShape{kRadius_m}, Pose{{1, 0, 0, 0}, sphere_B}});
   }
   const BodyId body = world.add_body(spec);
   world.set_kinematic(body, true);
@@ -68,7 +73,7 @@ void compare_contacts(int spheres, const Next& next) {
   bool touched = false;
   for (int k = 0; k < 20000; ++k) {
     const Pose X_WB = next();
-    const double gap = gap_m(X_WB, spheres);
+    const double gap = gap_m(X_WB, spheres_B);
     // Bullet counts a sphere as touching within its margin, to rounding.
     if (std::abs(gap) < 1e-4) continue;
     world.set_state(body, {X_WB, Vector3d::Zero(), Vector3d::Zero()});
@@ -89,8 +94,8 @@ void compare_contacts(int spheres, const Next& next) {
 
 TEST(MeshGate, BodiesTouchExactlyWhenOneOfTheirShapesDoes) {
   RandomStream random(7, "test", "mesh_gate");
-  for (const int spheres : {1, 2, 4}) {
-    compare_contacts(spheres, [&] {
+  for (const Centres& spheres_B : {kMiddle_B, kBeside_B, kTwo_B, kFour_B}) {
+    compare_contacts(spheres_B, [&] {
       return Pose{quaternion_from_rpy(
                       {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-3, 3)}),
                   {random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-1.5, 1.5)}};
@@ -101,9 +106,9 @@ TEST(MeshGate, BodiesTouchExactlyWhenOneOfTheirShapesDoes) {
 /// Most searches of the mesh are saved here, since the body moves less than its last distance.
 TEST(MeshGate, BodiesThatMoveLittleTouchExactlyWhenOneOfTheirShapesDoes) {
   RandomStream random(8, "test", "mesh_gate");
-  for (const int spheres : {2, 4}) {
+  for (const Centres& spheres_B : {kMiddle_B, kTwo_B, kFour_B}) {
     double phase = 0.0;
-    compare_contacts(spheres, [&] {
+    compare_contacts(spheres_B, [&] {
       // Curves between and through the posts, with turns in place, at 5 mm to 25 mm a step.
       phase += random.uniform(0.002, 0.01);
       return Pose{quaternion_from_rpy({0.5 * std::sin(2.3 * phase), 0.5 * std::cos(3.1 * phase),

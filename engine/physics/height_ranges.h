@@ -21,7 +21,7 @@ class HeightRanges {
   /// Of the whole field.
   const Range& all() const { return levels_.back().ranges.front(); }
 
-  /// Square of cells along an axis: squares of level 0 have kCells cells along it.
+  /// Cells along a side of a square of level 0.
   static constexpr int kCells = 4;
   /// @param i0,j0,i1,j1  first and last square of level 0, in the grid, i0 <= i1, j0 <= j1
   Range of(int i0, int j0, int i1, int j1) const {

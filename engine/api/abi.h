@@ -18,7 +18,7 @@
 
 /// All messages, and the classes and structs that pass between plug-in and program.
 #define VINEROW_ABI_TYPES(F)                                                                     \
-  F(Odometry) F(ImuSample) F(GnssFix) F(GnssHeading) F(RangeSample) F(PressureSample)            \
+  F(Odometry) F(DeadReckoning) F(ImuSample) F(GnssFix) F(GnssHeading) F(RangeSample) F(PressureSample) \
   F(MagneticSample) F(PoseTarget)                                                                \
   F(LaserScan) F(PointCloud) F(Picture) F(CameraInfo) F(PositionEllipsoid) F(VelocityCommand) F(LocalCommand) F(LineList) \
   F(OccupancyGrid) F(NamedValues) F(LinkPoses) F(PathPoint) F(PlannedPath) F(FollowerState)      \

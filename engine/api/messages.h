@@ -25,6 +25,7 @@ namespace vinerow {
 template <class F>
 void for_each_message_type(F&& f) {
   f(static_cast<Odometry*>(nullptr));
+  f(static_cast<DeadReckoning*>(nullptr));
   f(static_cast<ImuSample*>(nullptr));
   f(static_cast<GnssFix*>(nullptr));
   f(static_cast<GnssHeading*>(nullptr));

@@ -99,6 +99,13 @@ class Check {
     positive("wheeled.wheel_radius_m", wheeled.wheel_radius_m);
     positive("wheeled.wheel_speed_limit_radps", wheeled.wheel_speed_limit_radps);
     not_negative("wheeled.effective_track_m", wheeled.effective_track_m);
+    for (const WheelPlace& wheel : wheeled.wheels) {
+      const auto count = static_cast<int>(vehicle_.actuators.size());
+      const bool exists = wheel.actuator >= 0 && wheel.actuator < count;
+      demand(exists && vehicle_.actuators[wheel.actuator].unit == "rad/s",
+             fmt::format("wheeled.wheels has a wheel of actuator {}, which is not a speed in rad/s",
+                         wheel.actuator));
+    }
     const std::vector<Eigen::Vector2d> outline_B = vehicle_.outline_B();
     Eigen::Vector2d min_corner = outline_B.front(), max_corner = outline_B.front();
     for (const Eigen::Vector2d& corner : outline_B) {

@@ -16,6 +16,12 @@
 
 namespace vinerow {
 
+/// One driven wheel.
+struct WheelPlace {
+  int actuator = 0;              ///< index of its speed in the vehicle's actuators
+  Eigen::Vector2d p_B = {0, 0};  ///< hub, m
+};
+
 /// Vehicle on wheels with commanded speeds ("wheel_fl_speed_radps").
 struct WheeledVehicle {
   double track_m = 0.0;         ///< between the centres of left and right wheels
@@ -26,6 +32,7 @@ struct WheeledVehicle {
   /// (v_right - v_left) / effective track. Lateral wheel slip makes it wider than the track. 0:
   /// unknown.
   double effective_track_m = 0.0;
+  std::vector<WheelPlace> wheels = {};  ///< driven ones. Empty: places unknown
 };
 
 /// Vehicle with two steered axles ("axle_front_steer_rad", "axle_rear_steer_rad"), each modelled as

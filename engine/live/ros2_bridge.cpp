@@ -42,7 +42,7 @@ class Bridge final : public Ros2Bridge, public RunListener {
                .domain_id = options.domain,
                .network = options.network,
                .humble = options.distribution == "humble"}),
-        topics_(node_, options.distribution == "humble", options.out) {
+        topics_(node_, options.distribution == "humble", options.localisation, options.out) {
     for (const ServiceType& type : service_types()) {
       const ros2::ServiceTypeHashes hashes = ros2::service_type_hashes(type.type, srv_text(type));
       services_.push_back(

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "engine/live/live_run.h"
+#include "engine/live/transform_tree.h"
 
 namespace vinerow::live {
 
@@ -13,6 +14,7 @@ struct Ros2Options {
   int domain = 0;                      ///< 0 .. 232
   bool network = false;                ///< false: only programs on this machine see the node
   std::string distribution = "jazzy";  ///< "humble" | "jazzy": forms of messages that differ
+  Localisation localisation = Localisation::kTruth;  ///< who gives map -> <vehicle>/odom
   bool is_lockstep = false;  ///< commands carry a stamp: cmd_vel is TwistStamped, otherwise Twist
   bool holds_start = false;  ///< wait at time 0 until a node commands and reads a topic
   std::filesystem::path out = {};  ///< of the run's files, for meshes; empty: none are written

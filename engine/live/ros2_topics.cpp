@@ -15,11 +15,10 @@ namespace vinerow::live {
 namespace {
 
 constexpr std::string_view kRange = "sensor_msgs/msg/Range";
+constexpr std::string_view kTransforms = "tf2_msgs/msg/TFMessage";
 
 /// Topic of a channel of the log.
 std::string topic_of_channel(const record::ChannelSpec& spec) {
-  // Listeners of tf take the links of all vehicles from one topic.
-  if (spec.type == "tf2_msgs/msg/TFMessage" && spec.topic != "/tf_static") return "/tf";
   // Nav2 and RViz look for the map there.
   if (spec.topic == "/run/map") return "/map";
   return spec.topic;
@@ -32,7 +31,6 @@ ros2::Qos qos_of(const std::string& topic, std::string_view type) {
       topic == "/run/scene") {
     return ros2::kLatchedQos;
   }
-  if (topic == "/tf") return ros2::kTransformsQos;
   return type.starts_with("sensor_msgs/") ? ros2::kSensorDataQos : ros2::kDefaultQos;
 }
 
@@ -44,10 +42,13 @@ std::string with_variance(std::string definition) {
 
 }  // namespace
 
-Ros2Topics::Ros2Topics(ros2::Node& node, bool is_humble, std::filesystem::path out)
-    : node_(node), is_humble_(is_humble), out_(std::move(out)) {
-  const std::string type = "rosgraph_msgs/msg/Clock";
-  clock_ = topic_of("/clock", type, ros2::kClockQos, record::full_ros_definition(type));
+Ros2Topics::Ros2Topics(ros2::Node& node, bool is_humble, Localisation localisation,
+                       std::filesystem::path out)
+    : node_(node), is_humble_(is_humble), localisation_(localisation), out_(std::move(out)) {
+  const std::string clock = "rosgraph_msgs/msg/Clock", transforms(kTransforms);
+  clock_ = topic_of("/clock", clock, ros2::kClockQos, record::full_ros_definition(clock));
+  transforms_ =
+      topic_of("/tf", transforms, ros2::kTransformsQos, record::full_ros_definition(transforms));
 }
 
 Ros2Topics::Topic* Ros2Topics::topic_of(const std::string& name, const std::string& type,
@@ -67,6 +68,7 @@ void Ros2Topics::begin(const Simulation& simulation) {
   // Not make_unique: the base is private.
   signals_.reset(new record::SignalChannels(*this, true));
   run::add_run_channels(simulation, *signals_);
+  tree_ = std::make_unique<TransformTree>(simulation.bus(), localisation_);
   publish_descriptions(simulation);
 }
 
@@ -84,9 +86,11 @@ void Ros2Topics::publish_descriptions(const Simulation& simulation) {
 
 std::uint16_t Ros2Topics::add_channel(const record::ChannelSpec& spec) {
   ChannelTopic channel;
-  // Exact values are for logs; commands would come back as those of another peer.
+  // Exact values are for logs; commands would come back as those of another peer. Links are in
+  // /tf.
   const bool is_command = spec.metadata.contains("writer");
-  if (!spec.topic.ends_with("/exact") && !is_command) {
+  const bool is_links = spec.type == kTransforms && spec.topic != "/tf_static";
+  if (!spec.topic.ends_with("/exact") && !is_command && !is_links) {
     const std::string name = topic_of_channel(spec);
     channel.has_variance = spec.type == kRange && !is_humble_;
     channel.topic =
@@ -119,6 +123,7 @@ void Ros2Topics::end_message() {
 
 void Ros2Topics::on_instant(Time now) {
   publish_clock(now);
+  publish_transforms();
   signals_->write_new(now);
 }
 
@@ -132,6 +137,15 @@ void Ros2Topics::publish_clock(Time now) {
   record::CdrWriter out(buffer_);
   record::write_time(out, now);
   clock_->publisher->publish(buffer_.view());
+}
+
+void Ros2Topics::publish_transforms() {
+  const bool is_new = tree_->update();
+  if (!is_new || transforms_->subscribers.load(std::memory_order_relaxed) == 0) return;
+  buffer_.clear();
+  record::CdrWriter out(buffer_);
+  tree_->write(out);
+  transforms_->publisher->publish(buffer_.view());
 }
 
 void Ros2Topics::count_subscribers() {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/live/transform_tree.h"
 #include "engine/record/message_sink.h"
 #include "engine/record/signal_channels.h"
 #include "engine/ros2/node.h"
@@ -20,13 +21,15 @@ class Simulation;
 
 namespace vinerow::live {
 
-/// Publishes what the log of the run would contain, but no commands; and /clock, /tf and the
-/// descriptions of the vehicles. Publishers stay over restarts.
+/// Publishes what the log of the run would contain, but no commands; and /clock, /tf (instead of
+/// the log's links of each vehicle) and the descriptions of the vehicles. Publishers stay over
+/// restarts.
 class Ros2Topics final : public RunObserver, private record::MessageSink {
  public:
   /// @param node  outlives this object
   /// @param out  as describe_robot()
-  Ros2Topics(ros2::Node& node, bool is_humble, std::filesystem::path out);
+  Ros2Topics(ros2::Node& node, bool is_humble, Localisation localisation,
+             std::filesystem::path out);
 
   /// Another run begins. From the run's thread, like the functions of the observer.
   /// @throws as describe_robot()
@@ -59,10 +62,12 @@ class Ros2Topics final : public RunObserver, private record::MessageSink {
                                     std::uint64_t publish_time) override;
   void end_message() override;
   void publish_clock(Time now);
+  void publish_transforms();
   void publish_descriptions(const Simulation& simulation);
 
   ros2::Node& node_;
   const bool is_humble_;
+  const Localisation localisation_;
   const std::filesystem::path out_;
   std::vector<ChannelTopic> channels_;  ///< by channel id - 1
   std::map<std::string, std::unique_ptr<Topic>> topics_;
@@ -70,6 +75,8 @@ class Ros2Topics final : public RunObserver, private record::MessageSink {
   record::ByteBuffer buffer_;
   std::uint16_t open_channel_ = 0;
   Topic* clock_ = nullptr;
+  Topic* transforms_ = nullptr;
+  std::unique_ptr<TransformTree> tree_;  ///< of this run
   std::atomic<int> readers_ = 0;
 };
 

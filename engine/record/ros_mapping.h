@@ -99,6 +99,7 @@ struct RosMapping {
   };
 
 VINEROW_STANDARD_MESSAGE(Odometry, "nav_msgs/msg/Odometry")
+VINEROW_STANDARD_MESSAGE(DeadReckoning, "nav_msgs/msg/Odometry")
 VINEROW_STANDARD_MESSAGE(ImuSample, "sensor_msgs/msg/Imu")
 VINEROW_EXACT_MESSAGE(GnssFix, "sensor_msgs/msg/NavSatFix", "vinerow_msgs/msg/GnssFix")
 VINEROW_EXACT_MESSAGE(RangeSample, "sensor_msgs/msg/Range", "vinerow_msgs/msg/RangeRay")

@@ -55,6 +55,35 @@ bool RosMapping<Odometry>::read(CdrReader& in, const FrameNames&, Odometry& valu
   return in.ok();
 }
 
+void RosMapping<DeadReckoning>::write(CdrWriter& out, const WriteContext& to,
+                                      const DeadReckoning& value) {
+  write_time(out, to.stamp);
+  out.add_joined(to.frames.prefix, kOdometryFrame);
+  out.add(std::string_view(to.frames.body));
+  write_pose(out, value.X_OB);
+  // Its errors grow without limit; listeners use the twist.
+  out.add_zero_doubles(kCovarianceSize);
+  out.add(value.v_OB_B);
+  out.add(value.w_OB_B);
+  double covariance[kCovarianceSize] = {};
+  fill_position(value.velocity_std_mps.unaryExpr(&variance), Eigen::Vector3d::Zero(), covariance);
+  covariance[kCovarianceYaw] = variance(value.yaw_rate_std_radps);
+  out.add_doubles(covariance, kCovarianceSize);
+}
+
+bool RosMapping<DeadReckoning>::read(CdrReader& in, const FrameNames&, DeadReckoning& value) {
+  skip_header(in);
+  in.read_text();
+  read_pose(in, value.X_OB);
+  in.skip_doubles(kCovarianceSize);
+  in.read(value.v_OB_B);
+  in.read(value.w_OB_B);
+  Eigen::Vector3d variances, beside;
+  value.yaw_rate_std_radps = std_of_variance(read_pose_covariance(in, variances, beside));
+  value.velocity_std_mps = variances.unaryExpr(&std_of_variance);
+  return in.ok();
+}
+
 void RosMapping<PositionEllipsoid>::write(CdrWriter& out, const WriteContext& to,
                                           const PositionEllipsoid& value) {
   write_header(out, to.stamp, to.frames.world);

@@ -2,11 +2,15 @@
 /// Context of a message in a log: frames, time, pose of the vehicle.
 
 #include <string>
+#include <string_view>
 
 #include "engine/core/time.h"
 #include "engine/math/pose.h"
 
 namespace vinerow::record {
+
+/// After the vehicle's prefix: frame of its dead reckoning.
+constexpr std::string_view kOdometryFrame = "odom";
 
 /// Frame names in the messages of one signal.
 struct FrameNames {

@@ -14,6 +14,7 @@
 #include "engine/sensors/lidar_3d.h"
 #include "engine/sensors/magnetometer.h"
 #include "engine/sensors/ultrasound.h"
+#include "engine/sensors/wheel_odometry.h"
 
 namespace vinerow::sensors {
 
@@ -32,6 +33,7 @@ void register_sensors(Registry& registry) {
   registry.add_sensor(lidar_3d_spec(), make_lidar_3d);
   registry.add_sensor(magnetometer_spec(), make_magnetometer);
   registry.add_sensor(ultrasound_spec(), make_ultrasound);
+  registry.add_sensor(wheel_odometry_spec(), make_wheel_odometry);
 }
 
 }  // namespace vinerow::sensors

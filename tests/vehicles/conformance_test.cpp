@@ -246,6 +246,33 @@ TEST_P(VehicleConformance, StandsWhereItSays) {
   EXPECT_TRUE(rig.vehicle().crash().empty());
 }
 
+TEST_P(WheeledConformance, StatesWhereItsDrivenWheelsAre) {
+  Rig rig(GetParam(), make_flat_world());
+  const VehicleDescription& about = rig.about();
+  std::vector<int> driven;
+  for (std::size_t i = 0; i < about.actuators.size(); ++i) {
+    if (about.actuators[i].unit == "rad/s") driven.push_back(static_cast<int>(i));
+  }
+  std::vector<int> stated;
+  double min_y = 1e9, max_y = -1e9;
+  for (const WheelPlace& wheel : about.wheeled->wheels) {
+    stated.push_back(wheel.actuator);
+    min_y = std::min(min_y, wheel.p_B.y()), max_y = std::max(max_y, wheel.p_B.y());
+    // The hub is where the wheel's link is drawn.
+    const std::string& name = about.actuators[static_cast<std::size_t>(wheel.actuator)].name;
+    const std::string link = name.substr(0, name.find("_speed_radps"));
+    std::vector<Pose> poses(rig.vehicle().links().size());
+    rig.vehicle().read_links(poses);
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      if (rig.vehicle().links()[i].name != link) continue;
+      const Eigen::Vector3d p_B = rig.truth().X_WB.inverse() * poses[i].p;
+      EXPECT_LT((p_B.head<2>() - wheel.p_B).norm(), 0.02) << link;
+    }
+  }
+  EXPECT_EQ(stated, driven);
+  EXPECT_NEAR(max_y - min_y, about.wheeled->track_m, 1e-9);
+}
+
 TEST_P(WheeledConformance, ComesToRest) {
   Rig rig(GetParam(), make_flat_world());
   const double v = 0.5 * rig.about().max_speed_mps.value();

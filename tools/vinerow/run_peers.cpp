@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 
 #include "engine/core/error.h"
 #include "engine/live/live_run.h"
@@ -16,6 +17,11 @@ namespace vinerow::tools {
 namespace {
 
 constexpr int kLastDomain = 232;  // the last whose ports exist
+
+const std::map<std::string, live::Localisation> kLocalisations = {
+    {"truth", live::Localisation::kTruth},
+    {"estimate", live::Localisation::kEstimate},
+    {"none", live::Localisation::kNone}};
 
 /// Reads a whole text as a number.
 template <class T>
@@ -93,6 +99,16 @@ void add_peer_options(CLI::App& command, PeerChoice& choice) {
   command
       .add_flag("--ros2-network", choice.ros2_node.network,
                 "be seen by ROS 2 nodes of other machines too")
+      ->needs(ros2);
+  command
+      .add_option_function<std::string>(
+          "--ros2-localisation",
+          [&choice](const std::string& name) {
+            choice.ros2_node.localisation = kLocalisations.at(name);
+          },
+          "what gives the transform from map to <vehicle>/odom: truth (default), estimate, or none "
+          "for a node of yours")
+      ->check(CLI::IsMember(kLocalisations))
       ->needs(ros2);
   CLI::Option* mavlink =
       command.add_flag("--mavlink", choice.mavlink,

@@ -69,7 +69,10 @@ WheeledPlatformParams chassis_platform_params(const ChassisParams& p, double gra
 
 void describe_chassis(const ChassisParams& p, double hull_bottom_m, double hull_top_m,
                       VehicleDescription& description) {
+  WheeledVehicle& wheeled = description.wheeled.emplace();
   for (const Corner& corner : kCorners) {
+    wheeled.wheels.push_back(
+        {static_cast<int>(description.actuators.size()), p.hub_B(corner).head<2>()});
     description.actuators.push_back({fmt::format("wheel_{}_speed_radps", corner.name), "rad/s",
                                      -p.wheel_speed_limit_radps, p.wheel_speed_limit_radps});
   }
@@ -79,7 +82,6 @@ void describe_chassis(const ChassisParams& p, double hull_bottom_m, double hull_
                                           0.5 * (p.track_m + p.tyre_width_m),
                                           0.5 * (hull_top_m - hull_bottom_m)};
   description.collision_centre_B = {0.0, 0.0, 0.5 * (hull_top_m + hull_bottom_m) - p.com_height_m};
-  WheeledVehicle& wheeled = description.wheeled.emplace();
   wheeled.track_m = p.track_m;
   wheeled.wheel_base_m = p.wheel_base_m;
   wheeled.wheel_radius_m = p.wheel_radius_m;

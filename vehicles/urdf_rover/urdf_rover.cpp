@@ -225,7 +225,10 @@ UrdfRover::UrdfRover(const UrdfRoverParams& params, double gravity_mps2, FileShe
 void UrdfRover::describe(const UrdfRoverParams& params) {
   description_.type = "urdf_rover";
   if (model_.steering) describe_steering(params);
+  WheeledVehicle& wheeled = description_.wheeled.emplace();
   for (const std::size_t i : driven_wheels_) {
+    wheeled.wheels.push_back(
+        {static_cast<int>(description_.actuators.size()), model_.wheels[i].hub_B.head<2>()});
     description_.actuators.push_back({fmt::format("wheel_{}_speed_radps", model_.wheels[i].name),
                                       "rad/s", -params.wheel_speed_limit_radps,
                                       params.wheel_speed_limit_radps});
@@ -234,7 +237,6 @@ void UrdfRover::describe(const UrdfRoverParams& params) {
   description_.collision_centre_B = model_.bounds_B.center();
   description_.collision_half_extents_m = 0.5 * model_.bounds_B.sizes();
   description_.height_above_ground_m = model_.height_above_ground_m;
-  WheeledVehicle& wheeled = description_.wheeled.emplace();
   wheeled.track_m = model_.track_m;
   wheeled.wheel_base_m = model_.wheel_base_m;
   wheeled.wheel_radius_m = model_.wheels[driven_wheels_.front()].radius_m;

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 
 #include "controllers/estimation/odometry/odometry_kalman.h"
+#include "controllers/estimation/parts/estimator_events.h"
 #include "controllers/estimation/parts/heading_source.h"
+#include "controllers/estimation/parts/initial_pose.h"
 #include "controllers/estimation/parts/trace.h"
 #include "controllers/parts/ground_drive/differential_drive.h"
 #include "controllers/parts/paths/pose2.h"
@@ -28,6 +31,7 @@ struct OdometryFilterParams {
   OdometryKalmanParams filter;
   double gps_std_m = 0.0;  ///< 0: as the receiver states
   HeadingParams heading;
+  InitialPoseParams initial_pose;
 };
 
 const ParameterTable<OdometryFilterParams>& odometry_filter_table() {
@@ -60,7 +64,8 @@ const ParameterTable<OdometryFilterParams>& odometry_filter_table() {
                   "1 sigma of the odometry's scale at the start (gain: kalman); 0 = not estimated")
           .number("gps_std_m", "m", &P::gps_std_m, between(0.0, 100.0),
                   "1 sigma of a fix; 0 = as the receiver states")
-          .include(&P::heading, heading_table());
+          .include(&P::heading, heading_table())
+          .include(&P::initial_pose, initial_pose_table());
   return table;
 }
 
@@ -82,6 +87,7 @@ class OdometryFilter final : public Estimator {
         period_s_(context.period.s()),
         filter_(make_kalman_params(params)),
         heading_(params.heading, context.period, context.random("heading")),
+        initial_pose_(params.initial_pose),
         p_BA_(params.p_BA) {
     if (source_ == Source::kWheels) {
       const std::string who = context.part + " (odometry_filter)";
@@ -107,6 +113,9 @@ class OdometryFilter final : public Estimator {
     if (source_ == Source::kWheels) wheel_speeds_ = ports.read<NamedValues>(wheels_name_);
     if (source_ == Source::kCommand) command_ = ports.read<VelocityCommand>("command");
     estimate_ = ports.write<Odometry>("estimate");
+    initial_pose_.connect(ports);
+    // Its only events are about such poses.
+    if (initial_pose_.is_taken()) events_.connect(ports);
   }
 
   void step(Time now) override {
@@ -115,9 +124,10 @@ class OdometryFilter final : public Estimator {
     const double yaw_before = heading_.yaw_rad();
     heading_.step(is_new ? &gps_.value() : nullptr);
     if (!heading_.ready()) return;
+    if (const auto pose = initial_pose_.take()) restart_at(now, *pose);
 
     const Eigen::Vector2d v_B = odometry_scale_ * read_velocity_B();
-    if (filter_.ready() && was_ready) {
+    if (filter_.ready() && was_ready && now != restarted_) {
       // An arc: the velocity turns with the heading, so its chord has the mean heading.
       const double turn = wrap_angle(heading_.yaw_rad() - yaw_before);
       const double slide_rad = std::atan2(v_B.y(), v_B.x());
@@ -127,10 +137,21 @@ class OdometryFilter final : public Estimator {
     }
     if (is_new) take_fix(now);
     if (filter_.ready()) write_estimate(now, v_B);
+    if (initial_pose_.is_taken()) events_.write(now);
   }
 
  private:
   using Source = OdometryFilterParams::Source;
+
+  /// The height stays. What was measured before is compared with the new position.
+  void restart_at(Time now, const InitialPose::Value& pose) {
+    heading_.restart(pose.yaw_rad);
+    filter_.start(pose.p_W, pose.std_m);
+    trace_.clear();
+    trace_.add(now, filter_.p());
+    restarted_ = now;
+    events_.report_event(Event::Level::kInfo, InitialPose::describe(pose));
+  }
 
   void take_fix(Time now) {
     const GnssFix& fix = gps_.value();
@@ -206,6 +227,9 @@ class OdometryFilter final : public Estimator {
   double period_s_;
   OdometryKalman filter_;
   HeadingSource heading_;
+  InitialPose initial_pose_;
+  std::optional<Time> restarted_;  ///< by a pose from outside
+  EstimatorEvents events_;
   Eigen::Vector3d p_BA_;
   double wheel_radius_m_ = 0.0;
   std::vector<Wheel> wheels_;
@@ -229,8 +253,9 @@ PartSpec odometry_filter_spec() {
       "satellite fixes with a Kalman gain (position and odometry scale) or a fixed gain.";
   spec.parameters = odometry_filter_table().specs();
   spec.default_rate_Hz = 40.0;
-  spec.reads = {"<gps>", "<imu>", "command or <wheels>", "truth (start; heading: truth)"};
-  spec.writes = {"estimate"};
+  spec.reads = {"<gps>", "<imu>", "command or <wheels>", "truth (start; heading: truth)",
+                "initialpose (from outside)"};
+  spec.writes = {"estimate", "estimator_event (initial_pose_from_outside)"};
   return spec;
 }
 

@@ -69,4 +69,10 @@ void HeadingSource::step(const GnssFix* fix) {
   q_WB_ = quaternion_from_rpy({0.0, 0.0, yaw_rad_});
 }
 
+void HeadingSource::restart(double yaw_rad) {
+  if (params_.mode == Mode::kTruth) return;
+  yaw_rad_ = wrap_angle(yaw_rad);
+  q_WB_ = quaternion_from_rpy({0.0, 0.0, yaw_rad_});
+}
+
 }  // namespace vinerow::controllers

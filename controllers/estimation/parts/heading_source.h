@@ -39,6 +39,9 @@ class HeadingSource {
   /// Advances to `now`. @param fix  a new satellite fix, or nullptr
   void step(const GnssFix* fix);
 
+  /// Replaces the integrated heading; no effect if it is the truth. @pre ready()
+  void restart(double yaw_rad);
+
   bool ready() const { return ready_; }
   const Eigen::Quaterniond& q_WB() const { return q_WB_; }
   const Eigen::Vector3d& w_WB_B() const { return w_WB_B_; }

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "controllers/estimation/parts/estimator_events.h"
+#include "controllers/estimation/parts/initial_pose.h"
 #include "controllers/estimation/row_localisation/distance_filter_law.h"
 #include "controllers/estimation/row_localisation/distance_filter_params.h"
 #include "controllers/estimation/row_localisation/ground_reference.h"
@@ -35,6 +36,7 @@ struct DistanceEstimatorParams {
   int fan_rays = 7;
   GroundParams ground;
   DistanceFilterOptions filter;
+  InitialPoseParams initial_pose;
 };
 
 const ParameterTable<DistanceEstimatorParams>& distance_filter_table() {
@@ -58,7 +60,8 @@ const ParameterTable<DistanceEstimatorParams>& distance_filter_table() {
           .integer("fan_rays", &P::fan_rays, between(1, 101),
                    "rays over the cone; an even number is raised by one")
           .include(&P::ground, ground_table())
-          .include(&P::filter, distance_filter_law_table());
+          .include(&P::filter, distance_filter_law_table())
+          .include(&P::initial_pose, initial_pose_table());
   return table;
 }
 
@@ -99,6 +102,7 @@ class DistanceFilter final : public Estimator {
              context.map != nullptr ? context.map->accuracy : MapAccuracy{},
              index_ ? &*index_ : nullptr, sensors_),
         random_(context.random()),
+        initial_pose_(params.initial_pose),
         p_BA_(params.p_BA),
         seen_ranges_(sensors_.size(), 0) {
     readings_.reserve(sensors_.size());
@@ -117,6 +121,7 @@ class DistanceFilter final : public Estimator {
     for (const RangeSensorModel& sensor : sensors_) {
       ranges_.push_back(ports.read<RangeSample>(sensor.name));
     }
+    initial_pose_.connect(ports);
     ground_.connect(ports);
     estimate_ = ports.write<Odometry>("estimate");
     ellipsoid_ = ports.write<PositionEllipsoid>("ellipsoid");
@@ -127,6 +132,7 @@ class DistanceFilter final : public Estimator {
   void step(Time now) override {
     if (!law_.has_started() && truth_.has_value()) start(now);
     if (!law_.has_started()) return;
+    if (const auto pose = initial_pose_.take()) restart_at(now, *pose);
     take_inertial(now);
     if (gps_.is_newer_than(seen_fix_) && gps_.value().valid) {
       const GnssFix& fix = gps_.value();
@@ -153,6 +159,15 @@ class DistanceFilter final : public Estimator {
     for (int i = 0; i < 3; ++i) p_W[i] += start_std_m_ * random_.normal();
     q_start_WB_ = truth_.value().X_WB.q;
     law_.start(now, p_W, start_std_m_ * start_std_m_ * Eigen::Matrix3d::Identity());
+  }
+
+  /// The attitude stays that of the inertial unit; the height stays.
+  void restart_at(Time now, const InitialPose::Value& pose) {
+    const Vector3d p_W(pose.p_W.x(), pose.p_W.y(), law_.kalman().p_W().z());
+    Vector3d variance_m2 = law_.kalman().position_covariance().diagonal();
+    variance_m2.head<2>() = pose.std_m.cwiseAbs2();
+    law_.start(now, p_W, variance_m2.asDiagonal());
+    events_.report_event(Event::Level::kInfo, InitialPose::describe(pose));
   }
 
   void take_inertial(Time now) {
@@ -258,6 +273,7 @@ class DistanceFilter final : public Estimator {
   std::optional<RowMeshIndex> index_;
   DistanceFilterLaw law_;
   RandomStream random_;
+  InitialPose initial_pose_;
   Vector3d p_BA_;
   int ground_echoes_ = 0;
   std::vector<std::uint64_t> seen_ranges_;
@@ -290,7 +306,7 @@ PartSpec distance_filter_spec() {
       "range.";
   spec.parameters = distance_filter_table().specs();
   spec.default_rate_Hz = 100.0;
-  spec.reads = {"truth", "<ins>", "<gps>", "<ranges>", "<down>"};
+  spec.reads = {"truth", "<ins>", "<gps>", "<ranges>", "<down>", "initialpose (from outside)"};
   spec.writes = {"estimate", "ellipsoid", "estimator_state", "estimator_event"};
   return spec;
 }

@@ -55,6 +55,29 @@ struct Odometry {
   }
 };
 
+/// Pose and twist of a body by dead reckoning: in a frame O that stays where the body's frame was
+/// at the start but drifts with the reckoning's errors (frame "odom" of ROS REP 105). ROS 2:
+/// nav_msgs/msg/Odometry.
+struct DeadReckoning {
+  static constexpr const char* kType = "DeadReckoning";
+  static constexpr MessageFrame kFrame = MessageFrame::kWorld;
+  Pose X_OB;
+  Eigen::Vector3d v_OB_B = Eigen::Vector3d::Zero();  ///< velocity of B's origin, m/s, in B
+  Eigen::Vector3d w_OB_B = Eigen::Vector3d::Zero();  ///< angular velocity, rad/s, in B
+  /// Standard deviations of this reading's velocity, in B, and of its yaw rate; zero for truth.
+  Eigen::Vector3d velocity_std_mps = Eigen::Vector3d::Zero();
+  double yaw_rate_std_radps = 0.0;
+
+  template <class Self, class F>
+  static void fields(Self& self, F&& f) {
+    f({"pose", "", "of the body, in the frame of its start"}, self.X_OB);
+    f({"linear_velocity", "m/s", "of the body's origin, in the body"}, self.v_OB_B);
+    f({"angular_velocity", "rad/s", "in the body"}, self.w_OB_B);
+    f({"velocity_std", "m/s", "in the body; 0 for truth"}, self.velocity_std_mps);
+    f({"yaw_rate_std", "rad/s"}, self.yaw_rate_std_radps);
+  }
+};
+
 /// Pose that a body should reach: a goal. ROS 2: geometry_msgs/msg/PoseStamped.
 struct PoseTarget {
   static constexpr const char* kType = "PoseTarget";

@@ -195,6 +195,47 @@ TEST(Ros2Bridge, ALateNodeReceivesMapAndDescription) {
   EXPECT_EQ(grid.at(0.5 * (a + b).x(), 0.5 * (a + b).y()), 0);
 }
 
+TEST(Ros2Bridge, TransformsHaveAnOdometryFrame) {
+  ros2::Node node(peer_options());
+  const auto tf =
+      node.create_subscription("/tf", "tf2_msgs/msg/TFMessage", ros2::kTransformsQos, "");
+  const auto odom =
+      node.create_subscription("/rover/odom", "nav_msgs/msg/Odometry", ros2::kSensorDataQos, "");
+  std::string text = test::kRemoteRover;
+  text.replace(text.find("sensors: {"), 10, "sensors: {odom: {type: wheel_odometry}, ");
+  test::BackgroundRun run(scenario::parse_scenario(text, ".", test::all_parts()),
+                          {.speed = 0.0, .paused = true}, {}, serve);
+  run.await([&] { return tf->publisher_count() == 1 && odom->publisher_count() == 1; });
+  std::map<std::string, std::string> parents;
+  ros2::Message message;
+  run.await([&] {
+    run.control().step(20, [](const std::string&) {});
+    while (tf->take(message)) {
+      record::CdrReader in(message.cdr);
+      for (auto count = in.read<std::uint32_t>(); count > 0; --count) {
+        for (int i = 0; i < 2; ++i) in.read<std::uint32_t>();
+        const std::string parent(in.read_text());
+        parents[std::string(in.read_text())] = parent;
+        double pose[7];
+        in.read_doubles(pose, 7);
+      }
+      EXPECT_TRUE(in.ok());
+    }
+    return parents.contains("rover/wheel_fl");
+  });
+  EXPECT_EQ(parents.at("rover/odom"), "map");
+  EXPECT_EQ(parents.at("rover/base_link"), "rover/odom");
+  EXPECT_EQ(parents.at("rover/wheel_fl"), "rover/base_link");
+  run.await([&] {
+    run.control().step(20, [](const std::string&) {});
+    return odom->take(message);
+  });
+  record::CdrReader in(message.cdr);
+  for (int i = 0; i < 2; ++i) in.read<std::uint32_t>();
+  EXPECT_EQ(in.read_text(), "rover/odom");
+  EXPECT_EQ(in.read_text(), "rover/base_link");
+}
+
 TEST(Ros2Bridge, SaysOnceWhatIsWrongWithACommand) {
   ros2::Node node(peer_options());
   const auto commands =

@@ -23,6 +23,8 @@ struct Digests {
 const std::map<std::string, Digests> kDigests = {
     {"Odometry",
      {"d83dff353512442d9b399bb9c6bf5edc", "c913a1b12210493bf38772867eb9f8a6"}},
+    {"DeadReckoning",
+     {"470ef8fec4203a2eca933bfe00736c7e", "6036613d9281eb78b4df1bd597107eb7"}},
     {"ImuSample",
      {"eddff62d463f0084d879330ba3219fc7", "3d2a5768f4f7fe7852c82ec2015fb8dd"}},
     {"GnssFix",

@@ -136,6 +136,10 @@ void fill(RandomStream& random, T& value) {
     // A standard deviation has no sign.
     value.yaw_std_rad = std::abs(value.yaw_std_rad);
   }
+  if constexpr (std::is_same_v<T, DeadReckoning>) {
+    value.velocity_std_mps = value.velocity_std_mps.cwiseAbs().eval();
+    value.yaw_rate_std_radps = std::abs(value.yaw_rate_std_radps);
+  }
 }
 
 /// All fields as bytes, sizes included.

@@ -9,6 +9,18 @@
 
 namespace vinerow::test {
 
+/// One wheel on each side in place of the steered axle.
+inline void give_wheels(FixedVehicle& vehicle) {
+  VehicleDescription& about = vehicle.description_;
+  about.actuators = {{"wheel_l_speed_radps", "rad/s", -8.0, 8.0},
+                     {"wheel_r_speed_radps", "rad/s", -8.0, 8.0}};
+  about.wheeled = WheeledVehicle{.track_m = 1.0,
+                                 .wheel_base_m = 1.0,
+                                 .wheel_radius_m = 0.2,
+                                 .wheel_speed_limit_radps = 8.0,
+                                 .wheels = {{0, {0.0, 0.5}}, {1, {0.0, -0.5}}}};
+}
+
 /// With what works on lanes only: one along x from -100 m to 100 m.
 struct ConformanceBench : SensorBench {
   /// @param type  of a registered sensor; it ticks at its default rate
@@ -28,6 +40,7 @@ struct ConformanceBench : SensorBench {
     if (type == "camera") {
       parameters.set("width_px", std::int64_t{16}).set("height_px", std::int64_t{16});
     }
+    if (type == "wheel_odometry") give_wheels(vehicle);
     sensor = sensor_registry().make_sensor(type, parameters, context(rate_Hz, seed));
     connect(*sensor);
     reading = bus.find("rover/s");

@@ -53,6 +53,12 @@ class Bench {
     fix.std_m.setConstant(0.01);
     gps.write(measured, fix);
   }
+  void give_pose(const Odometry& pose) {
+    static_cast<Signal<Odometry>*>(bus_.find("rover/initialpose"))->write(now, pose);
+  }
+  std::string event_text() {
+    return bus_.subscribe<Event>("rover/estimator_event", "test").value().text;
+  }
   void tick() {
     estimator_->step(now);
     now = now + period;
@@ -219,6 +225,32 @@ TEST(OdometryFilter, ComparesALateFixWithThePastItSaw) {
     bench.tick();
     ASSERT_NEAR(bench.estimate.value().X_WB.p.x(), x, 1e-9);
   }
+}
+
+TEST(OdometryFilter, TakesAPoseFromOutside) {
+  Bench bench(
+      {"odometry_filter", {{"heading", Text("gyro")}, {"initial_pose_from_outside", true}}});
+  bench.write_truth({1.0, 2.0, 0.4});
+  bench.imu.write(bench.now, {});
+  bench.write_fix({1.0, 2.0, 0.4}, bench.now);
+  bench.tick();
+  Odometry pose;
+  pose.X_WB = {quaternion_from_rpy({0, 0, 0.5}), {5.0, -3.0, 77.0}};
+  pose.position_variance_m2 = {0.25, 0.09, 0.0};
+  bench.give_pose(pose);
+  bench.command.write(bench.now, {2.0, 0.0});
+  bench.tick();
+  const Odometry moved = bench.estimate.value();
+  EXPECT_LT((moved.X_WB.p - Eigen::Vector3d(5.0, -3.0, 0.4)).norm(), 1e-12)
+      << "a viewer does not know the height";
+  EXPECT_NEAR(yaw_from_quaternion(moved.X_WB.q), 0.5, 1e-12);
+  EXPECT_NEAR(moved.position_variance_m2.x(), 0.25, 1e-12);
+  EXPECT_NEAR(moved.position_variance_m2.y(), 0.09, 1e-12);
+  EXPECT_EQ(bench.event_text(),
+            "the pose (5.00, -3.00), 28.6 deg from outside replaces the estimate");
+  bench.tick();
+  const Eigen::Vector3d ahead = 0.05 * Eigen::Vector3d(std::cos(0.5), std::sin(0.5), 0.0);
+  EXPECT_LT((bench.estimate.value().X_WB.p - moved.X_WB.p - ahead).norm(), 1e-12) << "taken once";
 }
 
 TEST(OdometryFilter, RefusesWheelsWhereThereAreNone) {

@@ -357,6 +357,25 @@ TEST(DistanceFilter, EstimatesBetweenTheRows) {
   EXPECT_EQ(bench.state_of("not_positive"), 0.0);
 }
 
+TEST(DistanceFilter, TakesAPoseFromOutside) {
+  Bench bench({{"initial_pose_from_outside", true}, {"use_map", false}}, nullptr);
+  const auto pose_out = static_cast<Signal<Odometry>*>(bench.bus.find("drone/initialpose"));
+  Flight flight;
+  for (flight.tick = 1; flight.tick < 125; ++flight.tick) bench.tick(flight, false);
+  const double z_m = bench.estimate.value().X_WB.p.z();
+  Odometry pose;
+  pose.X_WB.p = flight.p_W() + Vector3d(3.0, -2.0, 50.0);
+  pose.position_variance_m2 = {0.25, 0.09, 0.0};
+  pose_out->write(flight.now(), pose);
+  bench.tick(flight, false);
+  const Odometry& moved = bench.estimate.value();
+  // One tick of motion at 1.5 m/s lies between, and no fix.
+  EXPECT_LT((moved.X_WB.p - pose.X_WB.p).head<2>().norm(), 0.02);
+  EXPECT_NEAR(moved.X_WB.p.z(), z_m, 0.1);
+  EXPECT_EQ(bench.bus.subscribe<Event>("drone/estimator_event", "test").value().level,
+            Event::Level::kInfo);
+}
+
 TEST(DistanceFilter, TheSameSeedStartsTheSame) {
   const auto start = [](std::uint64_t seed) {
     Bench bench({});

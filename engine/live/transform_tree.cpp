@@ -10,7 +10,7 @@ namespace {
 constexpr std::string_view kTruthSuffix = "_truth";
 
 template <class T>
-const Signal<T>* find_signal(const SignalBus& bus, const std::string& name) {
+const Signal<T>* typed_signal(const SignalBus& bus, const std::string& name) {
   const SignalBase* signal = bus.find(name);
   if (!signal || !is_message<T>(*signal)) return nullptr;
   return static_cast<const Signal<T>*>(signal);
@@ -40,9 +40,9 @@ void TransformTree::add_vehicle(const SignalBus& bus, const Signal<LinkPoses>& l
   const std::string& prefix = vehicle.frames.prefix;
   vehicle.odom = prefix + std::string(record::kOdometryFrame);
   vehicle.links.signal = &links;
-  vehicle.truth = find_signal<Odometry>(bus, prefix + "truth");
+  vehicle.truth = typed_signal<Odometry>(bus, prefix + "truth");
   if (!vehicle.truth) return;
-  const auto* estimate = find_signal<Odometry>(bus, prefix + "estimate");
+  const auto* estimate = typed_signal<Odometry>(bus, prefix + "estimate");
   switch (localisation) {
     case Localisation::kTruth:
       vehicle.localised = vehicle.truth;
@@ -56,10 +56,10 @@ void TransformTree::add_vehicle(const SignalBus& bus, const Signal<LinkPoses>& l
   for (const auto& signal : bus.signals()) {
     const std::string& name = signal->name();
     if (!name.starts_with(prefix) || name.ends_with(kTruthSuffix)) continue;
-    vehicle.reckoning.signal = find_signal<DeadReckoning>(bus, name);
+    vehicle.reckoning.signal = typed_signal<DeadReckoning>(bus, name);
     if (!vehicle.reckoning.signal) continue;
     vehicle.reckoning_truth.signal =
-        find_signal<DeadReckoning>(bus, name + std::string(kTruthSuffix));
+        typed_signal<DeadReckoning>(bus, name + std::string(kTruthSuffix));
     break;
   }
   vehicles_.push_back(std::move(vehicle));

@@ -218,6 +218,12 @@ std::optional<HeightFieldRay::Hit> HeightFieldRay::cast(const Vector3d& p_W, con
         std::abs(walk.z) < kFarAway && dir_W.squaredNorm() < 2.0 && max_distance_m >= 0.0)) {
     return std::nullopt;
   }
+  // A short ray over the inside of one cell, such as most of a wheel's, needs neither clipping nor
+  // traversal, whose divisions would take most of its time.
+  if (const std::optional<Cell> cell = cell_around(walk, max_distance_m)) {
+    return cross_cell(walk, cell->i, cell->j, 0.0, max_distance_m) ? hit_of(walk, dir_W)
+                                                                   : std::optional<Hit>();
+  }
   if (rises_above(p_W, dir_W)) return std::nullopt;
 
   // Section of the ray over the grid.
@@ -238,7 +244,7 @@ std::optional<HeightFieldRay::Hit> HeightFieldRay::cast(const Vector3d& p_W, con
 
   if (!clip(walk, ranges_.all().low_m, ranges_.all().high_m, t0, t1)) return std::nullopt;
 
-  // A short ray inside one cell, such as a wheel's, needs no traversal.
+  // What is left may be inside one cell.
   const auto cell_of = [&](int axis, double t, int last) {
     return std::clamp(static_cast<int>(walk.g[axis] + t * walk.d[axis]), 0, last);
   };
@@ -262,7 +268,24 @@ std::optional<HeightFieldRay::Hit> HeightFieldRay::cast(const Vector3d& p_W, con
     } while (!found && from < t1 && blocks.advance());
   }
   if (!found) return std::nullopt;
+  return hit_of(walk, dir_W);
+}
 
+/// The cell that contains both ends of a ray, if there is one.
+std::optional<HeightFieldRay::Cell> HeightFieldRay::cell_around(const Walk& walk,
+                                                                double max_distance_m) const {
+  const double end_x = walk.g[0] + max_distance_m * walk.d[0];
+  const double end_y = walk.g[1] + max_distance_m * walk.d[1];
+  const bool is_inside = walk.g[0] >= 0.0 && walk.g[1] >= 0.0 && end_x >= 0.0 && end_y >= 0.0 &&
+                         std::max(walk.g[0], end_x) < field_.columns - 1 &&
+                         std::max(walk.g[1], end_y) < field_.rows - 1;
+  if (!is_inside) return std::nullopt;
+  const Cell cell{static_cast<int>(walk.g[0]), static_cast<int>(walk.g[1])};
+  if (cell.i != static_cast<int>(end_x) || cell.j != static_cast<int>(end_y)) return std::nullopt;
+  return cell;
+}
+
+HeightFieldRay::Hit HeightFieldRay::hit_of(const Walk& walk, const Vector3d& dir_W) const {
   Hit hit;
   hit.distance_m = walk.hit_t;
   hit.normal_W =

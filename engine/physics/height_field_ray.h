@@ -34,9 +34,14 @@ class HeightFieldRay {
 
  private:
   struct Walk;
+  struct Cell {
+    int i = 0, j = 0;
+  };
   bool rises_above(const Eigen::Vector3d& p_W, const Eigen::Vector3d& dir_W) const;
   static bool clip(Walk& walk, double low_m, double high_m, double& t0, double& t1);
   bool clip_to_ground(Walk& walk, double& t0, double& t1) const;
+  std::optional<Cell> cell_around(const Walk& walk, double max_distance_m) const;
+  Hit hit_of(const Walk& walk, const Eigen::Vector3d& dir_W) const;
   bool cross_cell(Walk& walk, int i, int j, double t0, double t1) const;
   bool cross_block(Walk& walk, int bi, int bj, double t0, double t1) const;
 

@@ -13,8 +13,10 @@ namespace vinerow::record {
 namespace {
 
 // Level 3 (the library's default): log data is mostly noise in the low bits of doubles, which no
-// level compresses; level 3 already finds the repetitions in the rest.
+// level compresses; level 3 already finds the repetitions in the rest. Its tables are smaller than
+// by default, so that they fit into the first cache: a third less time for 0 to 0.4 % more bytes.
 constexpr int kZstdLevel = 3;
+constexpr int kZstdTableLog = 13;
 
 // Larger chunks are treated as damaged.
 constexpr std::uint64_t kLargestChunk = std::uint64_t{1} << 30;
@@ -93,6 +95,8 @@ Compressor::Compressor(const std::string& name) : state_(std::make_unique<State>
     state_->zstd.reset(ZSTD_createCCtx());
     if (!state_->zstd) throw std::bad_alloc();
     ZSTD_CCtx_setParameter(state_->zstd.get(), ZSTD_c_compressionLevel, kZstdLevel);
+    ZSTD_CCtx_setParameter(state_->zstd.get(), ZSTD_c_hashLog, kZstdTableLog);
+    ZSTD_CCtx_setParameter(state_->zstd.get(), ZSTD_c_chainLog, kZstdTableLog);
   } else if (name == "lz4") {
     LZ4F_cctx* context = nullptr;
     if (LZ4F_isError(LZ4F_createCompressionContext(&context, LZ4F_VERSION))) throw std::bad_alloc();

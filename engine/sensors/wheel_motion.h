@@ -34,7 +34,7 @@ class WheelMotion {
   WheelMotion(const VehicleDescription& vehicle, const std::string& who);
 
   /// @param actuators  angles and speeds, in the vehicle's order
-  /// @param radii_m  of each wheel() as the reckoning assumes it
+  /// @param radii_m  of each wheel() as the vehicle assumes it
   /// @param track_scale  assumed track per true track; of skid-steered vehicles only
   PlanarTwist solve(std::span<const double> actuators, std::span<const double> radii_m,
                     double track_scale) const;

@@ -3,7 +3,7 @@
 ///
 /// At each tick it reads the steering angles and wheel speeds (with the errors of `encoders`),
 /// solves them for the motion in the plane (wheel_motion.h) and adds the motion since the last
-/// tick, of the mean twist along an arc. Reckoning goes on in outages and dropouts. Systematic
+/// tick, of the mean twist along an arc. It goes on in outages and dropouts. Systematic
 /// errors, drawn once per run, are those that Borenstein and Feng ("Measurement and correction of
 /// systematic odometry errors in mobile robots", IEEE Trans. Robotics and Automation 12, 1996)
 /// found to matter: unequal wheel radii and a wrong track. Slip and slopes add what they do to the

@@ -13,24 +13,10 @@
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
-#include "engine/io/meshes/mesh_file.h"
 #include "engine/io/meshes/mesh_writer.h"
 
 namespace vinerow::worlds {
 namespace {
-
-/// Files have one mesh each, kept vertex by vertex.
-std::shared_ptr<const TriangleMesh> read_back(const std::filesystem::path& file) {
-  io::MeshFileOptions options;
-  options.join_vertices = false;
-  const io::MeshFile content = io::load_mesh(file, options);
-  if (content.parts.size() != 1) return nullptr;
-  std::vector<std::uint32_t> things = io::read_things(file);
-  if (things.empty()) return content.parts.front().mesh;
-  TriangleMesh mesh = *content.parts.front().mesh;
-  mesh.things = std::move(things);
-  return std::make_shared<const TriangleMesh>(std::move(mesh));
-}
 
 /// What load_mesh would leave out: triangles without area.
 void drop_degenerate(TriangleMesh& mesh) {
@@ -86,7 +72,9 @@ std::shared_ptr<const TriangleMesh> FileMeshStore::get(const std::string& name,
   auto& known = meshes_[name];
   if (known) return known;
   const std::filesystem::path file = folder_ / file_name_of(name);
-  if (io::is_intact_ply(file)) return known = read_back(file);
+  if (auto stored = io::read_intact_ply(file)) {
+    return known = std::make_shared<const TriangleMesh>(*std::move(stored));
+  }
   TriangleMesh fresh = make();
   drop_degenerate(fresh);
   const std::filesystem::path partial = folder_ / partial_name_of(file_name_of(name));
@@ -97,9 +85,9 @@ std::shared_ptr<const TriangleMesh> FileMeshStore::get(const std::string& name,
     throw ConfigError(
         fmt::format("mesh file '{}' cannot be written: {}", file.string(), error.message()));
   }
-  known = read_back(file);
-  VINEROW_DEMAND(known && mesh_digest(*known) == mesh_digest(fresh));
-  return known;
+  auto stored = io::read_intact_ply(file);
+  VINEROW_DEMAND(stored && mesh_digest(*stored) == mesh_digest(fresh));
+  return known = std::make_shared<const TriangleMesh>(*std::move(stored));
 }
 
 std::filesystem::path find_cache_folder() {

@@ -58,23 +58,45 @@ DistanceField::DistanceField(const OccupancyGrid& grid)
     return;
   }
   distance_m_.resize(grid.cells.size());
-  LowerEnvelope envelope(std::max(columns_, rows_));
-  std::vector<float> line(std::max(columns_, rows_)), result(line.size());
-  for (int j = 0; j < rows_; ++j) {
-    float* row = &distance_m_[static_cast<std::size_t>(j) * columns_];
-    for (int i = 0; i < columns_; ++i) line[i] = grid.occupied(i, j) ? 0.0f : kFar;
-    envelope.transform(line.data(), columns_, row);
+  for (int j = 0; j < rows_; ++j) square_along_row(grid, j);
+  // A few columns together, because neighbours in a row share a cache line.
+  constexpr int kTogether = 16;
+  LowerEnvelope envelope(rows_);
+  std::vector<float> lines(static_cast<std::size_t>(kTogether) * rows_), result(rows_);
+  for (int i = 0; i < columns_; i += kTogether) {
+    const int together = std::min(kTogether, columns_ - i);
+    for (int j = 0; j < rows_; ++j) {
+      const float* cell = &distance_m_[static_cast<std::size_t>(j) * columns_ + i];
+      for (int k = 0; k < together; ++k) lines[static_cast<std::size_t>(k) * rows_ + j] = cell[k];
+    }
+    for (int k = 0; k < together; ++k) {
+      float* line = &lines[static_cast<std::size_t>(k) * rows_];
+      envelope.transform(line, rows_, result.data());
+      std::copy(result.begin(), result.end(), line);
+    }
+    for (int j = 0; j < rows_; ++j) {
+      float* cell = &distance_m_[static_cast<std::size_t>(j) * columns_ + i];
+      for (int k = 0; k < together; ++k) {
+        const double square = lines[static_cast<std::size_t>(k) * rows_ + j];
+        cell[k] = static_cast<float>(std::max(0.0, std::sqrt(square) * cell_m_ - 0.5 * cell_m_));
+      }
+    }
   }
+}
+
+/// Square of the distance to the nearest occupied cell of the same row, in cells.
+void DistanceField::square_along_row(const OccupancyGrid& grid, int j) {
+  float* row = &distance_m_[static_cast<std::size_t>(j) * columns_];
+  float away = std::sqrt(kFar);
   for (int i = 0; i < columns_; ++i) {
-    for (int j = 0; j < rows_; ++j) {
-      line[j] = distance_m_[static_cast<std::size_t>(j) * columns_ + i];
-    }
-    envelope.transform(line.data(), rows_, result.data());
-    for (int j = 0; j < rows_; ++j) {
-      const double centres_m = std::sqrt(static_cast<double>(result[j])) * cell_m_;
-      distance_m_[static_cast<std::size_t>(j) * columns_ + i] =
-          static_cast<float>(std::max(0.0, centres_m - 0.5 * cell_m_));
-    }
+    away = grid.occupied(i, j) ? 0.0f : away + 1.0f;
+    row[i] = away;
+  }
+  away = std::sqrt(kFar);
+  for (int i = columns_ - 1; i >= 0; --i) {
+    away = row[i] == 0.0f ? 0.0f : away + 1.0f;
+    const float nearest = std::min(row[i], away);
+    row[i] = nearest * nearest;
   }
 }
 

@@ -33,6 +33,8 @@ class DistanceField {
   bool covers(const Eigen::Vector2d& p_W) const;
 
  private:
+  void square_along_row(const OccupancyGrid& grid, int j);
+
   int columns_ = 0;
   int rows_ = 0;
   double cell_m_ = 1.0;

@@ -56,7 +56,7 @@ struct Odometry {
 };
 
 /// Pose and twist of a body by dead reckoning: in a frame O that stays where the body's frame was
-/// at the start but drifts with the reckoning's errors (frame "odom" of ROS REP 105). ROS 2:
+/// at the start but drifts with the errors (frame "odom" of ROS REP 105). ROS 2:
 /// nav_msgs/msg/Odometry.
 struct DeadReckoning {
   static constexpr const char* kType = "DeadReckoning";

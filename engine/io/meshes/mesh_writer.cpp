@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <charconv>
-#include <fstream>
+#include <cstring>
 #include <string>
 #include <string_view>
 
@@ -28,7 +29,71 @@ void append_floats(std::string& bytes, const Eigen::Matrix<float, N, 1>& value) 
 
 const std::string kBeginning = "ply\nformat binary_little_endian 1.0\ncomment vinerow mesh ";
 
-constexpr std::string_view kThings = "element thing ";
+/// What the header of a file states.
+struct PlyLayout {
+  std::size_t vertices = 0, triangles = 0, things = 0;
+  bool normals = false, uvs = false, colours = false;
+
+  std::size_t vertex_bytes() const {
+    const int floats = 3 + (normals ? 3 : 0) + (uvs ? 2 : 0) + (colours ? 3 : 0);
+    return sizeof(float) * static_cast<std::size_t>(floats);
+  }
+  std::size_t body_bytes() const {
+    return vertices * vertex_bytes() + triangles * kTriangleBytes + things * sizeof(std::uint32_t);
+  }
+  static constexpr std::size_t kTriangleBytes = 1 + 3 * sizeof(std::uint32_t);
+};
+
+constexpr std::string_view kPlyVertices = "element vertex ", kPlyTriangles = "element face ",
+                           kPlyThings = "element thing ", kPlyEnd = "end_header\n",
+                           kPlyNormals =
+                               "property float nx\nproperty float ny\nproperty float nz\n",
+                           kPlyUvs = "property float s\nproperty float t\n",
+                           kPlyColours =
+                               "property float red\nproperty float green\nproperty float blue\n";
+
+/// The header after its first lines.
+std::string header_of(const PlyLayout& layout) {
+  std::string text = fmt::format("{}{}\n", kPlyVertices, layout.vertices);
+  text += "property float x\nproperty float y\nproperty float z\n";
+  if (layout.normals) text += kPlyNormals;
+  if (layout.uvs) text += kPlyUvs;
+  if (layout.colours) text += kPlyColours;
+  text += fmt::format("{}{}\n", kPlyTriangles, layout.triangles);
+  text += "property list uchar int vertex_indices\n";
+  if (layout.things > 0) {
+    text += fmt::format("{}{}\nproperty uint first_triangle\n", kPlyThings, layout.things);
+  }
+  return text.append(kPlyEnd);
+}
+
+/// The layout whose header this is; nothing for a header that header_of() does not write.
+std::optional<PlyLayout> layout_of(std::string_view header) {
+  const auto count_after = [&](std::string_view element) {
+    std::size_t count = 0;
+    const std::size_t at = header.find(element);
+    if (at == std::string_view::npos) return count;
+    std::from_chars(header.data() + at + element.size(), header.data() + header.size(), count);
+    return count;
+  };
+  const auto has = [&](std::string_view lines) {
+    return header.find(lines) != std::string_view::npos;
+  };
+  const PlyLayout layout{count_after(kPlyVertices),
+                         count_after(kPlyTriangles),
+                         count_after(kPlyThings),
+                         has(kPlyNormals),
+                         has(kPlyUvs),
+                         has(kPlyColours)};
+  return header_of(layout) == header ? std::optional(layout) : std::nullopt;
+}
+
+/// Copies the next value and moves on.
+template <class T>
+void take_value(const char*& bytes, T& value) {
+  std::memcpy(static_cast<void*>(&value), bytes, sizeof value);
+  bytes += sizeof value;
+}
 
 std::string digest_of(std::string_view bytes) {
   Hasher hasher;
@@ -46,19 +111,9 @@ void write_ply(const TriangleMesh& mesh, const std::filesystem::path& file) {
   VINEROW_DEMAND(!uvs || mesh.uvs.size() == count);
   VINEROW_DEMAND(!colours || mesh.colours.size() == count);
 
-  std::string bytes = fmt::format("element vertex {}\n", count);
-  bytes += "property float x\nproperty float y\nproperty float z\n";
-  if (normals) bytes += "property float nx\nproperty float ny\nproperty float nz\n";
-  if (uvs) bytes += "property float s\nproperty float t\n";
-  if (colours) bytes += "property float red\nproperty float green\nproperty float blue\n";
-  bytes += fmt::format("element face {}\n", mesh.triangles.size());
-  bytes += "property list uchar int vertex_indices\n";
-  if (!mesh.things.empty()) {
-    bytes += fmt::format("{}{}\nproperty uint first_triangle\n", kThings, mesh.things.size());
-  }
-  bytes += "end_header\n";
-
-  bytes.reserve(bytes.size() + count * 44 + mesh.triangles.size() * 13);
+  const PlyLayout layout{count, mesh.triangles.size(), mesh.things.size(), normals, uvs, colours};
+  std::string bytes = header_of(layout);
+  bytes.reserve(bytes.size() + layout.body_bytes());
   for (std::size_t i = 0; i < count; ++i) {
     append_floats<3>(bytes, mesh.vertices[i]);
     if (normals) append_floats<3>(bytes, mesh.normals[i]);
@@ -77,36 +132,42 @@ void write_ply(const TriangleMesh& mesh, const std::filesystem::path& file) {
   out.finish();
 }
 
-std::vector<std::uint32_t> read_things(const std::filesystem::path& file) {
-  // The header and the end alone: files have megabytes in between.
-  constexpr std::size_t kHeaderBytes = 1024;
-  std::ifstream in(file, std::ios::binary);
-  std::string text(kHeaderBytes, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  const std::string_view header = std::string_view(text).substr(0, text.find("end_header\n"));
-  const std::size_t at = header.find(kThings);
-  if (at == std::string_view::npos) return {};
-  std::size_t count = 0;
-  const char* const digits = header.data() + at + kThings.size();
-  std::from_chars(digits, header.data() + header.size(), count);
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(file, error);
-  if (error || count > size / sizeof(std::uint32_t)) return {};
-  std::vector<std::uint32_t> things(count);
-  const auto bytes = static_cast<std::streamsize>(count * sizeof(std::uint32_t));
-  in.clear();
-  in.seekg(-bytes, std::ios::end);
-  in.read(reinterpret_cast<char*>(things.data()), bytes);
-  return in.gcount() == bytes ? things : std::vector<std::uint32_t>{};
-}
-
-bool is_intact_ply(const std::filesystem::path& file) {
+std::optional<TriangleMesh> read_intact_ply(const std::filesystem::path& file) {
   const std::string text = read_bytes(file).value_or("");
   const std::size_t line_end = kBeginning.size() + 32;  // the digest's hexadecimal digits
-  return text.size() > line_end && text.rfind(kBeginning, 0) == 0 && text[line_end] == '\n' &&
-         text.substr(kBeginning.size(), 32) ==
-             digest_of(std::string_view(text).substr(line_end + 1));
+  if (text.size() <= line_end || !text.starts_with(kBeginning) || text[line_end] != '\n') {
+    return std::nullopt;
+  }
+  const std::string_view rest = std::string_view(text).substr(line_end + 1);
+  if (text.compare(kBeginning.size(), 32, digest_of(rest)) != 0) return std::nullopt;
+  const std::size_t header_bytes = rest.find(kPlyEnd) + kPlyEnd.size();
+  const std::optional<PlyLayout> layout = layout_of(rest.substr(0, header_bytes));
+  // Counts first: their products could overflow.
+  if (!layout || std::max({layout->vertices, layout->triangles, layout->things}) > rest.size() ||
+      rest.size() - header_bytes != layout->body_bytes()) {
+    return std::nullopt;
+  }
+
+  TriangleMesh mesh;
+  mesh.vertices.resize(layout->vertices);
+  if (layout->normals) mesh.normals.resize(layout->vertices);
+  if (layout->uvs) mesh.uvs.resize(layout->vertices);
+  if (layout->colours) mesh.colours.resize(layout->vertices);
+  mesh.triangles.resize(layout->triangles);
+  mesh.things.resize(layout->things);
+  const char* bytes = rest.data() + header_bytes;
+  for (std::size_t i = 0; i < layout->vertices; ++i) {
+    take_value(bytes, mesh.vertices[i]);
+    if (layout->normals) take_value(bytes, mesh.normals[i]);
+    if (layout->uvs) take_value(bytes, mesh.uvs[i]);
+    if (layout->colours) take_value(bytes, mesh.colours[i]);
+  }
+  for (auto& triangle : mesh.triangles) {
+    ++bytes;  // the number of corners
+    take_value(bytes, triangle);
+  }
+  for (std::uint32_t& first : mesh.things) take_value(bytes, first);
+  return mesh;
 }
 
 }  // namespace vinerow::io

@@ -54,7 +54,7 @@ class GridWalk {
 /// Ray in grid units (x, y in cells, z in metres) and the result of its traversal.
 struct HeightFieldRay::Walk {
   double g[2], d[2];  // cells, cells per metre of ray
-  double z, dz;
+  double z, dz, per_dz;
   int side = 0;  // sign of D so far; 0 at the start
   double hit_t = 0.0;
   double slope_x = 0.0, slope_y = 0.0;  // slope of the hit triangle, dh per cell
@@ -97,8 +97,8 @@ bool HeightFieldRay::clip(Walk& walk, double low_m, double high_m, double& t0, d
   low_m -= kMargin_m;
   high_m += kMargin_m;
   if (walk.dz == 0.0) return walk.z <= high_m && walk.z >= low_m;
-  const double at_low = (low_m - walk.z) / walk.dz;
-  const double at_high = (high_m - walk.z) / walk.dz;
+  const double at_low = (low_m - walk.z) * walk.per_dz;
+  const double at_high = (high_m - walk.z) * walk.per_dz;
   const double enter = std::min(at_low, at_high);
   if (enter > t0) {
     walk.side = walk.dz < 0.0 ? 1 : -1;
@@ -225,6 +225,7 @@ std::optional<HeightFieldRay::Hit> HeightFieldRay::cast(const Vector3d& p_W, con
                                                                    : std::optional<Hit>();
   }
   if (rises_above(p_W, dir_W)) return std::nullopt;
+  walk.per_dz = 1.0 / walk.dz;
 
   // Section of the ray over the grid.
   double t0 = 0.0;
@@ -235,8 +236,9 @@ std::optional<HeightFieldRay::Hit> HeightFieldRay::cast(const Vector3d& p_W, con
       if (walk.g[axis] < 0.0 || walk.g[axis] > extent[axis]) return std::nullopt;
       continue;
     }
-    const double at_low = -walk.g[axis] / walk.d[axis];
-    const double at_high = (extent[axis] - walk.g[axis]) / walk.d[axis];
+    const double per_d = 1.0 / walk.d[axis];
+    const double at_low = -walk.g[axis] * per_d;
+    const double at_high = (extent[axis] - walk.g[axis]) * per_d;
     t0 = std::max(t0, std::min(at_low, at_high));
     t1 = std::min(t1, std::max(at_low, at_high));
   }

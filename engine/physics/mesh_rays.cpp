@@ -18,6 +18,7 @@
 #include "engine/core/error.h"
 #include "engine/core/profile.h"
 #include "engine/math/box_tree.h"
+#include "engine/physics/box_ray.h"
 #include "engine/physics/triangle_ray.h"
 
 namespace vinerow::physics {
@@ -43,25 +44,6 @@ double calc_margin_m(double reach_m) {
 constexpr std::uint64_t kTrianglesPerFirstRay = 4;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-
-/// Distance at which the ray enters the box, 0 inside; nullopt if it misses the box or ends before.
-std::optional<double> enter_m(const Eigen::AlignedBox3d& box, const Vector3d& p,
-                              const Vector3d& dir, double max_distance_m) {
-  if (box.contains(p)) return 0.0;
-  double first_m = 0.0, last_m = max_distance_m;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (dir[axis] == 0.0) {
-      if (p[axis] < box.min()[axis] || p[axis] > box.max()[axis]) return std::nullopt;
-      continue;
-    }
-    const double low_m = (box.min()[axis] - p[axis]) / dir[axis];
-    const double high_m = (box.max()[axis] - p[axis]) / dir[axis];
-    first_m = std::max(first_m, std::min(low_m, high_m));
-    last_m = std::min(last_m, std::max(low_m, high_m));
-  }
-  if (!(first_m <= last_m)) return std::nullopt;
-  return first_m;
-}
 
 }  // namespace
 
@@ -167,7 +149,8 @@ struct MeshRays::Impl {
         !(ray.max_distance_m >= 0.0)) {
       return false;
     }
-    const std::optional<double> start_m = enter_m(bounds_W, ray.p_W, ray.dir_W, ray.max_distance_m);
+    const std::optional<double> start_m =
+        BoxRay(ray.p_W, ray.dir_W).enter_m(bounds_W, ray.max_distance_m);
     if (!start_m) return false;
     lane.p_W = ray.p_W;
     lane.dir_W = ray.dir_W;
@@ -182,11 +165,11 @@ struct MeshRays::Impl {
     if (has_trees.load(std::memory_order_acquire)) return false;
     // Where the ray enters a box, widened against rounding; the search goes on to the hit so far.
     const auto distance_of = [&lane](double margin, const Vector3d& p, const Vector3d& dir) {
-      return [&lane, margin, p, dir](const Eigen::AlignedBox3f& box) {
+      return [&lane, margin, ray = BoxRay(p, dir)](const Eigen::AlignedBox3f& box) {
         Eigen::AlignedBox3d wide = box.cast<double>();
         wide.min().array() -= margin;
         wide.max().array() += margin;
-        return enter_m(wide, p, dir, lane.best_m).value_or(kNever);
+        return ray.enter_m(wide, lane.best_m).value_or(kNever);
       };
     };
     bool is_complete = true;

@@ -134,7 +134,8 @@ void RosMapping<LinkPoses>::write(CdrWriter& out, const WriteContext& to, const 
   const std::size_t count = std::min(value.names.size(), value.X_WL.size());
   // A tree world -> body -> links if the body is known, else all links in the world.
   const bool is_tree = to.X_WB != nullptr && count > 0;
-  out.add_count(is_tree ? count + 1 : count);
+  const bool has_odometry = is_tree && to.X_OB != nullptr;
+  out.add_count(count + (is_tree ? 1 : 0) + (has_odometry ? 1 : 0));
   if (is_tree) {
     write_header(out, to.stamp, to.frames.world);
     out.add(std::string_view(to.frames.body));
@@ -145,6 +146,12 @@ void RosMapping<LinkPoses>::write(CdrWriter& out, const WriteContext& to, const 
     out.add_joined(to.frames.prefix, value.names[i]);
     write_pose(out, is_tree ? pose_in_body(*to.X_WB, value.X_WL[i]) : value.X_WL[i]);
   }
+  if (!has_odometry) return;
+  // Where viewers find the frame of dead reckoning: so that it puts the body where it is. The body
+  // itself already has a parent.
+  write_header(out, to.stamp, to.frames.world);
+  out.add_joined(to.frames.prefix, kOdometryFrame);
+  write_pose(out, *to.X_WB * to.X_OB->inverse());
 }
 
 bool RosMapping<LinkPoses>::read(CdrReader& in, const FrameNames& frames, LinkPoses& value) {
@@ -153,6 +160,7 @@ bool RosMapping<LinkPoses>::read(CdrReader& in, const FrameNames& frames, LinkPo
   value.X_WL.resize(count);
   Pose X_WB;
   std::size_t k = 0;
+  bool is_tree = false;
   for (std::size_t i = 0; i < count; ++i) {
     skip_time(in);
     const bool is_in_body = in.read_text() == frames.body;
@@ -160,8 +168,14 @@ bool RosMapping<LinkPoses>::read(CdrReader& in, const FrameNames& frames, LinkPo
     if (is_in_body && i == 1) {
       X_WB = value.X_WL[0];
       k = 0;
+      is_tree = true;
     }
     std::string_view name = in.read_text();
+    if (is_tree && !is_in_body) {  // the frame of dead reckoning
+      Pose X_WO;
+      read_pose(in, X_WO);
+      continue;
+    }
     if (name.starts_with(frames.prefix)) name.remove_prefix(frames.prefix.size());
     value.names[k].assign(name.data(), name.size());
     read_pose(in, value.X_WL[k]);

@@ -11,9 +11,10 @@ struct RecordedSignal {
   const SignalBase* signal = nullptr;
   Duration min_period;
   FrameNames frames;
-  const Signal<Odometry>* truth = nullptr;  ///< of the same vehicle
-  std::uint16_t channel = 0;                ///< 0: only the exact channel
-  std::uint16_t exact_channel = 0;          ///< 0: none
+  const Signal<Odometry>* truth = nullptr;           ///< of the same vehicle
+  const Signal<DeadReckoning>* reckoning = nullptr;  ///< likewise, the first
+  std::uint16_t channel = 0;                         ///< 0: only the exact channel
+  std::uint16_t exact_channel = 0;                   ///< 0: none
   bool recorded = false;
   Time last_stamp;
   void (*write)(MessageSink&, const RecordedSignal&, Time now) = nullptr;
@@ -23,9 +24,11 @@ namespace {
 
 WriteContext context_of(const RecordedSignal& entry) {
   const Time stamp = entry.signal->stamp();
-  const bool is_body_known =
-      entry.truth != nullptr && entry.truth->sequence() > 0 && entry.truth->stamp() == stamp;
-  return {entry.frames, stamp, is_body_known ? &entry.truth->value().X_WB : nullptr};
+  const auto is_known = [&](const auto* signal) {
+    return signal != nullptr && signal->sequence() > 0 && signal->stamp() == stamp;
+  };
+  return {entry.frames, stamp, is_known(entry.truth) ? &entry.truth->value().X_WB : nullptr,
+          is_known(entry.reckoning) ? &entry.reckoning->value().X_OB : nullptr};
 }
 
 template <class T>
@@ -133,14 +136,22 @@ struct SignalChannels::Impl {
                                 described_definition(type, {}, FieldsOfSignal(*entry.signal)), "");
   }
 
-  /// Connects each signal to "<vehicle>/truth" for the vehicle's pose, in any order of signals.
-  void connect_truth() {
-    for (const RecordedSignal& truth : entries) {
-      if (truth.signal->name() != truth.frames.prefix + "truth") continue;
-      if (!is_message<Odometry>(*truth.signal)) continue;
+  /// Connects each signal to "<vehicle>/truth" for the vehicle's pose and to its dead reckoning, in
+  /// any order of signals.
+  void connect_poses() {
+    for (const RecordedSignal& source : entries) {
+      const SignalBase& signal = *source.signal;
+      const bool is_truth =
+          signal.name() == source.frames.prefix + "truth" && is_message<Odometry>(signal);
+      const bool is_reckoning =
+          is_message<DeadReckoning>(signal) && !signal.name().ends_with("_truth");
+      if (!is_truth && !is_reckoning) continue;
       for (RecordedSignal& entry : entries) {
-        if (entry.frames.prefix != truth.frames.prefix) continue;
-        entry.truth = static_cast<const Signal<Odometry>*>(truth.signal);
+        if (entry.frames.prefix != source.frames.prefix) continue;
+        if (is_truth) entry.truth = static_cast<const Signal<Odometry>*>(&signal);
+        if (is_reckoning && entry.reckoning == nullptr) {
+          entry.reckoning = static_cast<const Signal<DeadReckoning>*>(&signal);
+        }
       }
     }
   }
@@ -184,7 +195,7 @@ void SignalChannels::add_signal(const SignalBase& signal, Duration min_period,
   if (entry.write == nullptr) impl_->set_described_type(entry);
   impl_->entries.push_back(std::move(entry));
   impl_->watched.push_back({&signal, 0});
-  if (impl_->compact_poses) impl_->connect_truth();
+  if (impl_->compact_poses) impl_->connect_poses();
 }
 
 void SignalChannels::write_new(Time now) {

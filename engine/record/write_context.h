@@ -31,6 +31,8 @@ struct WriteContext {
   /// stored relative to it, rounded to kPoseGrid, because noise in the low bits of poses takes most
   /// of a log's space.
   const Pose* X_WB = nullptr;
+  /// Pose of the body by dead reckoning, in the frame "<vehicle>/odom", at `stamp`; null: none.
+  const Pose* X_OB = nullptr;
 };
 
 /// Step of positions (m) and quaternion components in poses relative to the body: about 1 nm and 2

@@ -7,8 +7,10 @@
 #include "engine/core/error.h"
 #include "engine/record/log_reader.h"
 #include "engine/record/recorder.h"
+#include "engine/record/ros_fields.h"
 #include "tests/engine/record/log_files.h"
 #include "tests/engine/record/message_samples.h"
+#include "tests/engine/record/raw_messages.h"
 
 namespace vinerow::record::round_trip_test {
 namespace {
@@ -62,6 +64,61 @@ TEST_P(RoundTrip, EveryTypeComesBackToTheBit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Compressions, RoundTrip, ::testing::Values("zstd", "lz4", "none"));
+
+TEST(RoundTrip, LinksComeBackBesideTheFrameOfDeadReckoning) {
+  const TemporaryFile file;
+  SignalBus bus;
+  Recorder recorder(file.path(), {}, {});
+  auto truth = bus.advertise<Odometry>("rover/truth", "test");
+  auto links = bus.advertise<LinkPoses>("rover/links", "test");
+  auto reckoning = bus.advertise<DeadReckoning>("rover/odom", "test");
+  for (const char* name : {"rover/truth", "rover/links", "rover/odom"}) {
+    recorder.channels().add_signal(*bus.find(name), Duration{0});
+  }
+  Odometry body;
+  body.X_WB = {Eigen::Quaterniond(0.8, 0.0, 0.0, 0.6), {10.0, -4.0, 0.5}};
+  const Pose X_BL{Eigen::Quaterniond::Identity(), {0.5, 0.25, -0.125}};
+  const LinkPoses written{{"base", "wheel"}, {body.X_WB, body.X_WB * X_BL}};
+  DeadReckoning reckoned;
+  reckoned.X_OB = {Eigen::Quaterniond::Identity(), {3.0, 1.0, 0.0}};
+  truth.write(Time{}, body);
+  links.write(Time{}, written);
+  reckoning.write(Time{}, reckoned);
+  recorder.record(Time{});
+  recorder.finish();
+
+  const LogReader log(file.path());
+  int count = 0;
+  log.read<LinkPoses>("/rover/links", [&](Time, const LinkPoses& read) {
+    ++count;
+    EXPECT_EQ(read.names, written.names);
+    ASSERT_EQ(read.X_WL.size(), 2u);
+    // Rounded to nanometres.
+    EXPECT_LT((read.X_WL[1].p - written.X_WL[1].p).norm(), 1e-8);
+  });
+  EXPECT_EQ(count, 1);
+  // The transforms as another reader sees them: the body where the truth is, and the frame of dead
+  // reckoning where it puts the body.
+  std::map<std::string, std::pair<std::string, Pose>> tree;  // by child
+  test::read_raw(file.path(), [&](Time, const ChannelInfo& channel, const auto& bytes) {
+    if (channel.topic != "/rover/links") return;
+    CdrReader in(bytes);
+    for (auto left = in.read<std::uint32_t>(); left > 0; --left) {
+      skip_time(in);
+      const std::string parent(in.read_text()), child(in.read_text());
+      Pose pose;
+      read_pose(in, pose);
+      tree[child] = {parent, pose};
+    }
+    EXPECT_TRUE(in.ok());
+  });
+  EXPECT_EQ(tree.at("rover/base_link").first, "map");
+  EXPECT_EQ(tree.at("rover/wheel").first, "rover/base_link");
+  EXPECT_EQ(tree.at("rover/odom").first, "map");
+  const Pose reckoned_W = tree.at("rover/odom").second * reckoned.X_OB;
+  EXPECT_LT((reckoned_W.p - body.X_WB.p).norm(), 1e-12);
+  EXPECT_LT(reckoned_W.q.angularDistance(body.X_WB.q), 1e-7);
+}
 
 TEST(RoundTrip, MessagesInAnotherOrderAreReadInTheOrderOfTheirStamps) {
   // As merged logs and other writers leave them. Two have one stamp: they keep the file's order.

@@ -114,8 +114,7 @@ class OdometryFilter final : public Estimator {
     if (source_ == Source::kCommand) command_ = ports.read<VelocityCommand>("command");
     estimate_ = ports.write<Odometry>("estimate");
     initial_pose_.connect(ports);
-    // Its only events are about such poses.
-    if (initial_pose_.is_taken()) events_.connect(ports);
+    events_.connect(ports);
   }
 
   void step(Time now) override {
@@ -137,7 +136,7 @@ class OdometryFilter final : public Estimator {
     }
     if (is_new) take_fix(now);
     if (filter_.ready()) write_estimate(now, v_B);
-    if (initial_pose_.is_taken()) events_.write(now);
+    events_.write(now);
   }
 
  private:
@@ -255,7 +254,7 @@ PartSpec odometry_filter_spec() {
   spec.default_rate_Hz = 40.0;
   spec.reads = {"<gps>", "<imu>", "command or <wheels>", "truth (start; heading: truth)",
                 "initialpose (from outside)"};
-  spec.writes = {"estimate", "estimator_event (initial_pose_from_outside)"};
+  spec.writes = {"estimate", "estimator_event"};
   return spec;
 }
 

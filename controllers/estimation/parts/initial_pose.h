@@ -39,7 +39,6 @@ class InitialPose {
 
   explicit InitialPose(const InitialPoseParams& params) : is_taken_(params.is_taken) {}
 
-  bool is_taken() const { return is_taken_; }
   /// Without the parameter there is no such signal, so that logs stay as they are.
   void connect(Ports& ports) {
     if (is_taken_) pose_ = ports.read_from_outside<Odometry>("initialpose");

@@ -124,6 +124,39 @@ TEST(Scene, RaysThatRiseFromTheGroundMeetItWhereItsMeshIsMet) {
   EXPECT_LE(different, 10);
 }
 
+TEST(Scene, ShortRaysMeetTheGroundWhereItsMeshIsMet) {
+  WorldModel field_world;
+  field_world.terrain = test::make_hills(129, 0.25);
+  const HeightField& field = *field_world.terrain;
+  WorldModel mesh_world;
+  mesh_world.meshes = {test::make_instance("hills", test::make_mesh_of(field), Vector3d::Zero(),
+                                           SurfaceClass::kTerrain)};
+  const PhysicsWorld field_physics({}, field_world);
+  const PhysicsWorld mesh_physics({}, mesh_world);
+  RandomStream random(5, "", "wheels");
+  int hits = 0, different = 0;
+  for (int k = 0; k < 20'000; ++k) {
+    // As those of wheels: within a cell or over a border, and at the rim of the field too.
+    const double x = random.uniform(-16, 16), y = random.uniform(-16, 16);
+    const Vector3d p(x, y, field.height_m(x, y) + random.uniform(-0.1, 0.4));
+    const Vector3d dir =
+        Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-2, 0.2))
+            .normalized();
+    const double reach_m = random.uniform(0.0, 0.6);
+    const auto own = field_physics.scene().cast_ray(p, dir, reach_m);
+    const auto embree = mesh_physics.scene().cast_ray(p, dir, reach_m);
+    if (own.has_value() != embree.has_value()) {
+      ++different;  // rays that end on the surface or at the rim
+      continue;
+    }
+    if (!own) continue;
+    ++hits;
+    if (std::abs(own->distance_m - embree->distance_m) > 1e-4) ++different;
+  }
+  EXPECT_GT(hits, 5000);
+  EXPECT_LE(different, 4);
+}
+
 TEST(Scene, RaysAlongGridLinesAndCornersFindTheGround) {
   const HeightField field = test::make_hills();
   const HeightFieldRay rays(field);

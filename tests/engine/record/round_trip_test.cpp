@@ -97,8 +97,8 @@ TEST(RoundTrip, LinksComeBackBesideTheFrameOfDeadReckoning) {
     EXPECT_LT((read.X_WL[1].p - written.X_WL[1].p).norm(), 1e-8);
   });
   EXPECT_EQ(count, 1);
-  // The transforms as another reader sees them: the body where the truth is, and the frame of dead
-  // reckoning where it puts the body.
+  // The transforms as another reader sees them: the body where the truth is, and the odometry's
+  // frame where it puts the body.
   std::map<std::string, std::pair<std::string, Pose>> tree;  // by child
   test::read_raw(file.path(), [&](Time, const ChannelInfo& channel, const auto& bytes) {
     if (channel.topic != "/rover/links") return;

@@ -123,7 +123,7 @@ void Ros2Topics::end_message() {
 
 void Ros2Topics::on_instant(Time now) {
   publish_clock(now);
-  publish_transforms();
+  publish_transforms(now);
   signals_->write_new(now);
 }
 
@@ -139,8 +139,8 @@ void Ros2Topics::publish_clock(Time now) {
   clock_->publisher->publish(buffer_.view());
 }
 
-void Ros2Topics::publish_transforms() {
-  const bool is_new = tree_->update();
+void Ros2Topics::publish_transforms(Time now) {
+  const bool is_new = tree_->update(now);
   if (!is_new || transforms_->subscribers.load(std::memory_order_relaxed) == 0) return;
   buffer_.clear();
   record::CdrWriter out(buffer_);

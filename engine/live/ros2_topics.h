@@ -62,7 +62,7 @@ class Ros2Topics final : public RunObserver, private record::MessageSink {
                                     std::uint64_t publish_time) override;
   void end_message() override;
   void publish_clock(Time now);
-  void publish_transforms();
+  void publish_transforms(Time now);
   void publish_descriptions(const Simulation& simulation);
 
   ros2::Node& node_;

@@ -8,6 +8,8 @@ namespace vinerow::live {
 namespace {
 
 constexpr std::string_view kTruthSuffix = "_truth";
+/// A vehicle whose dead reckoning is silent for so long stands still or has lost it.
+constexpr Duration kSilent{1'000'000'000};
 
 template <class T>
 const Signal<T>* typed_signal(const SignalBus& bus, const std::string& name) {
@@ -73,7 +75,7 @@ void TransformTree::add_body(Vehicle& vehicle) {
   transforms_.push_back({pose.stamp(), &vehicle.odom, vehicle.frames.body, pose.value().X_WB});
 }
 
-void TransformTree::add_reckoned(Vehicle& vehicle) {
+void TransformTree::add_reckoned(Vehicle& vehicle, Time now) {
   // A reading may arrive later than it was measured, and is compared with the pose of that time.
   if (vehicle.reckoning_truth.is_new() && vehicle.localised && vehicle.localised->sequence() > 0) {
     vehicle.measured.emplace_back(vehicle.reckoning_truth.signal->stamp(),
@@ -81,6 +83,7 @@ void TransformTree::add_reckoned(Vehicle& vehicle) {
   }
   if (!vehicle.reckoning.is_new()) return;
   const Time stamp = vehicle.reckoning.signal->stamp();
+  vehicle.heard = now;
   const Pose& X_OB = vehicle.reckoning.signal->value().X_OB;
   while (!vehicle.measured.empty() && vehicle.measured.front().first < stamp) {
     vehicle.measured.pop_front();
@@ -90,6 +93,17 @@ void TransformTree::add_reckoned(Vehicle& vehicle) {
     transforms_.push_back({stamp, &map_, vehicle.odom, X_WB * X_OB.inverse()});
   }
   transforms_.push_back({stamp, &vehicle.odom, vehicle.frames.body, X_OB});
+}
+
+/// At the rate of the links.
+void TransformTree::add_held(const Vehicle& vehicle, Time now) {
+  if (vehicle.heard && now - *vehicle.heard < kSilent) return;
+  const Pose X_OB = vehicle.heard ? vehicle.reckoning.signal->value().X_OB : Pose{};
+  if (vehicle.localised && vehicle.localised->sequence() > 0) {
+    const Pose& X_WB = vehicle.localised->value().X_WB;
+    transforms_.push_back({now, &map_, vehicle.odom, X_WB * X_OB.inverse()});
+  }
+  transforms_.push_back({now, &vehicle.odom, vehicle.frames.body, X_OB});
 }
 
 void TransformTree::add_links(Vehicle& vehicle) {
@@ -102,12 +116,16 @@ void TransformTree::add_links(Vehicle& vehicle) {
   }
 }
 
-bool TransformTree::update() {
+bool TransformTree::update(Time now) {
   transforms_.clear();
   for (Vehicle& vehicle : vehicles_) {
-    if (vehicle.reckoning.signal) add_reckoned(vehicle);
+    if (vehicle.reckoning.signal) add_reckoned(vehicle, now);
     if (!vehicle.links.is_new()) continue;
-    if (!vehicle.reckoning.signal) add_body(vehicle);
+    if (vehicle.reckoning.signal) {
+      add_held(vehicle, now);
+    } else {
+      add_body(vehicle);
+    }
     add_links(vehicle);
   }
   return !transforms_.empty();

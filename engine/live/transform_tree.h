@@ -4,9 +4,11 @@
 ///
 /// `odom` -> `base_link` is the vehicle's dead reckoning, the first of its sensors that writes
 /// DeadReckoning. Without one `odom` lies where `map` does, and does not drift. `map` -> `odom`
-/// corrects the drift, so that the body is where `Localisation` says.
+/// corrects the drift, so that the body is where `Localisation` says. While there is no reading, as
+/// of a parked vehicle, the last one counts.
 
 #include <deque>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,7 +33,7 @@ class TransformTree {
 
   /// Collects the transforms that are new since the last call. Call at every instant, also without
   /// listeners: it remembers poses until readings arrive. @returns whether there are any
-  bool update();
+  bool update(Time now);
   /// Writes them as a tf2_msgs/msg/TFMessage.
   void write(record::CdrWriter& out) const;
 
@@ -52,6 +54,7 @@ class TransformTree {
     Watched<LinkPoses> links;
     Watched<DeadReckoning> reckoning;
     Watched<DeadReckoning> reckoning_truth;  ///< written when it measures, before any delay
+    std::optional<Time> heard;               ///< when the last reading arrived
     /// Poses by localisation at the instants of measurements that have not arrived.
     std::deque<std::pair<Time, Pose>> measured;
   };
@@ -64,7 +67,8 @@ class TransformTree {
 
   void add_vehicle(const SignalBus& bus, const Signal<LinkPoses>& links, Localisation localisation);
   void add_body(Vehicle& vehicle);
-  void add_reckoned(Vehicle& vehicle);
+  void add_reckoned(Vehicle& vehicle, Time now);
+  void add_held(const Vehicle& vehicle, Time now);
   void add_links(Vehicle& vehicle);
 
   const std::string map_;

@@ -117,6 +117,7 @@ export class Browser {
     const ended = new Promise((resolve) => this.process.once("exit", resolve));
     this.process.kill();
     await ended;
-    rmSync(this.profile, { recursive: true, force: true, maxRetries: 5 });
+    // Its helpers may write there for seconds after it has ended; the waits add up to 20 s.
+    rmSync(this.profile, { recursive: true, force: true, maxRetries: 20 });
   }
 }

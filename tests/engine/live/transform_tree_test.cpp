@@ -10,6 +10,8 @@
 namespace vinerow::live::transform_tree_test {
 namespace {
 
+const Time kNow{2'020'000'000};
+
 struct Link {
   std::string parent;
   Time stamp;
@@ -31,9 +33,9 @@ struct Bench {
   }
 
   /// By child, as a listener of tf reads the message.
-  std::map<std::string, Link> listen() {
+  std::map<std::string, Link> listen(Time now = kNow) {
     std::map<std::string, Link> read;
-    if (!tree->update()) return read;
+    if (!tree->update(now)) return read;
     record::ByteBuffer buffer;
     record::CdrWriter out(buffer);
     tree->write(out);
@@ -80,8 +82,6 @@ void expect_pose(const Pose& pose, const Pose& expected) {
   EXPECT_LT(pose.q.angularDistance(expected.q), 1e-7);
 }
 
-const Time kNow{2'020'000'000};
-
 TEST(TransformTree, CorrectsTheDriftOfDeadReckoning) {
   Bench bench(Localisation::kTruth);
   EXPECT_TRUE(bench.listen().empty());
@@ -121,6 +121,33 @@ TEST(TransformTree, ALateReadingIsComparedWithThePoseOfItsTime) {
   const auto tree = bench.listen();
   EXPECT_EQ(tree.at("rover/odom").stamp, kNow);
   expect_pose(tree.at("rover/odom").X_PC * X_OB, then);
+}
+
+TEST(TransformTree, AParkedVehicleStaysInTheTree) {
+  Bench bench(Localisation::kTruth);
+  const Pose parked = pose(3.0, 4.0, 0.5);
+  bench.write_truth(kNow, parked);
+  bench.links.write(kNow, {});
+  auto tree = bench.listen();
+  expect_pose(tree.at("rover/odom").X_PC * tree.at("rover/base_link").X_PC, parked);
+  // It works, and is parked again.
+  const Pose X_OB = pose(1.0, 0.0, 0.0), moved = pose(4.0, 4.0, 0.5);
+  Time now = kNow + Duration{20'000'000};
+  bench.write_truth(now, moved);
+  bench.reckoning_truth.write(now, {});
+  bench.write_reckoning(now, X_OB);
+  bench.links.write(now, {});
+  tree = bench.listen(now);
+  ASSERT_EQ(tree.size(), 2u) << "once each";
+  now = now + Duration{900'000'000};
+  bench.links.write(now, {});
+  EXPECT_TRUE(bench.listen(now).empty()) << "the next reading may come";
+  now = now + Duration{100'000'000};
+  bench.links.write(now, {});
+  tree = bench.listen(now);
+  EXPECT_EQ(tree.at("rover/base_link").stamp, now);
+  expect_pose(tree.at("rover/base_link").X_PC, X_OB);
+  expect_pose(tree.at("rover/odom").X_PC * X_OB, moved);
 }
 
 TEST(TransformTree, PutsTheBodyWhereTheEstimatorSays) {

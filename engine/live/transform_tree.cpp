@@ -10,6 +10,8 @@ namespace {
 constexpr std::string_view kTruthSuffix = "_truth";
 /// A vehicle whose dead reckoning is silent for so long stands still or has lost it.
 constexpr Duration kSilent{1'000'000'000};
+/// Longest `delay_s` of a sensor: what was measured before was lost.
+constexpr Duration kLongestDelay{10'000'000'000};
 
 template <class T>
 const Signal<T>* typed_signal(const SignalBus& bus, const std::string& name) {
@@ -64,13 +66,15 @@ void TransformTree::add_vehicle(const SignalBus& bus, const Signal<LinkPoses>& l
         typed_signal<DeadReckoning>(bus, name + std::string(kTruthSuffix));
     break;
   }
+  vehicle.body.signal = vehicle.localised ? vehicle.localised : vehicle.truth;
   vehicles_.push_back(std::move(vehicle));
 }
 
-/// Without dead reckoning, at the rate of the links.
+/// Without dead reckoning, at the rate of the links. An estimate that is slower than they is passed
+/// on once: listeners warn of transforms that repeat a stamp.
 void TransformTree::add_body(Vehicle& vehicle) {
-  const Signal<Odometry>& pose = vehicle.localised ? *vehicle.localised : *vehicle.truth;
-  if (pose.sequence() == 0) return;
+  if (!vehicle.body.is_new()) return;
+  const Signal<Odometry>& pose = *vehicle.body.signal;
   if (vehicle.localised) transforms_.push_back({pose.stamp(), &map_, vehicle.odom, Pose{}});
   transforms_.push_back({pose.stamp(), &vehicle.odom, vehicle.frames.body, pose.value().X_WB});
 }
@@ -80,6 +84,7 @@ void TransformTree::add_reckoned(Vehicle& vehicle, Time now) {
   if (vehicle.reckoning_truth.is_new() && vehicle.localised && vehicle.localised->sequence() > 0) {
     vehicle.measured.emplace_back(vehicle.reckoning_truth.signal->stamp(),
                                   vehicle.localised->value().X_WB);
+    while (now - vehicle.measured.front().first > kLongestDelay) vehicle.measured.pop_front();
   }
   if (!vehicle.reckoning.is_new()) return;
   const Time stamp = vehicle.reckoning.signal->stamp();
@@ -106,7 +111,7 @@ void TransformTree::add_held(const Vehicle& vehicle, Time now) {
   transforms_.push_back({now, &vehicle.odom, vehicle.frames.body, X_OB});
 }
 
-void TransformTree::add_links(Vehicle& vehicle) {
+void TransformTree::add_links(const Vehicle& vehicle) {
   const Signal<LinkPoses>& links = *vehicle.links.signal;
   const LinkPoses& value = links.value();
   for (std::size_t i = 0; i < value.names.size(); ++i) {

@@ -48,9 +48,10 @@ class TransformTree {
   };
   struct Vehicle {
     record::FrameNames frames;
-    std::string odom;                   ///< "rover/odom"
-    const Signal<Odometry>* localised;  ///< null: map -> odom comes from outside
-    const Signal<Odometry>* truth;
+    std::string odom;                             ///< "rover/odom"
+    const Signal<Odometry>* localised = nullptr;  ///< null: map -> odom comes from outside
+    const Signal<Odometry>* truth = nullptr;
+    Watched<Odometry> body;  ///< what places the body if there is no dead reckoning
     Watched<LinkPoses> links;
     Watched<DeadReckoning> reckoning;
     Watched<DeadReckoning> reckoning_truth;  ///< written when it measures, before any delay
@@ -69,7 +70,7 @@ class TransformTree {
   void add_body(Vehicle& vehicle);
   void add_reckoned(Vehicle& vehicle, Time now);
   void add_held(const Vehicle& vehicle, Time now);
-  void add_links(Vehicle& vehicle);
+  void add_links(const Vehicle& vehicle);
 
   const std::string map_;
   std::vector<Vehicle> vehicles_;

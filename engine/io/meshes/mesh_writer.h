@@ -1,6 +1,6 @@
 #pragma once
-/// Lossless writer of triangle meshes as binary PLY: load_mesh(join_vertices = false) reads back an
-/// equal mesh.
+/// Lossless files of triangle meshes as binary PLY: load_mesh(join_vertices = false) reads back an
+/// equal mesh, and read_intact_ply() does so quickly.
 
 #include <filesystem>
 #include <optional>

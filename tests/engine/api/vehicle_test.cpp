@@ -185,6 +185,16 @@ TEST(VehicleCheck, SaysWhatIsWrongWithWheelsAndAxles) {
             "wheeled.track_m = 0, must be > 0");
   EXPECT_EQ(fault(rover, [](V& v) { v.wheeled->effective_track_m = -1.0; }),
             "wheeled.effective_track_m = -1, must be >= 0");
+  EXPECT_EQ(fault(rover,
+                  [](V& v) {
+                    v.wheeled->wheels = {{99, {0.0, 0.4}}};
+                  }),
+            "wheeled.wheels has a wheel of actuator 99, which is not a speed in rad/s");
+  EXPECT_EQ(fault(rover,
+                  [](V& v) {
+                    v.wheeled->wheels = {{0, {0.0, 0.4}}};
+                  }),
+            "wheeled.wheels has a wheel of actuator 0, which is not a speed in rad/s");
   EXPECT_EQ(fault(rover, [](V& v) { v.wheeled->track_m = 1.2; }),
             "the outline of 1.9 x 1 m does not contain the wheels, 1.5 m apart along and 1.2 m "
             "across");

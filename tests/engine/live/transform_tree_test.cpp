@@ -123,6 +123,18 @@ TEST(TransformTree, ALateReadingIsComparedWithThePoseOfItsTime) {
   expect_pose(tree.at("rover/odom").X_PC * X_OB, then);
 }
 
+TEST(TransformTree, ForgetsWhatIsOlderThanTheLongestDelay) {
+  Bench bench(Localisation::kTruth);
+  bench.write_truth(kNow, pose(1.0, 0.0, 0.0));
+  bench.reckoning_truth.write(kNow, {});
+  EXPECT_TRUE(bench.listen().empty());
+  const Time later = kNow + Duration{10'500'000'000};
+  bench.reckoning_truth.write(later, {});
+  EXPECT_TRUE(bench.listen(later).empty());
+  bench.write_reckoning(kNow, pose(0.5, 0.0, 0.1));
+  EXPECT_FALSE(bench.listen(later).contains("rover/odom"));
+}
+
 TEST(TransformTree, AParkedVehicleStaysInTheTree) {
   Bench bench(Localisation::kTruth);
   const Pose parked = pose(3.0, 4.0, 0.5);
@@ -196,6 +208,15 @@ TEST(TransformTree, WithoutDeadReckoningOdomIsTheMap) {
   expect_pose(tree.at("drone/odom").X_PC, {});
   expect_pose(tree.at("drone/base_link").X_PC, drone.X_WB);
   EXPECT_EQ(tree.at("drone/rotor").parent, "drone/base_link");
+}
+
+TEST(TransformTree, ASlowEstimateIsPassedOnOnce) {
+  Bench bench(Localisation::kTruth);
+  bench.drone_truth.write(kNow, {});
+  bench.drone_links.write(kNow, {});
+  EXPECT_EQ(bench.listen().size(), 2u);
+  bench.drone_links.write(kNow + Duration{20'000'000}, {});
+  EXPECT_TRUE(bench.listen().empty()) << "no transform repeats a stamp";
 }
 
 }  // namespace

@@ -210,6 +210,20 @@ TEST(WheelOdometry, ReckonsOnWhileItsReadingsAreLost) {
   EXPECT_NEAR(drive.reading.value().X_OB.p.x(), measured_s, 1e-9);
 }
 
+TEST(WheelOdometry, StatesTheSpreadOfVelocityAndYawRate) {
+  test::SensorValues values = kIdeal;
+  for (auto& [name, value] : values) {
+    if (name == "speed_noise_std_radps") value = 0.05;
+  }
+  Drive drive(values);
+  drive.tick();
+  // The mean of four rims; the difference of the sides over their distance.
+  const double rim_std_mps = 0.05 * kRadius_m;
+  EXPECT_NEAR(drive.reading.value().velocity_std_mps.x(), 0.5 * rim_std_mps, 1e-9);
+  EXPECT_NEAR(drive.reading.value().yaw_rate_std_radps, rim_std_mps / kTrack_m, 1e-9);
+  EXPECT_EQ(drive.exact.value().yaw_rate_std_radps, 0.0);
+}
+
 TEST(WheelOdometry, DrawsUnequalWheelsOncePerRun) {
   test::SensorValues values = kIdeal;
   for (auto& [name, value] : values) {

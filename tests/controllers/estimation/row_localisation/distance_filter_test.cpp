@@ -372,6 +372,8 @@ TEST(DistanceFilter, TakesAPoseFromOutside) {
   // One tick of motion at 1.5 m/s lies between, and no fix.
   EXPECT_LT((moved.X_WB.p - pose.X_WB.p).head<2>().norm(), 0.02);
   EXPECT_NEAR(moved.X_WB.p.z(), z_m, 0.1);
+  EXPECT_NEAR(moved.position_variance_m2.x(), 0.25, 0.01);
+  EXPECT_NEAR(moved.position_variance_m2.y(), 0.09, 0.01);
   EXPECT_EQ(bench.bus.subscribe<Event>("drone/estimator_event", "test").value().level,
             Event::Level::kInfo);
 }

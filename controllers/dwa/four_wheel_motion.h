@@ -1,16 +1,16 @@
 #pragma once
 /// Kinematics of a vehicle with two steered axles: crab and curve at once.
 ///
-/// With k and s of parts/axle_angles.h the velocity of the centre is v_x (1, s) and the yaw rate
-/// k v_x. Per metre that the centre travels it turns by k / sqrt(1 + s^2), in the direction atan(s)
-/// off the nose.
+/// With k and s of engine/math/axle_roll.h the velocity of the centre is v_x (1, s) and the yaw
+/// rate k v_x. Per metre that the centre travels it turns by k / sqrt(1 + s^2), in the direction
+/// atan(s) off the nose.
 
 #include <algorithm>
 #include <cmath>
 
-#include "controllers/parts/ground_drive/axle_angles.h"
 #include "controllers/parts/paths/pose2.h"
 #include "engine/api/vehicle_kinds.h"
+#include "engine/math/axle_roll.h"
 
 namespace vinerow::controllers {
 

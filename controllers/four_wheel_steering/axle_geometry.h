@@ -6,7 +6,7 @@
 /// of a wheel in its middle ("bicycle" angle). A linkage turns the left and right wheel so that all
 /// axes meet in one instantaneous centre of rotation (ICR). With x forward, y left, the front axle
 /// at x = a, the rear one at x = -b:
-///   k, s                                      of parts/axle_angles.h
+///   k, s                                      of engine/math/axle_roll.h
 ///   ICR = (-s / k, 1 / k)
 ///   tan d_ij = (s + k x_ij) / (1 - k y_ij)    wheel at (x_ij, y_ij)
 /// There is no division by k: the distance of a wheel from the ICR is r_ij = reach_ij / k, and only
@@ -15,7 +15,7 @@
 
 #include <Eigen/Core>
 
-#include "controllers/parts/ground_drive/axle_angles.h"
+#include "engine/math/axle_roll.h"
 
 namespace vinerow::controllers {
 

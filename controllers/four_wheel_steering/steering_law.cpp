@@ -7,7 +7,7 @@ namespace vinerow::controllers {
 namespace {
 
 // Kinematics of the corrected form: with tan dF = (sin g + a kappa) / cos g and
-// tan dR = (sin g - b kappa) / cos g, the numbers of axle_angles.h are
+// tan dR = (sin g - b kappa) / cos g, the numbers of axle_roll.h are
 //   k = (tan dF - tan dR) / (a + b) = kappa / cos g,
 //   s = (b tan dF + a tan dR) / (a + b) = tan g.
 // So g is the direction of travel seen from B, and kappa = k / sqrt(1 + s^2) the curvature of the

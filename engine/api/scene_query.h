@@ -57,6 +57,15 @@ class RayScene {
       hits[i] = cast_ray(rays[i].p_W, rays[i].dir_W, rays[i].max_distance_m, mask);
     }
   }
+
+  /// Whether rays meet anything: whether cast_ray() would return a hit, in less time. No heap,
+  /// thread safe. @param blocked  as many as rays; true: the ray meets something
+  virtual void find_blocked(std::span<const SceneRay> rays, std::span<bool> blocked,
+                            SurfaceMask mask = kAllSurfaces) const {
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      blocked[i] = cast_ray(rays[i].p_W, rays[i].dir_W, rays[i].max_distance_m, mask).has_value();
+    }
+  }
 };
 
 /// Rays on the vehicles of a run, link by link. RayHit::mesh is an index into links().

@@ -22,4 +22,9 @@ inline double wrap_angle(double angle_rad) {
   return wrapped <= -kPi ? kPi : wrapped;
 }
 
+/// Chord of an arc per length of the arc, sin(h) / h, with h half of the angle that it turns.
+inline double chord_per_arc(double half_turn_rad) {
+  return std::abs(half_turn_rad) < 1e-8 ? 1.0 : std::sin(half_turn_rad) / half_turn_rad;
+}
+
 }  // namespace vinerow

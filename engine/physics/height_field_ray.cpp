@@ -12,24 +12,39 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kBlockLevel = 2;
-constexpr int kBlockCells = HeightRanges::kCells << kBlockLevel;
+/// Squares that the search visits, as levels of the height ranges: of 16 cells, then of 4.
+constexpr int kBlockLevel = 2, kSquareLevel = 0;
+constexpr int cells_of_level(int level) {
+  return HeightRanges::kCells << level;
+}
 
-/// Traversal of the squares of a grid along a line: each square with its range of t.
-class GridWalk {
+}  // namespace
+
+/// Ray in grid units (x, y in cells, z in metres) and the result of its traversal.
+struct HeightFieldRay::Walk {
+  double g[2], d[2], per_d[2];  // cells, cells per metre of ray, metres per cell
+  double z, dz, per_dz;
+  int side = 0;  // sign of D so far; 0 at the start
+  double hit_t = 0.0;
+  double slope_x = 0.0, slope_y = 0.0;  // slope of the hit triangle, dh per cell
+};
+
+/// Traversal of squares along a ray: each square with its range of t.
+class HeightFieldRay::GridWalk {
  public:
-  /// @param g,d  position g + t d in units of squares; squares [low, high) along each axis
-  GridWalk(const double g[2], const double d[2], const int low[2], const int high[2], double t0) {
+  /// @param cells  along a side of a square
+  /// @param low,high  squares [low, high) along each axis
+  GridWalk(const Walk& walk, int cells, const int low[2], const int high[2], double t0) {
     for (int axis = 0; axis < 2; ++axis) {
+      const double d = walk.d[axis];
+      const auto cell = static_cast<int>(walk.g[axis] + t0 * d);
       low_[axis] = low[axis];
       high_[axis] = high[axis];
-      index_[axis] = std::clamp(static_cast<int>(std::floor(g[axis] + t0 * d[axis])), low[axis],
-                                high[axis] - 1);
-      step_[axis] = d[axis] > 0.0 ? 1 : -1;
-      const double inverse = d[axis] == 0.0 ? kInfinity : 1.0 / d[axis];
-      per_square_[axis] = std::abs(inverse);
-      const int edge = index_[axis] + (d[axis] > 0.0 ? 1 : 0);
-      next_[axis] = d[axis] == 0.0 ? kInfinity : (edge - g[axis]) * inverse;
+      index_[axis] = std::clamp(cell / cells, low[axis], high[axis] - 1);
+      step_[axis] = d > 0.0 ? 1 : -1;
+      per_square_[axis] = std::abs(walk.per_d[axis]) * cells;
+      const int edge = (index_[axis] + (d > 0.0 ? 1 : 0)) * cells;
+      next_[axis] = d == 0.0 ? kInfinity : (edge - walk.g[axis]) * walk.per_d[axis];
     }
   }
   int i() const { return index_[0]; }
@@ -49,21 +64,8 @@ class GridWalk {
   double per_square_[2], next_[2];
 };
 
-}  // namespace
-
-/// Ray in grid units (x, y in cells, z in metres) and the result of its traversal.
-struct HeightFieldRay::Walk {
-  double g[2], d[2];  // cells, cells per metre of ray
-  double z, dz, per_dz;
-  int side = 0;  // sign of D so far; 0 at the start
-  double hit_t = 0.0;
-  double slope_x = 0.0, slope_y = 0.0;  // slope of the hit triangle, dh per cell
-};
-
 HeightFieldRay::HeightFieldRay(const HeightField& field)
     : field_(field), inverse_cell_per_m_(1.0 / field.cell_m), ranges_(field) {
-  block_columns_ = (field.columns - 2) / kBlockCells + 1;
-  block_rows_ = (field.rows - 2) / kBlockCells + 1;
   double steepest2_m2 = 0.0;  // square of the rise per cell
   for (int j = 0; j + 1 < field.rows; ++j) {
     for (int i = 0; i + 1 < field.columns; ++i) {
@@ -178,28 +180,50 @@ bool HeightFieldRay::cross_cell(Walk& walk, int i, int j, double t0, double t1) 
   return look(lower0, t0, t_mid) || look(lower1, t_mid, t1);
 }
 
-bool HeightFieldRay::cross_block(Walk& walk, int bi, int bj, double t0, double t1) const {
-  const HeightRanges::Range range = ranges_.square(kBlockLevel, bi, bj);
-  const double z0 = walk.z + walk.dz * t0;
-  const double z1 = walk.z + walk.dz * t1;
-  // Strictly above or below the whole block: no crossing, and the side is known.
-  const int whole_side =
-      std::min(z0, z1) > range.high_m ? 1 : (std::max(z0, z1) < range.low_m ? -1 : 0);
-  if (whole_side != 0 && (walk.side == 0 || walk.side == whole_side)) {
-    walk.side = whole_side;
-    return false;
-  }
-  const int low[2] = {bi * kBlockCells, bj * kBlockCells};
-  const int high[2] = {std::min(low[0] + kBlockCells, field_.columns - 1),
-                       std::min(low[1] + kBlockCells, field_.rows - 1)};
-  GridWalk cells(walk.g, walk.d, low, high, t0);
+/// Finds the crossing in the squares of `cells` cells between two corners, in cells.
+/// @param cross  of a square: bool(i, j, t0, t1)
+template <class Cross>
+bool HeightFieldRay::cross_squares(const Walk& walk, int cells, const int corner[2],
+                                   const int end[2], double t0, double t1, const Cross& cross) {
+  const int low[2] = {corner[0] / cells, corner[1] / cells};
+  const int high[2] = {(end[0] - 1) / cells + 1, (end[1] - 1) / cells + 1};
+  GridWalk squares(walk, cells, low, high, t0);
   double from = t0;
   do {
-    const double to = std::clamp(cells.exit_t(), from, t1);
-    if (cross_cell(walk, cells.i(), cells.j(), from, to)) return true;
+    const double to = std::clamp(squares.exit_t(), from, t1);
+    if (cross(squares.i(), squares.j(), from, to)) return true;
     from = to;
-  } while (from < t1 && cells.advance());
+  } while (from < t1 && squares.advance());
   return false;
+}
+
+/// @returns true if the ray is strictly above or below a whole square. No crossing, and the side is
+/// known.
+bool HeightFieldRay::is_clear(Walk& walk, int level, int i, int j, double t0, double t1) const {
+  const HeightRanges::Range range = ranges_.square(level, i, j);
+  const double z0 = walk.z + walk.dz * t0;
+  const double z1 = walk.z + walk.dz * t1;
+  const int side = std::min(z0, z1) > range.high_m ? 1 : (std::max(z0, z1) < range.low_m ? -1 : 0);
+  if (side == 0 || (walk.side != 0 && walk.side != side)) return false;
+  walk.side = side;
+  return true;
+}
+
+bool HeightFieldRay::cross_square(Walk& walk, int level, int i, int j, double t0, double t1) const {
+  if (is_clear(walk, level, i, j, t0, t1)) return false;
+  const int cells = cells_of_level(level);
+  const int corner[2] = {i * cells, j * cells};
+  const int end[2] = {std::min(corner[0] + cells, field_.columns - 1),
+                      std::min(corner[1] + cells, field_.rows - 1)};
+  if (level == kSquareLevel) {
+    return cross_squares(walk, 1, corner, end, t0, t1, [&](int ci, int cj, double from, double to) {
+      return cross_cell(walk, ci, cj, from, to);
+    });
+  }
+  return cross_squares(walk, cells_of_level(kSquareLevel), corner, end, t0, t1,
+                       [&](int si, int sj, double from, double to) {
+                         return cross_square(walk, kSquareLevel, si, sj, from, to);
+                       });
 }
 
 std::optional<HeightFieldRay::Hit> HeightFieldRay::cast(const Vector3d& p_W, const Vector3d& dir_W,
@@ -218,13 +242,17 @@ std::optional<HeightFieldRay::Hit> HeightFieldRay::cast(const Vector3d& p_W, con
         std::abs(walk.z) < kFarAway && dir_W.squaredNorm() < 2.0 && max_distance_m >= 0.0)) {
     return std::nullopt;
   }
-  // A short ray over the inside of one cell, such as most of a wheel's, needs neither clipping nor
-  // traversal, whose divisions would take most of its time.
-  if (const std::optional<Cell> cell = cell_around(walk, max_distance_m)) {
-    return cross_cell(walk, cell->i, cell->j, 0.0, max_distance_m) ? hit_of(walk, dir_W)
-                                                                   : std::optional<Hit>();
-  }
   if (rises_above(p_W, dir_W)) return std::nullopt;
+  // Neither a short ray over the inside of one cell, such as most of a wheel's, nor one that ends
+  // above all ground near it needs clipping or traversal, whose divisions would take most of its
+  // time.
+  if (const std::optional<Span> span = span_of(walk, max_distance_m)) {
+    if (span->is_one_cell()) {
+      return cross_cell(walk, span->i0, span->j0, 0.0, max_distance_m) ? hit_of(walk, dir_W)
+                                                                       : std::optional<Hit>();
+    }
+    if (is_above(walk, *span, max_distance_m)) return std::nullopt;
+  }
   walk.per_dz = 1.0 / walk.dz;
 
   // Section of the ray over the grid.
@@ -234,11 +262,12 @@ std::optional<HeightFieldRay::Hit> HeightFieldRay::cast(const Vector3d& p_W, con
   for (int axis = 0; axis < 2; ++axis) {
     if (walk.d[axis] == 0.0) {
       if (walk.g[axis] < 0.0 || walk.g[axis] > extent[axis]) return std::nullopt;
+      walk.per_d[axis] = kInfinity;
       continue;
     }
-    const double per_d = 1.0 / walk.d[axis];
-    const double at_low = -walk.g[axis] * per_d;
-    const double at_high = (extent[axis] - walk.g[axis]) * per_d;
+    walk.per_d[axis] = 1.0 / walk.d[axis];
+    const double at_low = -walk.g[axis] * walk.per_d[axis];
+    const double at_high = (extent[axis] - walk.g[axis]) * walk.per_d[axis];
     t0 = std::max(t0, std::min(at_low, at_high));
     t1 = std::min(t1, std::max(at_low, at_high));
   }
@@ -257,34 +286,39 @@ std::optional<HeightFieldRay::Hit> HeightFieldRay::cast(const Vector3d& p_W, con
     found = cross_cell(walk, i, j, t0, t1);
   } else {
     if (!clip_to_ground(walk, t0, t1)) return std::nullopt;
-    const double g_blocks[2] = {walk.g[0] / kBlockCells, walk.g[1] / kBlockCells};
-    const double d_blocks[2] = {walk.d[0] / kBlockCells, walk.d[1] / kBlockCells};
-    const int low[2] = {0, 0};
-    const int high[2] = {block_columns_, block_rows_};
-    GridWalk blocks(g_blocks, d_blocks, low, high, t0);
-    double from = t0;
-    do {
-      const double to = std::clamp(blocks.exit_t(), from, t1);
-      found = cross_block(walk, blocks.i(), blocks.j(), from, to);
-      from = to;
-    } while (!found && from < t1 && blocks.advance());
+    const int corner[2] = {0, 0};
+    const int end[2] = {field_.columns - 1, field_.rows - 1};
+    found = cross_squares(walk, cells_of_level(kBlockLevel), corner, end, t0, t1,
+                          [&](int bi, int bj, double from, double to) {
+                            return cross_square(walk, kBlockLevel, bi, bj, from, to);
+                          });
   }
   if (!found) return std::nullopt;
   return hit_of(walk, dir_W);
 }
 
-/// The cell that contains both ends of a ray, if there is one.
-std::optional<HeightFieldRay::Cell> HeightFieldRay::cell_around(const Walk& walk,
-                                                                double max_distance_m) const {
+/// The cells of a ray's ends, if both are on the grid.
+std::optional<HeightFieldRay::Span> HeightFieldRay::span_of(const Walk& walk,
+                                                            double max_distance_m) const {
   const double end_x = walk.g[0] + max_distance_m * walk.d[0];
   const double end_y = walk.g[1] + max_distance_m * walk.d[1];
   const bool is_inside = walk.g[0] >= 0.0 && walk.g[1] >= 0.0 && end_x >= 0.0 && end_y >= 0.0 &&
                          std::max(walk.g[0], end_x) < field_.columns - 1 &&
                          std::max(walk.g[1], end_y) < field_.rows - 1;
   if (!is_inside) return std::nullopt;
-  const Cell cell{static_cast<int>(walk.g[0]), static_cast<int>(walk.g[1])};
-  if (cell.i != static_cast<int>(end_x) || cell.j != static_cast<int>(end_y)) return std::nullopt;
-  return cell;
+  return Span{static_cast<int>(walk.g[0]), static_cast<int>(walk.g[1]), static_cast<int>(end_x),
+              static_cast<int>(end_y)};
+}
+
+/// @returns true if the ray is above all ground of the rectangle of squares around it
+bool HeightFieldRay::is_above(const Walk& walk, const Span& span, double max_distance_m) const {
+  constexpr double kMargin_m = 1e-3;
+  const auto [i0, i1] =
+      std::minmax({span.i0 / HeightRanges::kCells, span.i1 / HeightRanges::kCells});
+  const auto [j0, j1] =
+      std::minmax({span.j0 / HeightRanges::kCells, span.j1 / HeightRanges::kCells});
+  const double lowest_m = std::min(walk.z, walk.z + max_distance_m * walk.dz);
+  return lowest_m > ranges_.of(i0, j0, i1, j1).high_m + kMargin_m;
 }
 
 HeightFieldRay::Hit HeightFieldRay::hit_of(const Walk& walk, const Vector3d& dir_W) const {

@@ -34,20 +34,26 @@ class HeightFieldRay {
 
  private:
   struct Walk;
-  struct Cell {
-    int i = 0, j = 0;
+  class GridWalk;
+  struct Span {
+    int i0, j0, i1, j1;  ///< cells of both ends
+    bool is_one_cell() const { return i0 == i1 && j0 == j1; }
   };
   bool rises_above(const Eigen::Vector3d& p_W, const Eigen::Vector3d& dir_W) const;
   static bool clip(Walk& walk, double low_m, double high_m, double& t0, double& t1);
   bool clip_to_ground(Walk& walk, double& t0, double& t1) const;
-  std::optional<Cell> cell_around(const Walk& walk, double max_distance_m) const;
+  std::optional<Span> span_of(const Walk& walk, double max_distance_m) const;
+  bool is_above(const Walk& walk, const Span& span, double max_distance_m) const;
   Hit hit_of(const Walk& walk, const Eigen::Vector3d& dir_W) const;
   bool cross_cell(Walk& walk, int i, int j, double t0, double t1) const;
-  bool cross_block(Walk& walk, int bi, int bj, double t0, double t1) const;
+  template <class Cross>
+  static bool cross_squares(const Walk& walk, int cells, const int corner[2], const int end[2],
+                            double t0, double t1, const Cross& cross);
+  bool is_clear(Walk& walk, int level, int i, int j, double t0, double t1) const;
+  bool cross_square(Walk& walk, int level, int i, int j, double t0, double t1) const;
 
   const HeightField& field_;
   double inverse_cell_per_m_;
-  int block_columns_, block_rows_;
   HeightRanges ranges_;
   double steepest_ = 0.0;  ///< largest rise per horizontal metre of all triangles
 };

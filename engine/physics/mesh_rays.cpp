@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <deque>
 #include <limits>
 #include <map>
@@ -19,6 +20,7 @@
 #include "engine/core/profile.h"
 #include "engine/math/box_tree.h"
 #include "engine/physics/box_ray.h"
+#include "engine/physics/triangle_blocks.h"
 #include "engine/physics/triangle_ray.h"
 
 namespace vinerow::physics {
@@ -26,10 +28,20 @@ namespace {
 
 using Eigen::Vector3d;
 
-std::array<Vector3d, 3> corners(const TriangleMesh& mesh, std::uint32_t triangle) {
+using Corners = std::array<Vector3d, 3>;
+
+Corners corners_of(const TriangleMesh& mesh, std::uint32_t triangle) {
   const auto& [i, j, k] = mesh.triangles[triangle];
   return {mesh.vertices[i].cast<double>(), mesh.vertices[j].cast<double>(),
           mesh.vertices[k].cast<double>()};
+}
+
+Corners corners_of(const TriangleBlock& block, std::uint32_t place) {
+  Corners corners;
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (int axis = 0; axis < 3; ++axis) corners[k][axis] = block.corners_M[k][axis][place];
+  }
+  return corners;
 }
 
 /// Bound of the error of a ray in single precision if no coordinate exceeds reach_m. The roundings
@@ -42,6 +54,9 @@ double calc_margin_m(double reach_m) {
 /// Embree's trees take 0.43 us a triangle to build; a ray without them takes 0.2 us more. The first
 /// rays may cost a tenth of the trees.
 constexpr std::uint64_t kTrianglesPerFirstRay = 4;
+
+/// Rays that Embree follows together.
+constexpr std::size_t kPacket = 8;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
@@ -58,46 +73,75 @@ struct MeshRays::Impl {
     Vector3d p_MW;
   };
 
-  /// Data of a geometry's callback: its mesh, and the margin of its boxes.
+  /// Data of a geometry's callback: its triangles, and the margin of its boxes.
   struct Boxes {
-    const TriangleMesh* mesh;
-    Pose X;           ///< the boxes are in the frame of X * (vertex)
+    const std::vector<TriangleBlock>* blocks;
+    Pose X;           ///< the boxes are in the frame of X * (corner)
     double margin_m;  ///< error bound of a ray in single precision
   };
 
   /// A ray in Embree's tree traversal.
   struct Lane {
-    Vector3d p_W = Vector3d::Zero(), dir_W = Vector3d::UnitZ();
+    Vector3d p_W, dir_W;
     double tree_start_m = 0.0;  ///< distance along the ray at which Embree's ray starts
     // The ray in the frame of the last tested mesh.
     unsigned entry = RTC_INVALID_GEOMETRY_ID;
-    TriangleRay ray_M{Vector3d::Zero(), Vector3d::UnitZ()};
+    TriangleRay ray_M;
     // The nearest hit so far. Among hits at the same distance, the one of the first mesh and
     // triangle, so that it does not depend on the traversal order.
     double best_m = 0.0;
     unsigned best_entry = RTC_INVALID_GEOMETRY_ID;
     unsigned best_triangle = 0;
+    const TriangleBlock* best_block = nullptr;  ///< that contains it; null: found without Embree
 
-    /// @returns true if the triangle is the nearest hit so far
-    bool test(const Placed& placed, unsigned entry_of_triangle, unsigned triangle,
-              const std::array<const Eigen::Vector3f*, 3>& corners_M) {
-      if (entry_of_triangle != entry) {
-        ray_M = TriangleRay(placed.R_MW * p_W + placed.p_MW, placed.R_MW * dir_W);
-        entry = entry_of_triangle;
-      }
-      const auto& [a, b, c] = corners_M;
-      const std::optional<double> found_m = ray_M.distance_m(*a, *b, *c);
-      if (!found_m || *found_m > best_m) return false;
-      if (*found_m == best_m && best_entry != RTC_INVALID_GEOMETRY_ID &&
+    bool has_hit() const { return best_entry != RTC_INVALID_GEOMETRY_ID; }
+
+    /// Takes over the ray in the frame of a mesh.
+    VINEROW_ALWAYS_INLINE void enter(const Placed& placed, unsigned entry_of_mesh) {
+      if (entry_of_mesh == entry) return;
+      ray_M = TriangleRay(placed.R_MW * p_W + placed.p_MW, placed.R_MW * dir_W);
+      entry = entry_of_mesh;
+    }
+
+    /// Takes over a triangle of the entered mesh. @returns true if it is the nearest hit so far
+    VINEROW_ALWAYS_INLINE bool take(double found_m, unsigned triangle) {
+      if (found_m > best_m) return false;
+      if (found_m == best_m && has_hit() &&
           std::pair(best_entry, best_triangle) < std::pair(entry, triangle)) {
         return false;
       }
-      best_m = *found_m;
+      best_m = found_m;
       best_entry = entry;
       best_triangle = triangle;
       return true;
     }
+
+    /// @returns true if a triangle of the block is the nearest hit so far
+    VINEROW_ALWAYS_INLINE bool test(const Placed& placed, unsigned entry_of_block,
+                                    const TriangleBlock& block) {
+      enter(placed, entry_of_block);
+      double found_m[TriangleBlock::kSize];
+      const unsigned met = ray_M.distances_m(block, found_m);
+      bool is_nearest = false;
+      for (unsigned left = met; left != 0; left &= left - 1) {
+        const auto i = static_cast<unsigned>(std::countr_zero(left));
+        if (!take(found_m[i], block.first + i)) continue;
+        best_block = &block;
+        is_nearest = true;
+      }
+      return is_nearest;
+    }
+
+    void test(const Placed& placed, unsigned entry_of_triangle, unsigned triangle) {
+      enter(placed, entry_of_triangle);
+      const TriangleMesh& mesh = *placed.instance->mesh;
+      const auto& [a, b, c] = mesh.triangles[triangle];
+      const auto found_m = ray_M.distance_m(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
+      if (found_m && take(*found_m, triangle)) best_block = nullptr;
+    }
   };
+
+  using Lanes = std::array<Lane, kPacket>;
 
   /// What the traversal passes to the callback. A ray's id is the number of its lane.
   struct Cast : RTCIntersectContext {
@@ -109,8 +153,12 @@ struct MeshRays::Impl {
   static void find_box(const RTCBoundsFunctionArguments* arguments) {
     const auto& boxes = *static_cast<const Boxes*>(arguments->geometryUserPtr);
     Eigen::AlignedBox3d box;
-    for (const Vector3d& corner : corners(*boxes.mesh, arguments->primID))
-      box.extend(boxes.X * corner);
+    const TriangleBlock& block = (*boxes.blocks)[arguments->primID];
+    for (std::uint32_t i = 0; i < block.count; ++i) {
+      for (const auto& corner_M : block.corners_M) {
+        box.extend(boxes.X * Vector3d(corner_M[0][i], corner_M[1][i], corner_M[2][i]));
+      }
+    }
     const auto low = [&](int axis) { return static_cast<float>(box.min()[axis] - boxes.margin_m); };
     const auto high = [&](int axis) {
       return static_cast<float>(box.max()[axis] + boxes.margin_m);
@@ -118,28 +166,62 @@ struct MeshRays::Impl {
     *arguments->bounds_o = {low(0), low(1), low(2), 0.0f, high(0), high(1), high(2), 0.0f};
   }
 
-  /// Called if rays meet the box of a triangle: one, or those of a packet.
-  static void look_at_triangle(const RTCIntersectFunctionNArguments* arguments) {
+  /// Called if rays meet the box of a block: one, or those of a packet.
+  VINEROW_ALWAYS_INLINE static void look_at_block(const RTCIntersectFunctionNArguments* arguments) {
     auto& cast = *static_cast<Cast*>(arguments->context);
+    const auto& boxes = *static_cast<const Boxes*>(arguments->geometryUserPtr);
     const unsigned instance = arguments->context->instID[0];
     const unsigned entry = instance != RTC_INVALID_GEOMETRY_ID ? instance : arguments->geomID;
     const Placed& placed = (*cast.placed)[entry];
-    const TriangleMesh& mesh = *placed.instance->mesh;
-    const auto& [i_a, i_b, i_c] = mesh.triangles[arguments->primID];
-    const std::array<const Eigen::Vector3f*, 3> triangle = {
-        &mesh.vertices[i_a], &mesh.vertices[i_b], &mesh.vertices[i_c]};
+    const TriangleBlock& block = (*boxes.blocks)[arguments->primID];
     const unsigned count = arguments->N;
     RTCRayN* rays = RTCRayHitN_RayN(arguments->rayhit, count);
     RTCHitN* hits = RTCRayHitN_HitN(arguments->rayhit, count);
     for (unsigned i = 0; i < count; ++i) {
       if (arguments->valid[i] == 0) continue;
       Lane& lane = cast.lanes[RTCRayN_id(rays, count, i)];
-      if (!lane.test(placed, entry, arguments->primID, triangle)) continue;
+      if (!lane.test(placed, entry, block)) continue;
       // Skip boxes that start farther away; test those at the same distance.
       RTCRayN_tfar(rays, count, i) =
           static_cast<float>(lane.best_m - lane.tree_start_m + cast.margin_m);
       RTCHitN_geomID(hits, count, i) = arguments->geomID;
     }
+  }
+
+  /// The same for rays that only ask whether they meet anything.
+  VINEROW_ALWAYS_INLINE static void block_rays(const RTCOccludedFunctionNArguments* arguments) {
+    auto& cast = *static_cast<Cast*>(arguments->context);
+    const auto& boxes = *static_cast<const Boxes*>(arguments->geometryUserPtr);
+    const unsigned instance = arguments->context->instID[0];
+    const unsigned entry = instance != RTC_INVALID_GEOMETRY_ID ? instance : arguments->geomID;
+    const TriangleBlock& block = (*boxes.blocks)[arguments->primID];
+    for (unsigned i = 0; i < arguments->N; ++i) {
+      if (arguments->valid[i] == 0) continue;
+      Lane& lane = cast.lanes[RTCRayN_id(arguments->ray, arguments->N, i)];
+      if (!lane.test((*cast.placed)[entry], entry, block)) continue;
+      RTCRayN_tfar(arguments->ray, arguments->N, i) = -std::numeric_limits<float>::infinity();
+    }
+  }
+
+  struct BlockFunctions {
+    RTCIntersectFunctionN look;
+    RTCOccludedFunctionN block;
+  };
+  /// The fastest versions on this processor. All have the same bits.
+  static BlockFunctions block_functions() {
+#if defined(__x86_64__)
+    struct Avx {
+      __attribute__((target("avx"))) static void look(const RTCIntersectFunctionNArguments* a) {
+        look_at_block(a);
+      }
+      __attribute__((target("avx"))) static void block(const RTCOccludedFunctionNArguments* a) {
+        block_rays(a);
+      }
+    };
+    if (__builtin_cpu_supports("avx")) return {Avx::look, Avx::block};
+#endif
+    return {[](const RTCIntersectFunctionNArguments* arguments) { look_at_block(arguments); },
+            [](const RTCOccludedFunctionNArguments* arguments) { block_rays(arguments); }};
   }
 
   /// Embree's ray starts at the bounds of the meshes, so that a distant start costs no digits in
@@ -149,12 +231,14 @@ struct MeshRays::Impl {
         !(ray.max_distance_m >= 0.0)) {
       return false;
     }
-    const std::optional<double> start_m =
-        BoxRay(ray.p_W, ray.dir_W).enter_m(bounds_W, ray.max_distance_m);
-    if (!start_m) return false;
+    if (!bounds_W.contains(ray.p_W)) {
+      const std::optional<double> start_m =
+          BoxRay(ray.p_W, ray.dir_W).enter_m(bounds_W, ray.max_distance_m);
+      if (!start_m) return false;
+      lane.tree_start_m = *start_m;
+    }
     lane.p_W = ray.p_W;
     lane.dir_W = ray.dir_W;
-    lane.tree_start_m = *start_m;
     lane.best_m = ray.max_distance_m;
     return true;
   }
@@ -182,13 +266,10 @@ struct MeshRays::Impl {
         is_complete = false;
         return;
       }
-      const TriangleMesh& mesh = *place.instance->mesh;
       const auto distance_M =
           distance_of(margin_m, place.R_MW * lane.p_W + place.p_MW, place.R_MW * lane.dir_W);
-      place.tree->get().search(distance_M, lane.best_m, [&](std::uint32_t triangle) {
-        const auto& [a, b, c] = mesh.triangles[triangle];
-        lane.test(place, item, triangle, {&mesh.vertices[a], &mesh.vertices[b], &mesh.vertices[c]});
-      });
+      place.tree->get().search(distance_M, lane.best_m,
+                               [&](std::uint32_t triangle) { lane.test(place, item, triangle); });
     });
     // What was hit so far is a hit: a search of Embree's trees goes on from there.
     return is_complete;
@@ -203,10 +284,50 @@ struct MeshRays::Impl {
     return cast;
   }
 
+  /// Casts up to eight rays.
+  /// @param search  of those that Embree's trees are needed for: (valid, cast, packet)
+  template <class Search>
+  void cast_packet(std::span<const SceneRay> rays, SurfaceMask mask, Lanes& lanes,
+                   const Search& search) {
+    alignas(32) std::array<int, kPacket> valid{};  // -1: takes part
+    RTCRayHit8 packet;
+    bool is_any = false;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const SceneRay& ray = rays[i];
+      if (!begin(ray, lanes[i]) || cast_without_trees(lanes[i], mask)) continue;
+      valid[i] = -1;
+      is_any = true;
+      const Vector3d p_start_W = ray.p_W + lanes[i].tree_start_m * ray.dir_W;
+      packet.ray.org_x[i] = static_cast<float>(p_start_W.x());
+      packet.ray.org_y[i] = static_cast<float>(p_start_W.y());
+      packet.ray.org_z[i] = static_cast<float>(p_start_W.z());
+      packet.ray.dir_x[i] = static_cast<float>(ray.dir_W.x());
+      packet.ray.dir_y[i] = static_cast<float>(ray.dir_W.y());
+      packet.ray.dir_z[i] = static_cast<float>(ray.dir_W.z());
+      packet.ray.tnear[i] = 0.0f;
+      packet.ray.tfar[i] =
+          static_cast<float>(ray.max_distance_m - lanes[i].tree_start_m + margin_m);
+      packet.ray.mask[i] = mask;
+      packet.ray.time[i] = 0.0f;
+      packet.ray.id[i] = static_cast<unsigned>(i);
+      packet.ray.flags[i] = 0;
+      packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+      packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    if (!is_any) return;
+    ensure_trees();
+    Cast cast = make_cast(lanes.data());
+    cast.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    search(valid.data(), cast, packet);
+  }
+
   std::optional<RayHit> hit_of(const Lane& lane) const {
-    if (lane.best_entry == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    if (!lane.has_hit()) return std::nullopt;
     const Placed& met = placed[lane.best_entry];
-    const auto [a, b, c] = corners(*met.instance->mesh, lane.best_triangle);
+    // The block was read just now, unlike the mesh.
+    const auto [a, b, c] =
+        lane.best_block ? corners_of(*lane.best_block, lane.best_triangle - lane.best_block->first)
+                        : corners_of(*met.instance->mesh, lane.best_triangle);
     const Vector3d normal_W = (met.R_MW.transpose() * (b - a).cross(c - a)).normalized();
     RayHit hit;
     hit.distance_m = lane.best_m;
@@ -220,6 +341,7 @@ struct MeshRays::Impl {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
   std::map<const TriangleMesh*, RTCScene> shared;
+  std::map<const TriangleMesh*, std::vector<TriangleBlock>> blocks;
   std::vector<Placed> placed;
   std::deque<Boxes> boxes;                                      // geometries point to the elements
   std::map<const TriangleMesh*, Eigen::AlignedBox3d> moving_M;  ///< boxes of meshes that move
@@ -250,11 +372,15 @@ struct MeshRays::Impl {
   /// Geometry of the mesh's triangles at X: boxes and a callback.
   RTCGeometry new_triangles(const TriangleMesh& mesh, const Pose& X, SurfaceMask mask) {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-    boxes.push_back({&mesh, X, margin_m});
-    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(mesh.triangles.size()));
+    std::vector<TriangleBlock>& of_mesh = blocks[&mesh];
+    if (of_mesh.empty()) of_mesh = make_triangle_blocks(mesh);
+    boxes.push_back({&of_mesh, X, margin_m});
+    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(of_mesh.size()));
     rtcSetGeometryUserData(geometry, &boxes.back());
     rtcSetGeometryBoundsFunction(geometry, find_box, nullptr);
-    rtcSetGeometryIntersectFunction(geometry, look_at_triangle);
+    const BlockFunctions functions = block_functions();
+    rtcSetGeometryIntersectFunction(geometry, functions.look);
+    rtcSetGeometryOccludedFunction(geometry, functions.block);
     rtcSetGeometryMask(geometry, mask);
     rtcCommitGeometry(geometry);
     return geometry;
@@ -475,42 +601,32 @@ std::optional<RayHit> MeshRays::cast(const Vector3d& p_W, const Vector3d& dir_W,
   return impl_->hit_of(lane);
 }
 
-void MeshRays::cast_packet(std::span<const SceneRay> rays, std::span<std::optional<RayHit>> hits,
-                           SurfaceMask mask) const {
-  VINEROW_DEMAND(rays.size() <= kPacket && hits.size() == rays.size());
-  std::array<Impl::Lane, kPacket> lanes;
-  alignas(32) std::array<int, kPacket> valid{};  // -1: take part
-  RTCRayHit8 packet;
-  bool is_any = false;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    const SceneRay& ray = rays[i];
-    if (!impl_->begin(ray, lanes[i]) || impl_->cast_without_trees(lanes[i], mask)) continue;
-    valid[i] = -1;
-    is_any = true;
-    const Vector3d p_start_W = ray.p_W + lanes[i].tree_start_m * ray.dir_W;
-    packet.ray.org_x[i] = static_cast<float>(p_start_W.x());
-    packet.ray.org_y[i] = static_cast<float>(p_start_W.y());
-    packet.ray.org_z[i] = static_cast<float>(p_start_W.z());
-    packet.ray.dir_x[i] = static_cast<float>(ray.dir_W.x());
-    packet.ray.dir_y[i] = static_cast<float>(ray.dir_W.y());
-    packet.ray.dir_z[i] = static_cast<float>(ray.dir_W.z());
-    packet.ray.tnear[i] = 0.0f;
-    packet.ray.tfar[i] =
-        static_cast<float>(ray.max_distance_m - lanes[i].tree_start_m + impl_->margin_m);
-    packet.ray.mask[i] = mask;
-    packet.ray.time[i] = 0.0f;
-    packet.ray.id[i] = static_cast<unsigned>(i);
-    packet.ray.flags[i] = 0;
-    packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-    packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+void MeshRays::cast_rays(std::span<const SceneRay> rays, std::span<std::optional<RayHit>> hits,
+                         SurfaceMask mask) const {
+  VINEROW_DEMAND(hits.size() == rays.size());
+  for (std::size_t at = 0; at < rays.size(); at += kPacket) {
+    const std::size_t count = std::min(kPacket, rays.size() - at);
+    Impl::Lanes lanes;
+    impl_->cast_packet(rays.subspan(at, count), mask, lanes,
+                       [this](const int* valid, auto& cast, RTCRayHit8& packet) {
+                         rtcIntersect8(valid, impl_->scene, &cast, &packet);
+                       });
+    for (std::size_t i = 0; i < count; ++i) hits[at + i] = impl_->hit_of(lanes[i]);
   }
-  if (is_any) {
-    impl_->ensure_trees();
-    Impl::Cast cast = impl_->make_cast(lanes.data());
-    cast.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    rtcIntersect8(valid.data(), impl_->scene, &cast, &packet);
+}
+
+void MeshRays::find_blocked(std::span<const SceneRay> rays, std::span<bool> blocked,
+                            SurfaceMask mask) const {
+  VINEROW_DEMAND(blocked.size() == rays.size());
+  for (std::size_t at = 0; at < rays.size(); at += kPacket) {
+    const std::size_t count = std::min(kPacket, rays.size() - at);
+    Impl::Lanes lanes;
+    impl_->cast_packet(rays.subspan(at, count), mask, lanes,
+                       [this](const int* valid, auto& cast, RTCRayHit8& packet) {
+                         rtcOccluded8(valid, impl_->scene, &cast, &packet.ray);
+                       });
+    for (std::size_t i = 0; i < count; ++i) blocked[at + i] = lanes[i].has_hit();
   }
-  for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = impl_->hit_of(lanes[i]);
 }
 
 }  // namespace vinerow::physics

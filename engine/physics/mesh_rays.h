@@ -44,10 +44,13 @@ class MeshRays {
   std::optional<RayHit> cast(const Eigen::Vector3d& p_W, const Eigen::Vector3d& dir_W,
                              double max_distance_m, SurfaceMask mask) const;
 
-  /// What cast() returns for each of up to kPacket rays. @param hits  as many as rays
-  static constexpr std::size_t kPacket = 8;
-  void cast_packet(std::span<const SceneRay> rays, std::span<std::optional<RayHit>> hits,
-                   SurfaceMask mask) const;
+  /// What cast() returns for each of the rays. @param hits  as many as rays
+  void cast_rays(std::span<const SceneRay> rays, std::span<std::optional<RayHit>> hits,
+                 SurfaceMask mask) const;
+  /// Whether cast() returns a hit. The search ends at the first triangle that it finds.
+  /// @param blocked  as many as rays
+  void find_blocked(std::span<const SceneRay> rays, std::span<bool> blocked,
+                    SurfaceMask mask) const;
 
  private:
   struct Impl;

@@ -1,6 +1,5 @@
 #include "engine/physics/surface_rays.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace vinerow::physics {
@@ -23,20 +22,24 @@ std::optional<RayHit> SurfaceRays::cast_ray(const Eigen::Vector3d& p_W,
                                             SurfaceMask mask) const {
   // Meshes first: most rays of sensors in a row end there, and need no long walk over terrain.
   const std::optional<RayHit> hit = meshes_.cast(p_W, dir_W, max_distance_m, mask);
-  if (!terrain_ || (mask & mask_of(SurfaceClass::kTerrain)) == 0) return hit;
+  if (!meets_terrain(mask)) return hit;
   return with_terrain({p_W, dir_W, max_distance_m}, hit);
 }
 
 void SurfaceRays::cast_rays(std::span<const SceneRay> rays, std::span<std::optional<RayHit>> hits,
                             SurfaceMask mask) const {
-  const bool has_terrain = terrain_ && (mask & mask_of(SurfaceClass::kTerrain)) != 0;
-  for (std::size_t at = 0; at < rays.size(); at += MeshRays::kPacket) {
-    const std::size_t count = std::min(MeshRays::kPacket, rays.size() - at);
-    const auto some = rays.subspan(at, count);
-    const auto met = hits.subspan(at, count);
-    meshes_.cast_packet(some, met, mask);
-    if (!has_terrain) continue;
-    for (std::size_t i = 0; i < count; ++i) met[i] = with_terrain(some[i], met[i]);
+  meshes_.cast_rays(rays, hits, mask);
+  if (!meets_terrain(mask)) return;
+  for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = with_terrain(rays[i], hits[i]);
+}
+
+void SurfaceRays::find_blocked(std::span<const SceneRay> rays, std::span<bool> blocked,
+                               SurfaceMask mask) const {
+  meshes_.find_blocked(rays, blocked, mask);
+  if (!meets_terrain(mask)) return;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const SceneRay& ray = rays[i];
+    blocked[i] = blocked[i] || terrain_->cast(ray.p_W, ray.dir_W, ray.max_distance_m);
   }
 }
 

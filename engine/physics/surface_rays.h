@@ -25,10 +25,15 @@ class SurfaceRays final : public RayScene {
                                  double max_distance_m, SurfaceMask mask) const override;
   void cast_rays(std::span<const SceneRay> rays, std::span<std::optional<RayHit>> hits,
                  SurfaceMask mask) const override;
+  void find_blocked(std::span<const SceneRay> rays, std::span<bool> blocked,
+                    SurfaceMask mask) const override;
 
   const MeshRays& meshes() const { return meshes_; }
 
  private:
+  bool meets_terrain(SurfaceMask mask) const {
+    return terrain_ && (mask & mask_of(SurfaceClass::kTerrain)) != 0;
+  }
   /// The first of a ray's hits on meshes and on the terrain. @pre there is a terrain
   std::optional<RayHit> with_terrain(SceneRay ray, const std::optional<RayHit>& on_mesh) const;
 

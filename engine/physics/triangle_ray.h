@@ -7,6 +7,9 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/physics/triangle_blocks.h"
+#include "engine/physics/vector4.h"
+
 namespace vinerow::physics {
 
 /// A ray prepared for many triangles (Woop, Benthin, Wald: Watertight Ray/Triangle Intersection,
@@ -20,11 +23,13 @@ namespace vinerow::physics {
 /// with the difference (-ffp-contract=off).
 class TriangleRay {
  public:
+  TriangleRay() = default;  ///< of no ray
   /// @param dir_M  unit
-  TriangleRay(const Eigen::Vector3d& p_M, const Eigen::Vector3d& dir_M) {
-    dir_M.cwiseAbs().maxCoeff(&z_);
-    x_ = (z_ + 1) % 3;
-    y_ = (z_ + 2) % 3;
+  VINEROW_ALWAYS_INLINE TriangleRay(const Eigen::Vector3d& p_M, const Eigen::Vector3d& dir_M) {
+    const double x = std::abs(dir_M.x()), y = std::abs(dir_M.y()), z = std::abs(dir_M.z());
+    z_ = x >= y && x >= z ? 0 : (y >= z ? 1 : 2);
+    x_ = z_ == 2 ? 0 : z_ + 1;
+    y_ = z_ == 0 ? 2 : z_ - 1;
     start_ = {p_M[x_], p_M[y_], p_M[z_]};
     scale_ = 1.0 / dir_M[z_];
     shear_x_ = dir_M[x_] * scale_;
@@ -48,6 +53,35 @@ class TriangleRay {
     return t_m;
   }
 
+  /// distance_m() of the triangles of a block: the same operations, four at a time.
+  /// @param t_m  distances to those that are met
+  /// @returns bit i: the ray meets triangle i of the block
+  VINEROW_ALWAYS_INLINE unsigned distances_m(const TriangleBlock& block,
+                                             double (&t_m)[TriangleBlock::kSize]) const {
+    Double4 p[3][3];  // sheared, [corner][axis]
+    for (int corner = 0; corner < 3; ++corner) {
+      const auto& q_M = block.corners_M[corner];
+      Double4 x, y, z;
+      load4(q_M[x_], x);
+      load4(q_M[y_], y);
+      load4(q_M[z_], z);
+      p[corner][2] = z - start_[2];
+      p[corner][0] = (x - start_[0]) - shear_x_ * p[corner][2];
+      p[corner][1] = (y - start_[1]) - shear_y_ * p[corner][2];
+    }
+    const auto& [a, b, c] = p;
+    const Double4 u = c[0] * b[1] - c[1] * b[0];
+    const Double4 v = a[0] * c[1] - a[1] * c[0];
+    const Double4 w = b[0] * a[1] - b[1] * a[0];
+    const Double4 sum = u + v + w;
+    const Mask4 is_out = ((u < 0.0) | (v < 0.0) | (w < 0.0)) & ((u > 0.0) | (v > 0.0) | (w > 0.0));
+    const unsigned through = bits_of(~is_out & (sum != 0.0));
+    if (through == 0) return 0;
+    const Double4 t = (u * a[2] + v * b[2] + w * c[2]) * scale_ / sum;
+    store4(t, t_m);
+    return through & bits_of(t >= 0.0);
+  }
+
  private:
   template <class Vector>
   std::array<double, 3> sheared(const Vector& q_M) const {
@@ -55,9 +89,9 @@ class TriangleRay {
     return {x - shear_x_ * z, y - shear_y_ * z, z};
   }
 
-  std::array<double, 3> start_{};  ///< in the permuted axes
-  int x_ = 0, y_ = 0, z_ = 0;
-  double scale_ = 0.0, shear_x_ = 0.0, shear_y_ = 0.0;
+  std::array<double, 3> start_;  ///< in the permuted axes
+  int x_, y_, z_;
+  double scale_, shear_x_, shear_y_;
 };
 
 }  // namespace vinerow::physics

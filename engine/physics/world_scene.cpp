@@ -119,6 +119,11 @@ void WorldScene::cast_rays(std::span<const SceneRay> rays, std::span<std::option
   rays_.cast_rays(rays, hits, mask);
 }
 
+void WorldScene::find_blocked(std::span<const SceneRay> rays, std::span<bool> blocked,
+                              SurfaceMask mask) const {
+  rays_.find_blocked(rays, blocked, mask);
+}
+
 std::optional<double> WorldScene::ground_height_m(double x, double y, double z_from) const {
   std::optional<double> highest;
   if (terrain_ && terrain_->field().contains(x, y)) {

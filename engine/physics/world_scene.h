@@ -40,6 +40,8 @@ class WorldScene : public SceneQuery {
 
   void cast_rays(std::span<const SceneRay> rays, std::span<std::optional<RayHit>> hits,
                  SurfaceMask mask) const override;
+  void find_blocked(std::span<const SceneRay> rays, std::span<bool> blocked,
+                    SurfaceMask mask) const override;
   std::optional<RayHit> cast_ray(const Eigen::Vector3d& p_W, const Eigen::Vector3d& dir_W,
                                  double max_distance_m, SurfaceMask mask) const override;
   std::optional<double> ground_height_m(double x, double y, double z_from) const override;

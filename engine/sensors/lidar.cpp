@@ -96,17 +96,20 @@ class Lidar final : public MountedSensor<LaserScan> {
         directions_S_.emplace_back(std::cos(angle_rad), std::sin(angle_rad), 0.0);
       }
     }
+    rays_.resize(directions_S_.size());
+    hits_.resize(directions_S_.size());
   }
 
   void step(Time now) override {
     scan_.X_WS = true_scan_.X_WS = X_WS();
+    cast_rays();
     const bool is_silent = readings_.is_in_outage(now);
     for (int beam = 0; beam < beams_; ++beam) {
       // Always draw the same count for a beam, so that later readings do not depend on what it
       // detects.
       const double noise = random_.normal(), luck = random_.uniform();
       double& truth_m = true_scan_.ranges_m[beam];
-      const Echo echo = cast(beam, truth_m);
+      const Echo echo = echo_of(beam, truth_m);
       double reading_m = kInfinity;
       if (luck < (1.0 - dropout_share_) * LaserOptics::detection_probability(echo.power) &&
           !is_silent) {
@@ -123,26 +126,33 @@ class Lidar final : public MountedSensor<LaserScan> {
     double power = 0.0;
   };
 
+  void cast_rays() {
+    for (std::size_t i = 0; i < rays_.size(); ++i) {
+      rays_[i] = {scan_.X_WS.p, scan_.X_WS.q * directions_S_[i], scan_.max_range_m};
+    }
+    scene_->cast_rays(rays_, hits_);
+  }
+
   /// Distance and power of a beam. @param truth_m  set to the distance along its middle
-  Echo cast(int beam, double& truth_m) const {
-    std::array<Echo, kMaxSubRays> hits;
+  Echo echo_of(int beam, double& truth_m) const {
+    std::array<Echo, kMaxSubRays> echoes;
     Echo first;
     for (int sub = 0; sub < sub_rays_; ++sub) {
-      const Eigen::Vector3d dir_W = scan_.X_WS.q * directions_S_[beam * sub_rays_ + sub];
-      const auto hit = scene_->cast_ray(scan_.X_WS.p, dir_W, scan_.max_range_m);
-      Echo& echo = hits[sub];
+      const auto ray = static_cast<std::size_t>(beam * sub_rays_ + sub);
+      const std::optional<RayHit>& hit = hits_[ray];
+      Echo& echo = echoes[sub];
       if (hit) {
-        echo = {hit->distance_m, optics_.power(*hit, dir_W) / sub_rays_};
+        echo = {hit->distance_m, optics_.power(*hit, rays_[ray].dir_W) / sub_rays_};
       }
       if (2 * sub + 1 == sub_rays_) truth_m = echo.distance_m;
       first.distance_m = std::min(first.distance_m, echo.distance_m);
     }
     double weighted_m = 0.0;
     for (int sub = 0; sub < sub_rays_; ++sub) {
-      if (!(hits[sub].distance_m <= first.distance_m + pulse_m_)) continue;
-      if (!std::isfinite(hits[sub].distance_m)) continue;
-      first.power += hits[sub].power;
-      weighted_m += hits[sub].power * hits[sub].distance_m;
+      if (!(echoes[sub].distance_m <= first.distance_m + pulse_m_)) continue;
+      if (!std::isfinite(echoes[sub].distance_m)) continue;
+      first.power += echoes[sub].power;
+      weighted_m += echoes[sub].power * echoes[sub].distance_m;
     }
     if (is_mixed_ && first.power > 0.0) first.distance_m = weighted_m / first.power;
     return first;
@@ -156,7 +166,10 @@ class Lidar final : public MountedSensor<LaserScan> {
   double pulse_m_;
   LaserOptics optics_;
   double dropout_share_;
-  std::vector<Eigen::Vector3d> directions_S_;  ///< directions of all sub-rays, beam by beam
+  // Of all sub-rays, beam by beam.
+  std::vector<Eigen::Vector3d> directions_S_;
+  std::vector<SceneRay> rays_;
+  std::vector<std::optional<RayHit>> hits_;
   LaserScan scan_;
   LaserScan true_scan_;
 };

@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
+#include <span>
 
 #include "engine/api/messages/sensors.h"
 #include "engine/core/constants.h"
@@ -201,15 +205,34 @@ class Ultrasound final : public MountedSensor<RangeSample> {
     return fate;
   }
 
-  /// Shortest hit; infinity without a hit. A ray is only as long as the shortest hit so far.
-  double shortest_m(const Pose& X_WS) const {
+  /// Casts the rays of the cone, a few together: those that follow are only `after_m` longer than
+  /// the shortest hit so far.
+  /// @param use  called with (ray, its direction in W, hit) for each that meets something
+  /// @returns the shortest hit; infinity without a hit
+  template <class Use>
+  double cast_cone(const Pose& X_WS, double after_m, Use&& use) const {
+    constexpr std::size_t kTogether = 8;
+    std::array<SceneRay, kTogether> rays;
+    std::array<std::optional<RayHit>, kTogether> hits;
     double nearest_m = kInfinity;
-    for (const ConeRay& ray : rays_) {
-      const auto hit =
-          scene_->cast_ray(X_WS.p, X_WS.q * ray.dir_S, std::min(nearest_m, max_range_m_));
-      if (hit) nearest_m = hit->distance_m;
+    for (std::size_t at = 0; at < rays_.size(); at += kTogether) {
+      const std::size_t count = std::min(kTogether, rays_.size() - at);
+      const double reach_m = std::min(nearest_m + after_m, max_range_m_);
+      for (std::size_t i = 0; i < count; ++i) {
+        rays[i] = {X_WS.p, X_WS.q * rays_[at + i].dir_S, reach_m};
+      }
+      scene_->cast_rays(std::span(rays).first(count), std::span(hits).first(count));
+      for (std::size_t i = 0; i < count; ++i) {
+        if (!hits[i]) continue;
+        nearest_m = std::min(nearest_m, hits[i]->distance_m);
+        use(rays_[at + i], rays[i].dir_W, *hits[i]);
+      }
     }
     return nearest_m;
+  }
+
+  double shortest_m(const Pose& X_WS) const {
+    return cast_cone(X_WS, 0.0, [](const ConeRay&, const Eigen::Vector3d&, const RayHit&) {});
   }
 
   /// Distance of the first return that is strong enough. @param nearest_m  set to the shortest hit
@@ -221,21 +244,18 @@ class Ultrasound final : public MountedSensor<RangeSample> {
     return listen_up_to(X_WS, max_range_m_, nearest_m);
   }
 
-  /// The same without returns farther than `after_m` behind the shortest hit.
+  /// The same; of returns farther than `after_m` behind the shortest hit some are missing.
   double listen_up_to(const Pose& X_WS, double after_m, double& nearest_m) {
     returns_.clear();
-    nearest_m = kInfinity;
-    for (const ConeRay& ray : rays_) {
-      const Eigen::Vector3d dir_W = X_WS.q * ray.dir_S;
-      const auto hit = scene_->cast_ray(X_WS.p, dir_W, std::min(nearest_m + after_m, max_range_m_));
-      if (!hit) continue;
-      nearest_m = std::min(nearest_m, hit->distance_m);
-      // Below the shortest range the strength stays that of the shortest range: it grows with r^-2.
-      const double distance_m = std::max(hit->distance_m, min_range_m_);
-      returns_.push_back(
-          {hit->distance_m, ray.share * echo_spreading(echo_, distance_m) *
-                                surface_echo(echo_, hit->surface, -hit->normal_W.dot(dir_W))});
-    }
+    nearest_m = cast_cone(
+        X_WS, after_m, [&](const ConeRay& ray, const Eigen::Vector3d& dir_W, const RayHit& hit) {
+          // Below the shortest range the strength stays that of the shortest range: it grows with
+          // r^-2.
+          const double distance_m = std::max(hit.distance_m, min_range_m_);
+          returns_.push_back(
+              {hit.distance_m, ray.share * echo_spreading(echo_, distance_m) *
+                                   surface_echo(echo_, hit.surface, -hit.normal_W.dot(dir_W))});
+        });
     return first_echo_m(echo_, returns_);
   }
 

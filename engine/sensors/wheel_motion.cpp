@@ -42,14 +42,12 @@ WheelMotion::WheelMotion(const VehicleDescription& vehicle, const std::string& w
   }
 }
 
-WheelMotion::Roll WheelMotion::roll_of(std::span<const double> actuators) const {
-  const double front = std::tan(actuators[front_actuator_]);
-  const double rear = rear_actuator_ >= 0 ? std::tan(actuators[rear_actuator_]) : 0.0;
-  const double base_m = front_m_ + rear_m_;
-  return {(front - rear) / base_m, (rear_m_ * front + front_m_ * rear) / base_m};
+AxleRoll WheelMotion::roll_of(std::span<const double> actuators) const {
+  const double rear_rad = rear_actuator_ >= 0 ? actuators[rear_actuator_] : 0.0;
+  return calc_axle_roll(front_m_, rear_m_, {actuators[front_actuator_], rear_rad});
 }
 
-double WheelMotion::path_per_metre(const Roll& roll, const Eigen::Vector2d& p_B) const {
+double WheelMotion::path_per_metre(const AxleRoll& roll, const Eigen::Vector2d& p_B) const {
   return Eigen::Vector2d(1.0 - roll.curvature_per_m * p_B.y(),
                          roll.drift + roll.curvature_per_m * p_B.x())
       .norm();
@@ -58,7 +56,7 @@ double WheelMotion::path_per_metre(const Roll& roll, const Eigen::Vector2d& p_B)
 PlanarTwist WheelMotion::solve(std::span<const double> actuators, std::span<const double> radii_m,
                                double track_scale) const {
   if (!is_steered_) return solve_skid(actuators, radii_m, track_scale);
-  const Roll roll = roll_of(actuators);
+  const AxleRoll roll = roll_of(actuators);
   double along = 0.0, square = 0.0;
   for (std::size_t i = 0; i < wheels_.size(); ++i) {
     const double f = path_per_metre(roll, wheels_[i].p_B);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/api/vehicle.h"
+#include "engine/math/axle_roll.h"
 
 namespace vinerow::sensors {
 
@@ -17,12 +18,10 @@ struct PlanarTwist {
   double yaw_rate_radps = 0.0;
 };
 
-/// Steered vehicles. With axle angles d_F, d_R, the axles at x = +a and x = -b and L = a + b, a
-/// forward speed v_x means the yaw rate k v_x and the lateral speed s v_x of the origin,
-///   k = (tan d_F - tan d_R) / L,  s = (b tan d_F + a tan d_R) / L
-/// (paper A, section 4.1 as corrected). The hub of a wheel at (x, y) moves by (1 - k y, s + k x)
-/// per forward metre; f is the length of that vector. The rims, each with the speed u, give
-/// v_x = sum(f u) / sum(f^2): least squares.
+/// Steered vehicles. A forward speed v_x means the yaw rate k v_x and the lateral speed s v_x of
+/// the origin (axle_roll.h). The hub of a wheel at (x, y) moves by (1 - k y, s + k x) per forward
+/// metre; f is the length of that vector. The rims, each with the speed u, give v_x = sum(f u) /
+/// sum(f^2): least squares.
 ///
 /// Skid steering. The hubs at y move forward by v_x - g y w, with the yaw rate w and
 /// g = effective track / track; v_x and w by least squares. The origin does not move sideways.
@@ -47,12 +46,8 @@ class WheelMotion {
   double radius_m() const { return radius_m_; }
 
  private:
-  struct Roll {
-    double curvature_per_m = 0.0;  ///< k
-    double drift = 0.0;            ///< s
-  };
-  Roll roll_of(std::span<const double> actuators) const;
-  double path_per_metre(const Roll& roll, const Eigen::Vector2d& p_B) const;
+  AxleRoll roll_of(std::span<const double> actuators) const;
+  double path_per_metre(const AxleRoll& roll, const Eigen::Vector2d& p_B) const;
   PlanarTwist solve_skid(std::span<const double> actuators, std::span<const double> radii_m,
                          double track_scale) const;
 

@@ -7,6 +7,7 @@
 
 #include "engine/api/messages/motion.h"
 #include "engine/core/error.h"
+#include "engine/math/angles.h"
 #include "engine/math/pose.h"
 #include "engine/sensors/encoder_errors.h"
 #include "engine/sensors/reading_sensor.h"
@@ -96,14 +97,13 @@ class WheelOdometry final : public ReadingSensor<DeadReckoning> {
     has_started_ = true;
   }
 
-  /// Along the arc of the mean twist since the last tick: chord sin(h) / h times the arc's length
-  /// in the direction of the heading half way, with h half the turned angle.
+  /// Along the arc of the mean twist since the last tick: by its chord, in the direction of the
+  /// heading half way.
   void advance(const PlanarTwist& twist) {
     const double half_rad = 0.25 * period_s_ * (last_.yaw_rate_radps + twist.yaw_rate_radps);
-    const double shrink = std::abs(half_rad) < 1e-8 ? 1.0 : std::sin(half_rad) / half_rad;
     const Eigen::Vector2d arc_m = 0.5 * period_s_ * (last_.v_mps + twist.v_mps);
     const Eigen::Rotation2Dd R_OB(yaw_rad_ + half_rad);
-    p_O_ += shrink * (R_OB.toRotationMatrix() * arc_m);
+    p_O_ += chord_per_arc(half_rad) * (R_OB.toRotationMatrix() * arc_m);
     yaw_rad_ += 2.0 * half_rad;
   }
 

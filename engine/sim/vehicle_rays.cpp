@@ -49,10 +49,12 @@ std::optional<RayHit> VehicleRays::cast_ray(const Eigen::Vector3d& p_W,
 
 void VehicleRays::cast_rays(std::span<const SceneRay> rays, std::span<std::optional<RayHit>> hits,
                             SurfaceMask mask) const {
-  for (std::size_t at = 0; at < rays.size(); at += physics::MeshRays::kPacket) {
-    const std::size_t count = std::min(physics::MeshRays::kPacket, rays.size() - at);
-    rays_->cast_packet(rays.subspan(at, count), hits.subspan(at, count), mask);
-  }
+  rays_->cast_rays(rays, hits, mask);
+}
+
+void VehicleRays::find_blocked(std::span<const SceneRay> rays, std::span<bool> blocked,
+                               SurfaceMask mask) const {
+  rays_->find_blocked(rays, blocked, mask);
 }
 
 }  // namespace vinerow

@@ -25,6 +25,8 @@ class VehicleRays final : public VehicleScene {
                                  double max_distance_m, SurfaceMask mask) const override;
   void cast_rays(std::span<const SceneRay> rays, std::span<std::optional<RayHit>> hits,
                  SurfaceMask mask) const override;
+  void find_blocked(std::span<const SceneRay> rays, std::span<bool> blocked,
+                    SurfaceMask mask) const override;
 
  private:
   void read_poses();

@@ -171,9 +171,11 @@ class CanopyCamera final : public Payload {
         const double left = 1.0 - (2.0 * column + 1.0) / columns;
         const double up = 1.0 - (2.0 * row + 1.0) / rows;
         const Vector3d dir_S = Vector3d(1.0, left * half_width, up * half_height).normalized();
-        rays_.push_back({dir_S, dir_S.x()});
+        view_.push_back({dir_S, dir_S.x()});
       }
     }
+    rays_.resize(view_.size());
+    hits_.resize(view_.size());
   }
 
   bool is_due() {
@@ -186,14 +188,19 @@ class CanopyCamera final : public Payload {
   void take_picture(const Pose& X_WS) {
     ++pictures_;
     const int shown_before = shown_;
-    for (const ViewRay& ray : rays_) {
-      const Vector3d dir_W = X_WS.q * ray.dir_S;
-      const auto hit = scene_.cast_ray(X_WS.p, dir_W, range_m_, kOpaque);
+    for (std::size_t i = 0; i < view_.size(); ++i) {
+      rays_[i] = {X_WS.p, X_WS.q * view_[i].dir_S, range_m_};
+    }
+    scene_.cast_rays(rays_, hits_, kOpaque);
+    for (std::size_t i = 0; i < view_.size(); ++i) {
+      const std::optional<RayHit>& hit = hits_[i];
       if (!hit || hit->surface != SurfaceClass::kCanopy) continue;
+      const Vector3d& dir_W = rays_[i].dir_W;
       const double cos_incidence = -hit->normal_W.dot(dir_W);
       if (!(cos_incidence >= min_cos_) || cos_incidence <= 0.0) continue;
-      const double depth_m = hit->distance_m * ray.cos_off_axis;
-      const double gsd_m = depth_m * pixel_ * std::sqrt(ray.cos_off_axis / cos_incidence);
+      const double cos_off_axis = view_[i].cos_off_axis;
+      const double depth_m = hit->distance_m * cos_off_axis;
+      const double gsd_m = depth_m * pixel_ * std::sqrt(cos_off_axis / cos_incidence);
       if (gsd_m > wanted_gsd_m_) continue;
       see(patches_.find(X_WS.p + hit->distance_m * dir_W), gsd_m);
     }
@@ -223,7 +230,9 @@ class CanopyCamera final : public Payload {
   double wanted_gsd_m_;
   Vector3d p_BS_;
   std::vector<Eigen::Quaterniond> cameras_;  // R_BS, of a stabilised one against B's heading
-  std::vector<ViewRay> rays_;
+  std::vector<ViewRay> view_;
+  std::vector<SceneRay> rays_;  // of view_, and what they meet
+  std::vector<std::optional<RayHit>> hits_;
   double pixel_ = 0.0;  // size of a pixel at depth 1
   CanopyPatches patches_;
   CanopyCoverage coverage_;

@@ -6,10 +6,10 @@
 #include <array>
 #include <cmath>
 
-#include "controllers/parts/ground_drive/axle_angles.h"
 #include "controllers/parts/ground_drive/differential_drive.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
+#include "engine/math/axle_roll.h"
 
 namespace vinerow::controllers {
 namespace {

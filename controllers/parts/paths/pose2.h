@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cmath>
 
+#include "engine/math/angles.h"
 #include "engine/math/planar.h"
 
 namespace vinerow::controllers {
@@ -24,8 +25,8 @@ inline Eigen::Vector2d direction(double yaw_rad) {
 /// @param turn_rad  heading change over the whole arc, positive to the left
 inline Pose2 advance(const Pose2& pose, double length_m, double turn_rad) {
   const double half = 0.5 * turn_rad;
-  const double shrink = std::abs(half) < 1e-8 ? 1.0 : std::sin(half) / half;
-  return {pose.p + length_m * shrink * direction(pose.yaw_rad + half), pose.yaw_rad + turn_rad};
+  return {pose.p + length_m * chord_per_arc(half) * direction(pose.yaw_rad + half),
+          pose.yaw_rad + turn_rad};
 }
 
 }  // namespace vinerow::controllers

@@ -106,8 +106,9 @@ ViewCaster::ViewCaster(const Lens& lens, const ViewSettings& settings, const Wor
   on_vehicle_.reserve(most);
   surfaces_.reserve(most);
   sun_rays_.reserve(most);
-  sun_hits_.reserve(most);
   sun_ray_.reserve(most);
+  is_shaded_ = std::make_unique<bool[]>(most);
+  is_shaded_by_vehicle_ = std::make_unique<bool[]>(most);
 }
 
 void ViewCaster::cast(const CameraMotion& motion, double exposure_s, View& view) {
@@ -245,12 +246,10 @@ void ViewCaster::add_light(const Band& band, View& view) {
     sun_ray_[i] = sun_rays_.size();
     sun_rays_.push_back({p_W + side * hits_[i]->normal_W, sun_W, kShadow_m});
   }
-  sun_hits_.resize(sun_rays_.size());
   constexpr SurfaceMask kCasters = kAllSurfaces & ~mask_of(SurfaceClass::kTerrain);
-  light_.cast_rays(sun_rays_, sun_hits_, kCasters);
+  light_.find_blocked(sun_rays_, {is_shaded_.get(), sun_rays_.size()}, kCasters);
   if (vehicles_) {
-    vehicle_hits_.resize(sun_rays_.size());
-    vehicles_->cast_rays(sun_rays_, vehicle_hits_);
+    vehicles_->find_blocked(sun_rays_, {is_shaded_by_vehicle_.get(), sun_rays_.size()});
   }
   std::size_t i = 0;
   band.for_each([&](int row, int x) {
@@ -259,7 +258,7 @@ void ViewCaster::add_light(const Band& band, View& view) {
     if (hits_[ray]) {
       const std::size_t to_sun = sun_ray_[ray];
       const bool is_shaded =
-          to_sun != kNone && (sun_hits_[to_sun] || (vehicles_ && vehicle_hits_[to_sun]));
+          to_sun != kNone && (is_shaded_[to_sun] || (vehicles_ && is_shaded_by_vehicle_[to_sun]));
       radiance = look_.radiance(surfaces_[ray], is_shaded ? 0.0f : 1.0f);
     } else {
       radiance = look_.far_radiance(rays_[ray].dir_W);

@@ -13,6 +13,8 @@
 /// a readout_s^2 / 8.
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -88,10 +90,12 @@ class ViewCaster {
   std::vector<Eigen::Vector3d> offsets_;
   // Of the rays of a band.
   std::vector<SceneRay> rays_, sun_rays_;
-  std::vector<std::optional<RayHit>> hits_, vehicle_hits_, sun_hits_;
+  std::vector<std::optional<RayHit>> hits_, vehicle_hits_;
   std::vector<bool> on_vehicle_;
   std::vector<SeenSurface> surfaces_;
   std::vector<std::size_t> sun_ray_;  ///< of each ray, or kNone
+  // Of the rays to the sun: whether plants, or vehicles, are in their way.
+  std::unique_ptr<bool[]> is_shaded_, is_shaded_by_vehicle_;
 };
 
 }  // namespace vinerow::sensors

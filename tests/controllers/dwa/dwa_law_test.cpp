@@ -15,12 +15,12 @@ namespace {
 
 const SteeredVehicle kRover{0.75, 0.75, rad_from_deg(23), 2.0};
 
-controllers::AxleAngles steering_deg(double front, double rear) {
+AxleAngles steering_deg(double front, double rear) {
   return {rad_from_deg(front), rad_from_deg(rear)};
 }
 
 controllers::Rollout::Node end_of(const controllers::Pose2& start, double v,
-                                  const controllers::AxleAngles& steering, double s) {
+                                  const AxleAngles& steering, double s) {
   controllers::Rollout rollout;
   controllers::roll_out(start, v, steering, steering, kRover, s, 0.1, &rollout);
   return rollout.nodes[rollout.count - 1];
@@ -65,8 +65,7 @@ TEST(DwaRollout, BothAxlesRollWithoutSkidding) {
   RandomStream random(1, "", "steering");
   for (int i = 0; i < 100; ++i) {
     const double limit = kRover.max_axle_steer_rad;
-    const controllers::AxleAngles steering{random.uniform(-limit, limit),
-                                           random.uniform(-limit, limit)};
+    const AxleAngles steering{random.uniform(-limit, limit), random.uniform(-limit, limit)};
     const double v = random.uniform(0.1, 1.0);
     constexpr double kTiny_s = 1e-6;
     controllers::Rollout rollout;
@@ -86,7 +85,7 @@ TEST(DwaRollout, BothAxlesRollWithoutSkidding) {
 
 TEST(DwaRollout, SteersAtItsRate) {
   // Against small Euler steps of the same kinematics.
-  const controllers::AxleAngles from = steering_deg(-20, 5), to = steering_deg(23, -23);
+  const AxleAngles from = steering_deg(-20, 5), to = steering_deg(23, -23);
   controllers::Rollout rollout;
   controllers::roll_out({}, 0.8, from, to, kRover, 1.4, 0.1, &rollout);
   Eigen::Vector2d p(0, 0);

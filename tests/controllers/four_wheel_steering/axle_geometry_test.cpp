@@ -53,7 +53,7 @@ TEST(AxleGeometry, MovesEveryWheelWhereItPoints) {
   for (int n = 0; n < 1000; ++n) {
     const controllers::AxleGeometry geometry{random.uniform(0.3, 1.2), random.uniform(0.3, 1.2),
                                              random.uniform(0.4, 1.5), 0.2};
-    const controllers::AxleAngles axles{random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)};
+    const AxleAngles axles{random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)};
     const double speed = random.uniform(-2.0, 2.0);
     const controllers::Rolling rolling = controllers::calc_rolling(geometry, axles);
     const double w = rolling.yaw_rate_radps(speed);

@@ -19,9 +19,7 @@ struct OracleCase {
   std::array<double, 4> wheel_radps;
   bool saturated = false;  ///< a wheel is at its limit: rolling speeds cannot be had
 
-  controllers::AxleAngles axles() const {
-    return {rad_from_deg(front_deg), rad_from_deg(rear_deg)};
-  }
+  AxleAngles axles() const { return {rad_from_deg(front_deg), rad_from_deg(rear_deg)}; }
 };
 
 constexpr double kFar_m = std::numeric_limits<double>::infinity();

@@ -25,11 +25,11 @@ controllers::SteeringParams with_gains(double lateral, double heading) {
 
 TEST(SteeringLaw, TurnsBothAxlesTowardsThePathAndOppositeForCurvature) {
   const controllers::SteeringParams params = with_gains(0.6, 1.2);
-  const controllers::AxleAngles left_of_path =
+  const AxleAngles left_of_path =
       controllers::steer(kGeometry, params, {.lateral_error_m = 0.1}).axles;
   EXPECT_NEAR(left_of_path.front_rad, -0.06, 1e-12);
   EXPECT_NEAR(left_of_path.rear_rad, -0.06, 1e-12);
-  const controllers::AxleAngles turned_left =
+  const AxleAngles turned_left =
       controllers::steer(kGeometry, params, {.heading_error_rad = 0.1}).axles;
   EXPECT_NEAR(turned_left.front_rad, -std::atan(0.75 * 0.12), 1e-12);
   EXPECT_NEAR(turned_left.rear_rad, std::atan(0.75 * 0.12), 1e-12);
@@ -95,9 +95,9 @@ TEST(SteeringLaw, TakesLearntSlipOffBothCommands) {
 TEST(SteeringLaw, AsPrintedTurnsTheRearAxleTheOtherWay) {
   controllers::SteeringParams params = with_gains(0.6, 1.2);
   const controllers::SteeringInput input{.lateral_error_m = 0.1, .heading_error_rad = -0.05};
-  const controllers::AxleAngles right = controllers::steer(kGeometry, params, input).axles;
+  const AxleAngles right = controllers::steer(kGeometry, params, input).axles;
   params.form = controllers::SteeringForm::kPrinted;
-  const controllers::AxleAngles printed = controllers::steer(kGeometry, params, input).axles;
+  const AxleAngles printed = controllers::steer(kGeometry, params, input).axles;
   EXPECT_NEAR(printed.front_rad, right.front_rad, 1e-15);
   EXPECT_NEAR(printed.rear_rad, -right.rear_rad, 1e-15);
 }

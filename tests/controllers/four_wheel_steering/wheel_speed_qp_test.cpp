@@ -37,8 +37,8 @@ TEST(WheelSpeedQp, ChoosesTheRollingSpeedsWhereTheyAreAllowed) {
   controllers::WheelSpeedQp qp({});
   int unsaturated = 0;
   for (int n = 0; n < 1000; ++n) {
-    const controllers::AxleAngles axles{random.uniform(-kLimit_rad, kLimit_rad),
-                                        random.uniform(-kLimit_rad, kLimit_rad)};
+    const AxleAngles axles{random.uniform(-kLimit_rad, kLimit_rad),
+                           random.uniform(-kLimit_rad, kLimit_rad)};
     const double requested = random.uniform(-1.6, 1.6);
     const controllers::Rolling rolling = controllers::calc_rolling({}, axles);
     const double speed = controllers::limit_speed(rolling, requested, 1.6);
@@ -108,10 +108,10 @@ TEST(WheelSpeedQp, MeetsTheOptimalityConditionsWhereLimitsBind) {
   controllers::WheelSpeedQp qp(params);
   int solved = 0, infeasible = 0, bound = 0;
   for (int n = 0; n < 2000; ++n) {
-    const controllers::AxleAngles before{random.uniform(-kLimit_rad, kLimit_rad),
-                                         random.uniform(-kLimit_rad, kLimit_rad)};
-    const controllers::AxleAngles axles{before.front_rad + random.uniform(-0.04, 0.04),
-                                        before.rear_rad + random.uniform(-0.04, 0.04)};
+    const AxleAngles before{random.uniform(-kLimit_rad, kLimit_rad),
+                            random.uniform(-kLimit_rad, kLimit_rad)};
+    const AxleAngles axles{before.front_rad + random.uniform(-0.04, 0.04),
+                           before.rear_rad + random.uniform(-0.04, 0.04)};
     const double speed_before = random.uniform(-1.2, 1.2);
     const double speed = speed_before + random.uniform(-0.1, 0.1);
     const Eigen::Vector4d last = controllers::calc_rolling({}, before).rim_mps(speed_before);
@@ -142,7 +142,7 @@ TEST(WheelSpeedQp, AsPrintedAdmitsWheelsThatFightEachOther) {
   params.form = controllers::WheelSpeedForm::kPrinted;
   controllers::WheelSpeedQp printed(params), right({});
   struct Case {
-    controllers::AxleAngles axles;
+    AxleAngles axles;
     Eigen::Vector4d rim_mps;
     double cost;
   };

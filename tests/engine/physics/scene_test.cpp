@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <thread>
 
 #include "engine/api/world_model.h"
@@ -503,13 +504,16 @@ TEST(Scene, RaysTogetherHitWhatEachHitsAlone) {
   rays[17].max_distance_m = -1.0;
   for (const SurfaceMask mask : {kAllSurfaces, mask_of(SurfaceClass::kCanopy)}) {
     std::vector<std::optional<RayHit>> hits(rays.size());
+    const auto blocked = std::make_unique<bool[]>(rays.size());
     const vinerow::test::AllocationCounter counter;
     scene.cast_rays(rays, hits, mask);
+    scene.find_blocked(rays, {blocked.get(), rays.size()}, mask);
     EXPECT_EQ(counter.count(), 0u);
     int met = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
       const auto alone = scene.cast_ray(rays[i].p_W, rays[i].dir_W, rays[i].max_distance_m, mask);
       ASSERT_EQ(hits[i].has_value(), alone.has_value()) << i;
+      ASSERT_EQ(blocked[i], alone.has_value()) << i;
       if (!alone) continue;
       ++met;
       EXPECT_EQ(hits[i]->distance_m, alone->distance_m);

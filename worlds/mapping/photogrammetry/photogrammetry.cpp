@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -77,12 +78,16 @@ class Matcher {
     triangulation_ = Triangulation();
     triangulation_.add(view, p_W_);
     bool wide = false;
-    for (const std::uint16_t k : tile_.partners[reference]) {
+    const std::vector<std::uint16_t>& partners = tile_.partners[reference];
+    for (auto next = partners.begin(); next != partners.end();) {
+      next = find_lines_of_sight(next, partners.end());
+      for (std::size_t i = 0; i < lines_; ++i) {
+        if (is_blocked_[i]) continue;
+        const SurveyView& partner = *partners_[i];
+        triangulation_.add(partner, p_W_);
+        wide = wide || (p_W_ - partner.p_WS()).normalized().dot(dir) <= max_baseline_cosine_;
+      }
       if (triangulation_.views() >= s_.options.max_views) break;
-      const SurveyView& partner = view_of(k);
-      if (!sees(partner)) continue;
-      triangulation_.add(partner, p_W_);
-      wide = wide || (p_W_ - partner.p_WS()).normalized().dot(dir) <= max_baseline_cosine_;
     }
     if (triangulation_.views() < s_.options.min_views) {
       ++tally.unseen;
@@ -101,13 +106,26 @@ class Matcher {
     return s_.views[static_cast<std::size_t>(tile_.shown_in[k])];
   }
 
-  bool sees(const SurveyView& view) const {
-    if (!view.shows(p_W_)) return false;
-    const Vector3d offset = view.p_WS() - p_W_;
-    const double distance_m = offset.norm();
-    const Vector3d dir = offset / distance_m;
-    if (dir.dot(hit_.normal_W) < min_cosine_) return false;
-    return !s_.scene.cast_ray(p_W_ + kLift_m * hit_.normal_W, dir, distance_m, kVisible);
+  /// Looks for the next partners that could see the point, as many as it still needs, and for what
+  /// is between: rays side by side cost less.
+  /// @returns where to go on
+  template <class Iterator>
+  Iterator find_lines_of_sight(Iterator next, Iterator end) {
+    const auto needed = std::min(
+        static_cast<std::size_t>(s_.options.max_views - triangulation_.views()), kMaxLines);
+    for (lines_ = 0; next != end && lines_ < needed; ++next) {
+      const SurveyView& view = view_of(*next);
+      if (!view.shows(p_W_)) continue;
+      const Vector3d offset = view.p_WS() - p_W_;
+      const double distance_m = offset.norm();
+      const Vector3d dir = offset / distance_m;
+      if (dir.dot(hit_.normal_W) < min_cosine_) continue;
+      rays_[lines_] = {p_W_ + kLift_m * hit_.normal_W, dir, distance_m};
+      partners_[lines_++] = &view;
+    }
+    s_.scene.find_blocked(std::span(rays_).first(lines_), std::span(is_blocked_).first(lines_),
+                          kVisible);
+    return next;
   }
 
   const Survey& s_;
@@ -117,6 +135,12 @@ class Matcher {
   RayHit hit_;
   Vector3d p_W_ = Vector3d::Zero();
   Triangulation triangulation_;
+  // Lines of sight from the point to partners.
+  static constexpr std::size_t kMaxLines = 8;
+  std::size_t lines_ = 0;
+  std::array<SceneRay, kMaxLines> rays_;
+  std::array<const SurveyView*, kMaxLines> partners_{};
+  std::array<bool, kMaxLines> is_blocked_{};
 };
 
 /// A ball around a tile with what stands on it; nothing where there is no ground.

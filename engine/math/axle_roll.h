@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace vinerow::controllers {
+namespace vinerow {
 
 /// Angles in the middle of both axles, rad, each within (-pi/2, pi/2).
 struct AxleAngles {
@@ -29,4 +29,4 @@ inline AxleRoll calc_axle_roll(double front_m, double rear_m, const AxleAngles& 
   return {(front - rear) / base_m, (rear_m * front + front_m * rear) / base_m};
 }
 
-}  // namespace vinerow::controllers
+}  // namespace vinerow

@@ -1,0 +1,119 @@
+#include "engine/physics/triangle_blocks.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "engine/core/random.h"
+#include "engine/physics/triangle_ray.h"
+
+namespace vinerow::physics {
+namespace {
+
+/// Leaves of two triangles each, far apart, and between them some triangles on their own.
+TriangleMesh make_leaves(int leaves, RandomStream& random) {
+  TriangleMesh mesh;
+  const auto corner = [&](double reach_m) {
+    return Eigen::Vector3f(random.uniform(-reach_m, reach_m), random.uniform(-reach_m, reach_m),
+                           random.uniform(-reach_m, reach_m));
+  };
+  for (int leaf = 0; leaf < leaves; ++leaf) {
+    const Eigen::Vector3f middle = corner(20.0);
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (int k = 0; k < 4; ++k) mesh.vertices.push_back(middle + corner(0.1));
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    if (leaf % 5 != 0) mesh.triangles.push_back({first, first + 2, first + 3});
+  }
+  return mesh;
+}
+
+TEST(TriangleBlocks, EachTriangleIsInOneOfThem) {
+  RandomStream random(1, "", "leaves");
+  const TriangleMesh mesh = make_leaves(200, random);
+  std::uint32_t next = 0;
+  int of_two = 0;
+  for (const TriangleBlock& block : make_triangle_blocks(mesh)) {
+    EXPECT_EQ(block.first, next);
+    ASSERT_GE(block.count, 1u);
+    ASSERT_LE(block.count, 2u) << "leaves stand far apart";
+    of_two += block.count == 2;
+    next += block.count;
+    for (std::uint32_t i = 0; i < block.count; ++i) {
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        for (int axis = 0; axis < 3; ++axis) {
+          EXPECT_EQ(block.corners_M[corner][axis][i],
+                    mesh.vertices[mesh.triangles[block.first + i][corner]][axis]);
+        }
+      }
+    }
+  }
+  EXPECT_EQ(next, mesh.triangles.size());
+  EXPECT_GT(of_two, 100);
+  EXPECT_TRUE(make_triangle_blocks(TriangleMesh{}).empty());
+}
+
+TEST(TriangleBlocks, TheFacesOfAStripFillThem) {
+  TriangleMesh strip;
+  for (int i = 0; i <= 40; ++i) {
+    strip.vertices.emplace_back(0.5f * (i / 2), i % 2, 0.1f * (i % 3));
+    if (i >= 2) {
+      const auto last = static_cast<std::uint32_t>(i);
+      strip.triangles.push_back({last - 2, last - 1, last});
+    }
+  }
+  EXPECT_EQ(strip.triangles.size(), 39u);
+  EXPECT_LE(make_triangle_blocks(strip).size(), 11u);
+}
+
+/// Rays through corners, edges and the inside of triangles, beside them and in their planes.
+TEST(TriangleBlocks, ARayMeetsFourTrianglesAsItMeetsEachAlone) {
+  RandomStream random(2, "", "rays");
+  const TriangleMesh mesh = make_leaves(60, random);
+  const std::vector<TriangleBlock> blocks = make_triangle_blocks(mesh);
+  int met = 0, missed = 0, last_met = 0;
+  const auto compare = [&](const Eigen::Vector3d& p, const Eigen::Vector3d& dir,
+                           const TriangleBlock& block) {
+    const TriangleRay ray(p, dir);
+    double found_m[TriangleBlock::kSize];
+    const unsigned bits = ray.distances_m(block, found_m);
+    ASSERT_LT(bits, 1u << block.count) << "a triangle that is not there";
+    for (std::uint32_t i = 0; i < block.count; ++i) {
+      const auto& [a, b, c] = mesh.triangles[block.first + i];
+      const auto alone_m = ray.distance_m(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
+      ASSERT_EQ((bits >> i & 1) != 0, alone_m.has_value());
+      if (alone_m) {
+        EXPECT_EQ(found_m[i], *alone_m);
+      }
+      ++(alone_m ? met : missed);
+      last_met += alone_m && i == 1;
+    }
+  };
+  for (const TriangleBlock& block : blocks) {
+    for (int k = 0; k < 60; ++k) {
+      const auto& vertices = mesh.triangles[block.first + (k % 2 ? block.count - 1 : 0)];
+      const Eigen::Vector3d a = mesh.vertices[vertices[0]].cast<double>();
+      const Eigen::Vector3d b = mesh.vertices[vertices[1]].cast<double>();
+      const Eigen::Vector3d c = mesh.vertices[vertices[2]].cast<double>();
+      const double u = k % 3 == 0 ? 0.0 : random.uniform(-0.1, 1.0);
+      const double v = k % 5 == 0 ? 0.0 : random.uniform(-0.1, 1.0);
+      const Eigen::Vector3d aim = a + u * (b - a) + v * (c - a);
+      Eigen::Vector3d p(random.uniform(-30.0, 30.0), random.uniform(-30.0, 30.0),
+                        random.uniform(-30.0, 30.0));
+      if (k % 7 == 0) p = aim + 3.0 * (b - a);  // in the plane
+      if (k % 11 == 0) p = 2.0 * aim - p;
+      Eigen::Vector3d dir = (aim - p).normalized();
+      if (k % 13 == 0) dir = -dir;                               // behind the start
+      if (k % 17 == 0) p = aim, dir = Eigen::Vector3d::UnitZ();  // starts on it
+      compare(p, dir, block);
+    }
+  }
+  EXPECT_GT(met, 1000);
+  EXPECT_GT(missed, 1000);
+  EXPECT_GT(last_met, 300);
+  compare(Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()),
+          Eigen::Vector3d::UnitX(), blocks[0]);
+}
+
+}  // namespace
+}  // namespace vinerow::physics

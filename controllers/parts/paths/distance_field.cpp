@@ -14,23 +14,28 @@ constexpr float kFar = 1e20f;
 /// Squared distances along one line: out[i] = min_k (i - k)^2 + in[k].
 class LowerEnvelope {
  public:
-  explicit LowerEnvelope(int longest) : parabola_(longest), begin_(longest + 1) {}
+  explicit LowerEnvelope(int longest)
+      : parabola_(longest), height_(longest), begin_(longest + 1), half_per_(longest) {
+    for (int k = 1; k < longest; ++k) half_per_[k] = 0.5 / k;
+  }
 
   void transform(const float* in, int count, float* out) {
     int last = -1;
     for (int k = 0; k < count; ++k) {
       if (in[k] >= kFar) continue;
+      const double height = in[k] + double(k) * k;
       double meet = -std::numeric_limits<double>::infinity();
       while (last >= 0) {
-        const int other = parabola_[last];
-        meet =
-            ((in[k] + double(k) * k) - (in[other] + double(other) * other)) / (2.0 * (k - other));
+        // The rounding of the factor is far below the distance of different meeting points, which
+        // are whole numbers over 2 (k - other): it decides between equal parabolas alone.
+        meet = (height - height_[last]) * half_per_[k - parabola_[last]];
         if (meet > begin_[last]) break;
         meet = -std::numeric_limits<double>::infinity();
         --last;
       }
       ++last;
       parabola_[last] = k;
+      height_[last] = height;
       begin_[last] = meet;
     }
     if (last < 0) {
@@ -45,8 +50,11 @@ class LowerEnvelope {
   }
 
  private:
-  std::vector<int> parabola_;  // position of each parabola of the envelope
-  std::vector<double> begin_;  // start of its part of the envelope
+  // Of each parabola of the envelope:
+  std::vector<int> parabola_;     // its position k
+  std::vector<double> height_;    // in[k] + k^2: its value at 0
+  std::vector<double> begin_;     // start of its part of the envelope
+  std::vector<double> half_per_;  // 1 / (2 n) of n
 };
 
 }  // namespace

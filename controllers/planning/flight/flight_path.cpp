@@ -51,10 +51,10 @@ class GridPath final : public RowPathPlanner {
            const PlannerContext& context)
       : params_(params),
         map_(*context.map),
-        field_(map_.occupancy),
-        footprint_(field_, context.vehicle_description->outline_B(), params.margin_m),
+        field_(std::make_shared<const DistanceField>(map_.occupancy)),
+        footprint_(*field_, context.vehicle_description->outline_B(), params.margin_m),
         clearance_(map_, footprint_, params.check_step_m),
-        planner_(make_route_planner(params, std::move(search), context)) {}
+        planner_(make_route_planner(params, std::move(search), context, field_)) {}
 
   Result<PlannedPath> plan(const Eigen::Vector3d& start_W) override {
     const auto legs = make_row_route(map_, params_.route, start_W.head<2>());
@@ -75,7 +75,7 @@ class GridPath final : public RowPathPlanner {
  private:
   RoutePlannerParams params_;
   const RowMap& map_;
-  DistanceField field_;
+  std::shared_ptr<const DistanceField> field_;
   Footprint footprint_;
   RouteClearance clearance_;
   std::unique_ptr<Planner> planner_;

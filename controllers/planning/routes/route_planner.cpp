@@ -30,13 +30,13 @@ Eigen::Vector2d calc_size(const std::vector<Eigen::Vector2d>& outline) {
 class RoutePlanner final : public Planner {
  public:
   RoutePlanner(const RoutePlannerParams& params, std::unique_ptr<PoseSearch> search,
-               const PlannerContext& context)
+               const PlannerContext& context, std::shared_ptr<const DistanceField> field)
       : params_(params),
         search_(std::move(search)),
         map_(*context.map),
         scene_(context.scene),
-        field_(map_.occupancy),
-        footprint_(field_, context.vehicle_description->outline_B(), params.margin_m),
+        field_(field ? std::move(field) : std::make_shared<const DistanceField>(map_.occupancy)),
+        footprint_(*field_, context.vehicle_description->outline_B(), params.margin_m),
         clearance_(map_, footprint_, params.check_step_m) {}
 
   const PlanReport* report() const override { return &report_; }
@@ -168,7 +168,7 @@ class RoutePlanner final : public Planner {
       return std::nullopt;
     }
     const auto missing_m =
-        calc_missing_clearance_m(from.exit(), to.entry(), params_.turning_radius_m, field_,
+        calc_missing_clearance_m(from.exit(), to.entry(), params_.turning_radius_m, *field_,
                                  footprint_.outline_B(), params_.margin_m);
     constexpr double kFits_m = 0.005;
     if (missing_m && *missing_m < kFits_m) {
@@ -229,7 +229,7 @@ class RoutePlanner final : public Planner {
   std::unique_ptr<PoseSearch> search_;
   const RowMap& map_;
   const SceneQuery* scene_;
-  DistanceField field_;
+  std::shared_ptr<const DistanceField> field_;
   Footprint footprint_;
   RouteClearance clearance_;
   PlanReport report_;
@@ -306,14 +306,15 @@ void complete_route_params(const PlannerContext& context, const std::string& who
 
 std::unique_ptr<Planner> make_route_planner(const RoutePlannerParams& params,
                                             std::unique_ptr<PoseSearch> search,
-                                            const PlannerContext& context) {
+                                            const PlannerContext& context,
+                                            std::shared_ptr<const DistanceField> field) {
   if (context.map == nullptr || context.map->alleys.empty()) {
     throw ConfigError(context.part + ": the map has no alleys to drive");
   }
   if (context.map->occupancy.empty()) {
     throw ConfigError(context.part + ": the map has no occupancy grid: set occupancy_cell_m");
   }
-  return std::make_unique<RoutePlanner>(params, std::move(search), context);
+  return std::make_unique<RoutePlanner>(params, std::move(search), context, std::move(field));
 }
 
 }  // namespace vinerow::controllers

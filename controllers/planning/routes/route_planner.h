@@ -42,10 +42,12 @@ void complete_route_params(const PlannerContext& context, const std::string& who
 /// the minimum clearance around the outline on the whole path and in turns. After a failure the
 /// numbers describe the work done until then.
 /// @param context  its map and vehicle must outlive the planner
+/// @param field    of the map's occupancy, if the caller has it already
 /// @throws ConfigError if the map has no alleys or no grid
 std::unique_ptr<Planner> make_route_planner(const RoutePlannerParams& params,
                                             std::unique_ptr<PoseSearch> search,
-                                            const PlannerContext& context);
+                                            const PlannerContext& context,
+                                            std::shared_ptr<const DistanceField> field = nullptr);
 
 /// Adds "nodes", "iterations" and the tree of a search, at height 0, to the report of a planner.
 void add_search(const SearchReport& done, PlanReport& report);

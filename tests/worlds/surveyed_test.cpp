@@ -5,10 +5,13 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "engine/io/geo/geojson.h"
 #include "engine/math/angles.h"
 #include "tests/support/data.h"
 #include "tests/worlds/world_fixture.h"
+#include "worlds/parts/mesh_store.h"
 
 namespace vinerow::worlds::surveyed_test {
 namespace {
@@ -45,6 +48,38 @@ TEST(Surveyed, SurroundingsAreGroundAndNoParcel) {
   // 100 m more on both sides; a grid ends on whole cells, of 0.5 m and of 1 m.
   EXPECT_NEAR(wide->terrain->width_m(), near->terrain->width_m() + 200.0, 1.0);
   EXPECT_NEAR(wide->terrain->depth_m(), near->terrain->depth_m() + 200.0, 1.0);
+}
+
+TEST(Surveyed, MeshesAreReadBackUntilSomethingShapesOthers) {
+  const auto folder = std::filesystem::temp_directory_path() / "vinerow_surveyed_key_test";
+  std::filesystem::remove_all(folder);
+  const auto digest_of = [&](const std::string& name, const ParameterSet::Value& value) {
+    ParameterSet parameters = riseholme();
+    parameters.set("mesh_folder", folder.string()).set("leaf_cards_per_m", 20.0);
+    parameters.set(name, value);
+    Hasher hasher;
+    for (const MeshInstance& m : test::make_world("surveyed", parameters)->meshes) {
+      hasher.add(mesh_digest(*m.mesh));
+    }
+    return hasher.hex();
+  };
+  const auto count = [&] {
+    return std::distance(std::filesystem::directory_iterator(folder),
+                         std::filesystem::directory_iterator());
+  };
+  const std::string cold = digest_of("leaf_cards_per_m", 20.0);
+  EXPECT_EQ(count(), 1);
+  const auto file = *std::filesystem::recursive_directory_iterator(
+      std::filesystem::directory_iterator(folder)->path());
+  const auto written = std::filesystem::last_write_time(file);
+  EXPECT_EQ(digest_of("sun_elevation_deg", 20.0), cold);
+  EXPECT_EQ(count(), 1) << "light changes no mesh";
+  EXPECT_EQ(std::filesystem::last_write_time(file), written) << "written again";
+  EXPECT_NE(digest_of("canopy_width_m", 0.7), cold);
+  EXPECT_NE(digest_of("plant_seed", std::int64_t{2}), cold);
+  EXPECT_NE(digest_of("slope_deg", 3.0), cold);
+  EXPECT_EQ(count(), 4);
+  std::filesystem::remove_all(folder);
 }
 
 TEST(Surveyed, MiddleLinesAgreeWithTheAuthorsMidRowLines) {

@@ -131,11 +131,11 @@ std::string mesh_digest(const TriangleMesh& mesh) {
 }
 
 void add_parameters(Hasher& hasher, const ParameterSet& parameters,
-                    const std::vector<std::string>& without) {
+                    const std::vector<ParameterSpec>& specs) {
   const auto add = [&hasher](const auto& value) {
     using Value = std::decay_t<decltype(value)>;
     if constexpr (std::is_same_v<Value, std::vector<ParameterSet>>) {
-      for (const ParameterSet& group : value) add_parameters(hasher, group);
+      for (const ParameterSet& group : value) add_parameters(hasher, group, group.specs());
     } else if constexpr (std::is_same_v<Value, std::vector<double>> ||
                          std::is_same_v<Value, std::vector<std::string>>) {
       for (const auto& entry : value) hasher.add(entry);
@@ -143,10 +143,9 @@ void add_parameters(Hasher& hasher, const ParameterSet& parameters,
       hasher.add(value);
     }
   };
-  for (const ParameterSpec& spec : parameters.specs()) {
+  for (const ParameterSpec& spec : specs) {
     const ParameterSet::Value* value = parameters.find(spec.name);
     if (!value) continue;
-    if (std::find(without.begin(), without.end(), spec.name) != without.end()) continue;
     hasher.add(spec.name);
     std::visit(add, *value);
   }

@@ -53,12 +53,15 @@ class FileMeshStore final : public MeshStore {
 /// $XDG_CACHE_HOME/vinerow, $HOME/.cache/vinerow and the system's folder for temporary files.
 /// @throws ConfigError naming the folders that were tried
 std::filesystem::path find_cache_folder();
+/// What the parameter `mesh_folder` of a world is.
+constexpr const char* kMeshFolderText =
+    "where mesh files are kept; default: $VINEROW_CACHE or the user's cache folder";
 
 /// Digest of a mesh's numbers.
 std::string mesh_digest(const TriangleMesh& mesh);
 
-/// Adds every value of a set, by name, in the order of the specs. @param without  names left out
+/// Adds the values of those specs, by name; groups whole.
 void add_parameters(Hasher& hasher, const ParameterSet& parameters,
-                    const std::vector<std::string>& without = {});
+                    const std::vector<ParameterSpec>& specs);
 
 }  // namespace vinerow::worlds

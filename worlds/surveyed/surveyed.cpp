@@ -18,10 +18,11 @@
 #include "worlds/mapping/from_truth/map_parameters.h"
 #include "worlds/mapping/model/row_map.h"
 #include "worlds/parts/alley_spawns.h"
-#include "worlds/parts/leaf_area.h"
 #include "worlds/parts/common.h"
+#include "worlds/parts/leaf_area.h"
 #include "worlds/parts/obstacles.h"
 #include "worlds/parts/terrain.h"
+#include "worlds/plants/planted_folder.h"
 #include "worlds/plants/vine_rows.h"
 
 namespace vinerow::worlds {
@@ -35,6 +36,7 @@ struct SurveyedParams {
   double surroundings_m = 6.0;
   std::optional<double> latitude_rad, longitude_rad;  ///< of the origin; absent: the rows' mean
   double altitude_m = 0.0;
+  std::filesystem::path mesh_folder;  ///< empty: find_cache_folder()
   SlopeParams slope{rad_from_deg(1.5), rad_from_deg(20.0)};
   TerrainParams terrain{.waves_m = 0.12};
   VinePlanting planting;
@@ -67,6 +69,7 @@ const ParameterTable<SurveyedParams>& surveyed_table() {
                    "WGS84 longitude of the world's origin; default: the rows' mean")
           .number("origin_altitude_m", "m", &P::altitude_m, between(-500.0, 9000.0),
                   "altitude of the world's z = 0")
+          .path("mesh_folder", &P::mesh_folder, kMeshFolderText)
           .include(&P::slope, slope_table())
           .include(&P::terrain, terrain_table())
           .include(&P::planting, planting_table())
@@ -258,7 +261,8 @@ std::unique_ptr<WorldModel> make_surveyed(const ParameterSet& parameters,
     if (!planting.trellis.posts) row.post_s_m.clear();
     vine_rows.push_back(std::move(row));
   }
-  MemoryMeshStore store;
+  FileMeshStore store(
+      planted_folder(params.mesh_folder, "surveyed", parameters, vine_rows, *world->terrain));
   plant_vine_rows(*world, vine_rows, ground, planting, store);
   mapping::fill_occupancy(params.map, *world, place_obstacles(params.obstacles, *world),
                           row_end_margin_m(planting));

@@ -14,14 +14,11 @@
 #include "worlds/parts/alley_spawns.h"
 #include "worlds/parts/leaf_area.h"
 #include "worlds/parts/mesh_store.h"
+#include "worlds/plants/planted_folder.h"
 #include "worlds/vineyard/vineyard_params.h"
 
 namespace vinerow::worlds {
 namespace {
-
-/// Version of the generator, raised whenever meshes change for equal parameters, so that older
-/// files are not read.
-constexpr int kGeneratorVersion = 4;
 
 PartSpec vineyard_spec() {
   PartSpec spec;
@@ -173,25 +170,6 @@ VineyardParams read_vineyard(const ParameterSet& parameters) {
   return params;
 }
 
-/// Everything that shapes a mesh file: parameters, ground, and the generator's version.
-std::string mesh_key(const ParameterSet& parameters, double relief_m, const HeightField& terrain) {
-  Hasher hasher;
-  hasher.add(kGeneratorVersion);
-  ParameterSet shaping = parameters;
-  shaping.set("relief_m", relief_m);
-  // Folder, sun, wind, map and obstacles do not affect the files.
-  for (const char* name : {"sun_azimuth_deg", "sun_elevation_deg"}) shaping.set(name, 45.0);
-  shaping.set("soil", std::string("dry_grass"));
-  shaping.set("mesh_folder", std::string());
-  std::vector<std::string> without{"wind", "surroundings_m", "slope_fade_m", "neighbours"};
-  for (const auto& specs : {mapping::map_table().specs(), obstacles_table().specs()}) {
-    for (const ParameterSpec& spec : specs) without.push_back(spec.name);
-  }
-  add_parameters(hasher, shaping, without);
-  hasher.add_bytes(terrain.heights_m.data(), terrain.heights_m.size() * sizeof(float));
-  return hasher.hex().substr(0, 16);
-}
-
 std::unique_ptr<WorldModel> make_vineyard(const ParameterSet& parameters,
                                           const WorldContext& context) {
   const VineyardParams params = read_vineyard(parameters);
@@ -227,10 +205,8 @@ std::unique_ptr<WorldModel> make_vineyard(const ParameterSet& parameters,
     }
     vine_rows.push_back(std::move(row));
   }
-  const std::filesystem::path folder =
-      params.mesh_folder.empty() ? find_cache_folder() : params.mesh_folder;
-  const std::string key = mesh_key(parameters, *params.relief_m, *world->terrain);
-  FileMeshStore store(folder / ("vineyard-" + key));
+  FileMeshStore store(
+      planted_folder(params.mesh_folder, "vineyard", parameters, vine_rows, *world->terrain));
   plant_vine_rows(*world, vine_rows, ground, planting, store);
   mapping::fill_occupancy(params.map, *world, place_obstacles(params.obstacles, *world),
                           row_end_margin_m(planting));

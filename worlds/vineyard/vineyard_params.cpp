@@ -38,8 +38,7 @@ const ParameterTable<VineyardParams>& vineyard_table() {
           .number("slope_fade_m", "m", &P::slope_fade_m, between(0.1, 1e5),
                   "beyond the parcel the slope fades out over this distance, to a ridge above and "
                   "a valley below")
-          .path("mesh_folder", &P::mesh_folder,
-                "where mesh files are kept; default: $VINEROW_CACHE or the user's cache folder")
+          .path("mesh_folder", &P::mesh_folder, kMeshFolderText)
           .include(&P::planting, planting_table())
           .include(&P::terrain, terrain_table())
           .include(&P::origin, origin_table())

@@ -57,10 +57,9 @@ TEST(Surveyed, MeshesAreReadBackUntilSomethingShapesOthers) {
     ParameterSet parameters = riseholme();
     parameters.set("mesh_folder", folder.string()).set("leaf_cards_per_m", 20.0);
     parameters.set(name, value);
+    const auto world = test::make_world("surveyed", parameters);
     Hasher hasher;
-    for (const MeshInstance& m : test::make_world("surveyed", parameters)->meshes) {
-      hasher.add(mesh_digest(*m.mesh));
-    }
+    for (const MeshInstance& m : world->meshes) hasher.add(mesh_digest(*m.mesh));
     return hasher.hex();
   };
   const auto count = [&] {

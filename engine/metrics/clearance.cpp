@@ -21,7 +21,7 @@ constexpr Duration kTouchGap{500'000'000};
 constexpr double kLookEvery_m = 0.02;
 /// A look searches this much farther than the minimum so far. More saves looks, but each searches a
 /// wider space. Chosen.
-constexpr double kBeyondMinimum_m = 0.3;
+constexpr double kBeyondMinimum_m = 0.15;
 /// Largest number of looks in a tick. Chosen: 20 m of motion, more than any vehicle in one tick.
 constexpr int kMaxLooks = 1000;
 

@@ -286,12 +286,25 @@ std::optional<HeightFieldRay::Hit> HeightFieldRay::cast(const Vector3d& p_W, con
     found = cross_cell(walk, i, j, t0, t1);
   } else {
     if (!clip_to_ground(walk, t0, t1)) return std::nullopt;
-    const int corner[2] = {0, 0};
-    const int end[2] = {field_.columns - 1, field_.rows - 1};
-    found = cross_squares(walk, cells_of_level(kBlockLevel), corner, end, t0, t1,
-                          [&](int bi, int bj, double from, double to) {
-                            return cross_square(walk, kBlockLevel, bi, bj, from, to);
-                          });
+    const auto [i0, i1] =
+        std::minmax({cell_of(0, t0, field_.columns - 2), cell_of(0, t1, field_.columns - 2)});
+    const auto [j0, j1] =
+        std::minmax({cell_of(1, t0, field_.rows - 2), cell_of(1, t1, field_.rows - 2)});
+    // A few cells are searched one by one: squares would only add to them.
+    constexpr int kFewCells = 4;
+    if (i1 - i0 < kFewCells && j1 - j0 < kFewCells) {
+      const int corner[2] = {i0, j0}, end[2] = {i1 + 1, j1 + 1};
+      found =
+          cross_squares(walk, 1, corner, end, t0, t1, [&](int ci, int cj, double from, double to) {
+            return cross_cell(walk, ci, cj, from, to);
+          });
+    } else {
+      const int corner[2] = {0, 0}, end[2] = {field_.columns - 1, field_.rows - 1};
+      found = cross_squares(walk, cells_of_level(kBlockLevel), corner, end, t0, t1,
+                            [&](int bi, int bj, double from, double to) {
+                              return cross_square(walk, kBlockLevel, bi, bj, from, to);
+                            });
+    }
   }
   if (!found) return std::nullopt;
   return hit_of(walk, dir_W);
@@ -310,8 +323,11 @@ std::optional<HeightFieldRay::Span> HeightFieldRay::span_of(const Walk& walk,
               static_cast<int>(end_y)};
 }
 
-/// @returns true if the ray is above all ground of the rectangle of squares around it
+/// @returns true if the ray is above all ground of the rectangle of squares around it; false for
+/// long rays, whose rectangle has too much of it
 bool HeightFieldRay::is_above(const Walk& walk, const Span& span, double max_distance_m) const {
+  constexpr int kLongest = 64;  // cells. Chosen
+  if (std::abs(span.i1 - span.i0) + std::abs(span.j1 - span.j0) > kLongest) return false;
   constexpr double kMargin_m = 1e-3;
   const auto [i0, i1] =
       std::minmax({span.i0 / HeightRanges::kCells, span.i1 / HeightRanges::kCells});

@@ -46,8 +46,10 @@ std::shared_ptr<const RowMap> make_placeholder(const RunContext& run) {
   context.shelf = run.shelf;
   context.world = &run.world;
   context.scene = &run.physics.scene();
-  return run.registry.make_map(
-      kType, ParameterSet(run.registry.spec(PartKind::kMap, kType).parameters, kType), context);
+  // Of the fewest heights: nothing measures it.
+  ParameterSet coarse(run.registry.spec(PartKind::kMap, kType).parameters, kType);
+  coarse.set("levels", std::int64_t{2});
+  return run.registry.make_map(kType, coarse, context);
 }
 
 bool takes(const scenario::PhaseConfig& config, ProductKind kind) {

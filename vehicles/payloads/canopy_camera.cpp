@@ -102,8 +102,8 @@ class CanopyCamera final : public Payload {
         min_cos_(std::cos(params.max_incidence_rad)),
         wanted_gsd_m_(params.wanted_gsd_m),
         p_BS_(params.p_BS),
-        patches_(*context.world, params.step_m, params.band_m),
-        coverage_(patches_.empty_coverage()),
+        patches_(make_canopy_patches(*context.world, params.step_m, params.band_m, context.shelf)),
+        coverage_(patches_->empty_coverage()),
         best_gsd_m_(coverage_.patches.size(), std::numeric_limits<double>::infinity()),
         last_picture_(coverage_.patches.size(), 0) {
     coverage_.quantity = "seen";
@@ -138,7 +138,7 @@ class CanopyCamera final : public Payload {
     for (const Eigen::Quaterniond& camera : cameras_) take_picture({q_W * camera, X_WB * p_BS_});
     reported_.values = {static_cast<double>(pictures_), static_cast<double>(shown_),
                         shown_rays_ > 0 ? kMmPerM * shown_gsd_m_ / shown_rays_ : 0.0,
-                        patches_.area_m2() > 0.0 ? seen_m2_ / patches_.area_m2() : 0.0};
+                        patches_->area_m2() > 0.0 ? seen_m2_ / patches_->area_m2() : 0.0};
     writer_.write(now, reported_);
   }
 
@@ -150,7 +150,7 @@ class CanopyCamera final : public Payload {
       if (patch.amount >= 2.0) twice_m2 += patch.area_m2;
       if (patch.amount >= 1.0) gsd += patch.area_m2 * best_gsd_m_[i];
     }
-    const double all_m2 = patches_.area_m2();
+    const double all_m2 = patches_->area_m2();
     return {{"pictures", static_cast<double>(pictures_)},
             {"canopy_pictures", static_cast<double>(canopy_pictures_)},
             {"seen_share", all_m2 > 0.0 ? seen_m2_ / all_m2 : nothing},
@@ -202,7 +202,7 @@ class CanopyCamera final : public Payload {
       const double depth_m = hit->distance_m * cos_off_axis;
       const double gsd_m = depth_m * pixel_ * std::sqrt(cos_off_axis / cos_incidence);
       if (gsd_m > wanted_gsd_m_) continue;
-      see(patches_.find(X_WS.p + hit->distance_m * dir_W), gsd_m);
+      see(patches_->find(X_WS.p + hit->distance_m * dir_W), gsd_m);
     }
     canopy_pictures_ += shown_ > shown_before;
   }
@@ -234,7 +234,7 @@ class CanopyCamera final : public Payload {
   std::vector<SceneRay> rays_;  // of view_, and what they meet
   std::vector<std::optional<RayHit>> hits_;
   double pixel_ = 0.0;  // size of a pixel at depth 1
-  CanopyPatches patches_;
+  std::shared_ptr<const CanopyPatches> patches_;
   CanopyCoverage coverage_;
   std::vector<double> best_gsd_m_;          // of each patch
   std::vector<std::int64_t> last_picture_;  // that shows each patch

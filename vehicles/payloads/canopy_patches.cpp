@@ -1,11 +1,17 @@
 #include "vehicles/payloads/canopy_patches.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
+#include <string>
 
+#include "engine/api/file_shelf.h"
 #include "engine/api/map.h"
 #include "engine/api/world_model.h"
+#include "engine/core/hash.h"
 #include "vehicles/payloads/canopy_cutting.h"
 
 namespace vinerow::vehicles {
@@ -202,6 +208,61 @@ CanopyCoverage CanopyPatches::empty_coverage() const {
   coverage.band_m = band_m_;
   coverage.patches = patches_;
   return coverage;
+}
+
+namespace {
+
+/// Digest of everything that the patches depend on, apart from their size.
+std::string digest_of_canopy(const WorldModel& world) {
+  Hasher hasher;
+  const auto add = [&](const auto& list) {
+    hasher.add(static_cast<std::uint64_t>(list.size()));
+    if (!list.empty()) hasher.add_bytes(list.data(), list.size() * sizeof(list[0]));
+  };
+  for (const PlantRow& row : world.rows->rows) {
+    hasher.add(row.id);
+    add(row.line_W);
+  }
+  if (world.terrain) {
+    const HeightField& field = *world.terrain;
+    hasher.add(field.columns);
+    hasher.add(field.cell_m);
+    hasher.add(field.corner_W.x());
+    hasher.add(field.corner_W.y());
+    add(field.heights_m);
+  }
+  for (const MeshInstance& instance : world.meshes) {
+    if (!is_canopy(instance)) continue;
+    for (const double value : instance.X_WM.q.coeffs()) hasher.add(value);
+    for (const double value : instance.X_WM.p) hasher.add(value);
+    add(instance.mesh->vertices);
+    add(instance.mesh->triangles);
+  }
+  return hasher.hex();
+}
+
+/// The patches made last, of one size.
+struct LastPatches {
+  std::mutex mutex;
+  std::string canopy;
+  std::shared_ptr<const CanopyPatches> patches;
+};
+
+}  // namespace
+
+std::shared_ptr<const CanopyPatches> make_canopy_patches(const WorldModel& world, double step_m,
+                                                         double band_m, FileShelf* shelf) {
+  if (!shelf) return std::make_shared<const CanopyPatches>(world, step_m, band_m);
+  using Kept = std::shared_ptr<LastPatches>;
+  const std::string size = fmt::format("canopy patches of {} by {} m", step_m, band_m);
+  LastPatches& last = **keep<Kept>(shelf, size, [] { return std::make_shared<LastPatches>(); });
+  const std::string canopy = digest_of_canopy(world);
+  const std::lock_guard lock(last.mutex);
+  if (!last.patches || last.canopy != canopy) {
+    last.patches = std::make_shared<const CanopyPatches>(world, step_m, band_m);
+    last.canopy = canopy;
+  }
+  return last.patches;
 }
 
 CanopyNumbers calc_canopy_numbers(const CanopyPatches& patches, const CanopyCoverage& coverage,

@@ -70,9 +70,10 @@ class Sprayer final : public Payload {
                                                 : LeafAreaDensity(*context.world)),
         switch_(params_, *context.map),
         wind_(*context.world, *context.scene, context.random("wind")),
-        patches_(*context.world, params_.step_m, params_.band_m),
-        coverage_(patches_.empty_coverage()),
-        worked_(static_cast<std::size_t>(patches_.step_count()), 0),
+        patches_(
+            make_canopy_patches(*context.world, params_.step_m, params_.band_m, context.shelf)),
+        coverage_(patches_->empty_coverage()),
+        worked_(static_cast<std::size_t>(patches_->step_count()), 0),
         tank_l_(params_.tank_l) {
     if (context.map->rows.empty()) {
       throw ConfigError(fmt::format(
@@ -123,8 +124,8 @@ class Sprayer final : public Payload {
   }
 
   std::map<std::string, double> results() const override {
-    const CanopyNumbers all = calc_canopy_numbers(patches_, coverage_);
-    const CanopyNumbers worked = calc_canopy_numbers(patches_, coverage_, worked_);
+    const CanopyNumbers all = calc_canopy_numbers(*patches_, coverage_);
+    const CanopyNumbers worked = calc_canopy_numbers(*patches_, coverage_, worked_);
     const double nothing = std::numeric_limits<double>::quiet_NaN();
     return {
         {"litres_sprayed", sprayed_l_},
@@ -200,7 +201,7 @@ class Sprayer final : public Payload {
 
   void put(const Vector3d& p_W, double ml) {
     std::array<PatchShare, 4> shares;
-    const int count = patches_.spread(p_W, shares);
+    const int count = patches_->spread(p_W, shares);
     for (int k = 0; k < count; ++k) {
       const PatchShare& to = shares[static_cast<std::size_t>(k)];
       CanopyPatch& patch = coverage_.patches[static_cast<std::size_t>(to.patch)];
@@ -212,8 +213,8 @@ class Sprayer final : public Payload {
   void account_rows(const Odometry& truth, const Vector3d& boom_W, const Vector3d& v_W,
                     double nozzle_l) {
     const AdjacentRows adjacent =
-        patches_.rows().adjacent(boom_W.head<2>(), yaw_from_quaternion(truth.X_WB.q),
-                                 params_.row_reach_m, kMaxRowAngle_rad, 0.0);
+        patches_->rows().adjacent(boom_W.head<2>(), yaw_from_quaternion(truth.X_WB.q),
+                                  params_.row_reach_m, kMaxRowAngle_rad, 0.0);
     const auto account = [&](const Side& side, const std::optional<RowPlace>& row) {
       if (!side.open) return;
       if (!row) {
@@ -223,7 +224,7 @@ class Sprayer final : public Payload {
       treated_m2_ +=
           std::abs(v_W.head<2>().dot(row->direction_W)) * period_.s() * std::abs(row->lateral_m);
       const int faced = row->lateral_m >= 0.0 ? 1 : -1;
-      worked_[static_cast<std::size_t>(patches_.step_of(row->row, faced, row->along_m))] = 1;
+      worked_[static_cast<std::size_t>(patches_->step_of(row->row, faced, row->along_m))] = 1;
     };
     account(left_, adjacent.left);
     account(right_, adjacent.right);
@@ -247,7 +248,7 @@ class Sprayer final : public Payload {
   LeafAreaDensity leaves_;
   SectionSwitch switch_;
   WindProbe wind_;
-  CanopyPatches patches_;
+  std::shared_ptr<const CanopyPatches> patches_;
   CanopyCoverage coverage_;
   std::vector<std::uint8_t> worked_;  // steps of rows and sides
   Side left_, right_;

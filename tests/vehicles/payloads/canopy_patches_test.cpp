@@ -8,6 +8,7 @@
 #include <map>
 #include <tuple>
 
+#include "engine/api/file_shelf.h"
 #include "engine/core/random.h"
 #include "tests/support/no_alloc.h"
 #include "tests/vehicles/payloads/payload_rig.h"
@@ -103,6 +104,29 @@ TEST(CanopyPatches, AreSortedAndCountedOnce) {
   for (std::size_t i = 1; i < patches.patches().size(); ++i) {
     EXPECT_LT(key(patches.patches()[i - 1]), key(patches.patches()[i]));
   }
+}
+
+TEST(CanopyPatches, OneCanopyIsCutOnceAndAnotherOneAgain) {
+  FileShelf shelf;
+  const auto cut = [&](const WorldModel& world, double step_m) {
+    return make_canopy_patches(world, step_m, 0.3, &shelf);
+  };
+  const auto first = cut(make_box_rows({{.y_m = 0.0}}), 0.4);
+  EXPECT_EQ(cut(make_box_rows({{.y_m = 0.0}}), 0.4), first) << "the same canopy in another world";
+  EXPECT_NE(cut(make_box_rows({{.y_m = 0.0}}), 0.5), first);
+  // Other meshes, places, rows and ground.
+  EXPECT_NE(cut(make_box_rows({{.y_m = 0.0, .top_m = 1.9}}), 0.4), first);
+  WorldModel changed = make_box_rows({{.y_m = 0.0}});
+  for (MeshInstance& instance : changed.meshes) instance.X_WM.p.y() += 0.01;
+  const auto moved = cut(changed, 0.4);
+  changed.rows->rows[0].line_W[0].y() += 0.01;
+  const auto turned = cut(changed, 0.4);
+  EXPECT_NE(turned, moved);
+  changed.terrain->heights_m[0] += 0.1f;
+  const auto raised = cut(changed, 0.4);
+  EXPECT_NE(raised, turned);
+  EXPECT_EQ(cut(changed, 0.4), raised);
+  EXPECT_NE(make_canopy_patches(changed, 0.4, 0.3, nullptr), raised);
 }
 
 TEST(CanopyPatches, CutsAWallBesideACurvedRowAtItsSteps) {

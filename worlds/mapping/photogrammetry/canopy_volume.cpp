@@ -37,15 +37,40 @@ std::vector<std::uint32_t> find_pieces(const TriangleMesh& mesh) {
   return leader;
 }
 
-/// Intersection of a line across with a triangle: square of the line, position, and direction (in
-/// or out).
+/// Intersection of a line across with a triangle: square of the line within a band, position, and
+/// direction (in or out).
 struct Crossing {
-  std::int64_t square;
   double y;
-  int winding;
-  bool operator<(const Crossing& other) const {
-    return square != other.square ? square < other.square : y < other.y;
+  std::int32_t square;
+  std::int32_t winding;
+};
+
+/// Sorts by square, then by position. There are a few in each square, of which many have some:
+/// counting them takes a fraction of the time of a sort.
+class Sorter {
+ public:
+  explicit Sorter(std::size_t squares) : begin_(squares + 1) {}
+
+  const std::vector<Crossing>& sort(const std::vector<Crossing>& crossings) {
+    std::fill(begin_.begin(), begin_.end(), 0u);
+    for (const Crossing& crossing : crossings) ++begin_[square_of(crossing) + 1];
+    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+    next_ = begin_;
+    sorted_.resize(crossings.size());
+    for (const Crossing& crossing : crossings) sorted_[next_[square_of(crossing)]++] = crossing;
+    for (std::size_t square = 0; square + 1 < begin_.size(); ++square) {
+      std::sort(sorted_.begin() + begin_[square], sorted_.begin() + begin_[square + 1],
+                [](const Crossing& a, const Crossing& b) { return a.y < b.y; });
+    }
+    return sorted_;
   }
+
+ private:
+  static std::size_t square_of(const Crossing& crossing) {
+    return static_cast<std::size_t>(crossing.square);
+  }
+  std::vector<std::uint32_t> begin_, next_;
+  std::vector<Crossing> sorted_;
 };
 
 struct Corner {
@@ -59,6 +84,56 @@ Vector2d edge_at(const Corner& a, const Corner& b, double z) {
   const Corner& high = a.z < b.z ? b : a;
   const double share = (z - low.z) / (high.z - low.z);
   return {low.s + share * (high.s - low.s), low.y + share * (high.y - low.y)};
+}
+
+struct CutTriangle {
+  Corner corners[3];
+  std::int64_t first;  ///< layer whose middle is not below it
+  double top;
+};
+
+/// Squares of a side of the grid whose crossings are sorted together. Chosen.
+constexpr std::int64_t kBandSquares = 1 << 15;
+
+/// Adds where the lines across at height z meet the triangle. @param first_square  of the layer
+void add_crossings(const CutTriangle& triangle, double z, double grid_m, std::int64_t columns,
+                   std::int64_t first_square, std::vector<Crossing>& crossings) {
+  // The triangle is cut from one edge that goes up through z to one that goes down.
+  Vector2d up(0, 0), down(0, 0);
+  bool is_cut = false;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Corner &a = triangle.corners[k], &b = triangle.corners[(k + 1) % 3];
+    if ((a.z <= z) == (b.z <= z)) continue;
+    is_cut = true;
+    (a.z <= z ? up : down) = edge_at(a, b, z);
+  }
+  if (!is_cut) return;
+  const Vector2d& from = up.x() < down.x() ? up : down;
+  const Vector2d& to = up.x() < down.x() ? down : up;
+  // s x z is -y: an edge up at the smaller s is a face that looks to +y, where a line goes out.
+  const int winding = up.x() < down.x() ? 1 : -1;
+  auto i = static_cast<std::int64_t>(std::ceil(from.x() / grid_m - 0.5));
+  for (i = std::max<std::int64_t>(i, 0); i < columns; ++i) {
+    const double s = (static_cast<double>(i) + 0.5) * grid_m;
+    if (!(s < to.x())) break;
+    const double share = (s - from.x()) / (to.x() - from.x());
+    crossings.push_back({from.y() + share * (to.y() - from.y()),
+                         static_cast<std::int32_t>(first_square + i), winding});
+  }
+}
+
+/// Adds the lengths of lines inside, of squares whose lines go out as often as in.
+void add_lengths_inside(const std::vector<Crossing>& crossings, double& inside_m) {
+  for (std::size_t k = 0; k < crossings.size();) {
+    int depth = 0;
+    double length_m = 0.0;
+    const std::int32_t square = crossings[k].square;
+    for (; k < crossings.size() && crossings[k].square == square; ++k) {
+      if (depth != 0) length_m += crossings[k].y - crossings[k - 1].y;
+      depth += crossings[k].winding;
+    }
+    if (depth == 0) inside_m += length_m;
+  }
 }
 
 }  // namespace
@@ -109,53 +184,38 @@ double enclosed_volume_m3(const std::vector<CanopyTriangle>& triangles, const Ve
     }
   }
   const auto columns = static_cast<std::int64_t>((high_s - low_s) / grid_m) + 1;
-  std::vector<Crossing> crossings;
+  std::vector<CutTriangle> cuts;
+  std::int64_t layers = 0;
   for (const CanopyTriangle& triangle : triangles) {
-    Corner corners[3];
+    CutTriangle cut;
     double bottom = std::numeric_limits<double>::infinity(), top = -bottom;
     for (std::size_t k = 0; k < 3; ++k) {
       const Vector3d& p = triangle[k];
-      corners[k] = {along_W.dot(p.head<2>()) - low_s, left_W.dot(p.head<2>()), p.z() - low_z};
-      bottom = std::min(bottom, corners[k].z);
-      top = std::max(top, corners[k].z);
+      cut.corners[k] = {along_W.dot(p.head<2>()) - low_s, left_W.dot(p.head<2>()), p.z() - low_z};
+      bottom = std::min(bottom, cut.corners[k].z);
+      top = std::max(top, cut.corners[k].z);
     }
-    auto j = static_cast<std::int64_t>(std::ceil(bottom / grid_m - 0.5));
-    for (j = std::max<std::int64_t>(j, 0); (static_cast<double>(j) + 0.5) * grid_m < top; ++j) {
-      const double z = (static_cast<double>(j) + 0.5) * grid_m;
-      // The triangle is cut from one edge that goes up through z to one that goes down.
-      Vector2d up(0, 0), down(0, 0);
-      bool is_cut = false;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const Corner &a = corners[k], &b = corners[(k + 1) % 3];
-        if ((a.z <= z) == (b.z <= z)) continue;
-        is_cut = true;
-        (a.z <= z ? up : down) = edge_at(a, b, z);
-      }
-      if (!is_cut) continue;
-      const Vector2d& from = up.x() < down.x() ? up : down;
-      const Vector2d& to = up.x() < down.x() ? down : up;
-      // s x z is -y: an edge up at the smaller s is a face that looks to +y, where a line goes out.
-      const int winding = up.x() < down.x() ? 1 : -1;
-      auto i = static_cast<std::int64_t>(std::ceil(from.x() / grid_m - 0.5));
-      for (i = std::max<std::int64_t>(i, 0); i < columns; ++i) {
-        const double s = (static_cast<double>(i) + 0.5) * grid_m;
-        if (!(s < to.x())) break;
-        const double share = (s - from.x()) / (to.x() - from.x());
-        crossings.push_back({j * columns + i, from.y() + share * (to.y() - from.y()), winding});
-      }
-    }
+    cut.first =
+        std::max<std::int64_t>(static_cast<std::int64_t>(std::ceil(bottom / grid_m - 0.5)), 0);
+    cut.top = top;
+    cuts.push_back(cut);
+    layers = std::max(layers, static_cast<std::int64_t>(top / grid_m + 0.5) + 1);
   }
-  std::sort(crossings.begin(), crossings.end());
+  // Layer by layer, some together: all crossings of a long row would take a hundred megabytes.
+  const std::int64_t together = std::max<std::int64_t>(1, kBandSquares / columns);
+  Sorter sorter(static_cast<std::size_t>(together * columns));
+  std::vector<Crossing> crossings;
   double inside_m = 0.0;
-  for (std::size_t k = 0; k < crossings.size();) {
-    int depth = 0;
-    double length_m = 0.0;
-    const std::int64_t square = crossings[k].square;
-    for (; k < crossings.size() && crossings[k].square == square; ++k) {
-      if (depth != 0) length_m += crossings[k].y - crossings[k - 1].y;
-      depth += crossings[k].winding;
+  for (std::int64_t begin = 0; begin < layers; begin += together) {
+    crossings.clear();
+    for (const CutTriangle& cut : cuts) {
+      for (std::int64_t j = std::max(cut.first, begin); j < begin + together; ++j) {
+        const double z = (static_cast<double>(j) + 0.5) * grid_m;
+        if (!(z < cut.top)) break;
+        add_crossings(cut, z, grid_m, columns, (j - begin) * columns, crossings);
+      }
     }
-    if (depth == 0) inside_m += length_m;
+    add_lengths_inside(sorter.sort(crossings), inside_m);
   }
   return inside_m * grid_m * grid_m;
 }

@@ -42,13 +42,18 @@ def faults(programme: Programme, answer, optimum: float) -> list[str]:
     return [f"{name} {value:.2e}" for name, value in measured.items() if not value <= TOLERANCE]
 
 
+def load_all(folder: pathlib.Path) -> tuple[dict[str, float], list[Programme]]:
+    """Reference optima by name, and the programmes in the same order."""
+    with open(folder / "reference_values.csv", newline="") as file:
+        optima = {row["problem"]: float(row["f_star"]) for row in csv.DictReader(file)}
+    return optima, [load(folder / "data" / f"{name}.npz") for name in optima]
+
+
 def main(program: str, folder: pathlib.Path) -> int:
     if not (folder / "reference_values.csv").is_file():
         print(f"skipped: outside data absent: {folder}")
         return 77
-    with open(folder / "reference_values.csv", newline="") as file:
-        optima = {row["problem"]: float(row["f_star"]) for row in csv.DictReader(file)}
-    programmes = [load(folder / "data" / f"{name}.npz") for name in optima]
+    optima, programmes = load_all(folder)
     answers = solve_all(program, programmes)
     wrong = 0
     for name, programme, answer in zip(optima, programmes, answers, strict=True):

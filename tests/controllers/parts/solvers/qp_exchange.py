@@ -47,13 +47,23 @@ def as_text(programme: Programme) -> str:
     return f"{n} {m}\n" + " ".join(repr(float(number)) for number in numbers) + "\n"
 
 
-def solve_all(program: str, programmes: list[Programme]) -> list[Answer]:
+def run_on(program: str, programmes: list[Programme], *options: str) -> list[str]:
+    """A line of output for each programme."""
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder) / "programmes.txt"
         file.write_text("".join(as_text(programme) for programme in programmes))
-        run = subprocess.run([program, str(file)], check=True, capture_output=True, text=True, timeout=60)
+        run = subprocess.run([program, *options, str(file)], check=True, capture_output=True, text=True, timeout=60)
+    return run.stdout.splitlines()
+
+
+def times_us(program: str, programmes: list[Programme]) -> list[tuple[float, float]]:
+    """Least times of each programme's factorisation and of its cold solution."""
+    return [tuple(float(word) for word in line.split()) for line in run_on(program, programmes, "--time")]
+
+
+def solve_all(program: str, programmes: list[Programme]) -> list[Answer]:
     answers = []
-    for programme, line in zip(programmes, run.stdout.splitlines(), strict=True):
+    for programme, line in zip(programmes, run_on(program, programmes), strict=True):
         n = len(programme.f)
         status, iterations, *rest = line.split()
         numbers = numpy.array([float(word) for word in rest])

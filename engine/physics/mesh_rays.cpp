@@ -284,6 +284,18 @@ struct MeshRays::Impl {
     return cast;
   }
 
+  /// Where the processor lacks AVX, Embree ignores `valid` and takes part with all rays but those
+  /// that end before they begin.
+  static void leave_out(RTCRay8& rays, std::size_t i) {
+    rays.org_x[i] = rays.org_y[i] = rays.org_z[i] = 0.0f;
+    rays.dir_x[i] = rays.dir_y[i] = 0.0f;
+    rays.dir_z[i] = 1.0f;
+    rays.tnear[i] = 0.0f;
+    rays.tfar[i] = -1.0f;
+    rays.time[i] = 0.0f;
+    rays.mask[i] = rays.id[i] = rays.flags[i] = 0;
+  }
+
   /// Casts up to eight rays.
   /// @param search  of those that Embree's trees are needed for: (valid, cast, packet)
   template <class Search>
@@ -292,9 +304,12 @@ struct MeshRays::Impl {
     alignas(32) std::array<int, kPacket> valid{};  // -1: takes part
     RTCRayHit8 packet;
     bool is_any = false;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
+    for (std::size_t i = 0; i < kPacket; ++i) {
+      if (i >= rays.size() || !begin(rays[i], lanes[i]) || cast_without_trees(lanes[i], mask)) {
+        leave_out(packet.ray, i);
+        continue;
+      }
       const SceneRay& ray = rays[i];
-      if (!begin(ray, lanes[i]) || cast_without_trees(lanes[i], mask)) continue;
       valid[i] = -1;
       is_any = true;
       const Vector3d p_start_W = ray.p_W + lanes[i].tree_start_m * ray.dir_W;

@@ -16,7 +16,7 @@ if(NOT VINEROW_SANITIZE)
   # The first seconds on a processor of 2008, emulated: no library can ask this one for AVX or FMA.
   find_program(QEMU_X86_64 qemu-x86_64-static)
   if(QEMU_X86_64 AND CMAKE_HOST_SYSTEM_PROCESSOR STREQUAL "x86_64")
-    foreach(name orchard_rover vineyard_4ws_two_rows)
+    foreach(name orchard_rover vineyard_4ws_two_rows vineyard_scan)
       add_test(NAME golden_nehalem.${name}
                COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/golden.py start $<TARGET_FILE:vinerow_command>
                        ${name} --under "${QEMU_X86_64} -cpu Nehalem")

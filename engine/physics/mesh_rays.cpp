@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <bit>
 #include <deque>
 #include <limits>
 #include <map>
@@ -19,9 +18,9 @@
 #include "engine/core/error.h"
 #include "engine/core/profile.h"
 #include "engine/math/box_tree.h"
+#include "engine/physics/block_callbacks.h"
 #include "engine/physics/box_ray.h"
 #include "engine/physics/triangle_blocks.h"
-#include "engine/physics/triangle_ray.h"
 
 namespace vinerow::physics {
 namespace {
@@ -55,178 +54,14 @@ double calc_margin_m(double reach_m) {
 /// rays may cost a tenth of the trees.
 constexpr std::uint64_t kTrianglesPerFirstRay = 4;
 
-/// Rays that Embree follows together.
-constexpr std::size_t kPacket = 8;
-
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
 struct MeshRays::Impl {
-  /// Mesh instances, in the order of Embree's geometry ids.
-  struct Placed {
-    const MeshInstance* instance;
-    int mesh_index;
-    bool stands_once;
-    const Lazy<MeshTrees::Tree>* tree;  ///< for the first rays; may be null
-    Eigen::Matrix3d R_MW;
-    Vector3d p_MW;
-  };
-
-  /// Data of a geometry's callback: its triangles, and the margin of its boxes.
-  struct Boxes {
-    const std::vector<TriangleBlock>* blocks;
-    Pose X;           ///< the boxes are in the frame of X * (corner)
-    double margin_m;  ///< error bound of a ray in single precision
-  };
-
-  /// A ray in Embree's tree traversal.
-  struct Lane {
-    Vector3d p_W, dir_W;
-    double tree_start_m = 0.0;  ///< distance along the ray at which Embree's ray starts
-    // The ray in the frame of the last tested mesh.
-    unsigned entry = RTC_INVALID_GEOMETRY_ID;
-    TriangleRay ray_M;
-    // The nearest hit so far. Among hits at the same distance, the one of the first mesh and
-    // triangle, so that it does not depend on the traversal order.
-    double best_m = 0.0;
-    unsigned best_entry = RTC_INVALID_GEOMETRY_ID;
-    unsigned best_triangle = 0;
-    const TriangleBlock* best_block = nullptr;  ///< that contains it; null: found without Embree
-
-    bool has_hit() const { return best_entry != RTC_INVALID_GEOMETRY_ID; }
-
-    /// Takes over the ray in the frame of a mesh.
-    VINEROW_ALWAYS_INLINE void enter(const Placed& placed, unsigned entry_of_mesh) {
-      if (entry_of_mesh == entry) return;
-      ray_M = TriangleRay(placed.R_MW * p_W + placed.p_MW, placed.R_MW * dir_W);
-      entry = entry_of_mesh;
-    }
-
-    /// Takes over a triangle of the entered mesh. @returns true if it is the nearest hit so far
-    VINEROW_ALWAYS_INLINE bool take(double found_m, unsigned triangle) {
-      if (found_m > best_m) return false;
-      if (found_m == best_m && has_hit() &&
-          std::pair(best_entry, best_triangle) < std::pair(entry, triangle)) {
-        return false;
-      }
-      best_m = found_m;
-      best_entry = entry;
-      best_triangle = triangle;
-      return true;
-    }
-
-    /// @returns true if a triangle of the block is the nearest hit so far
-    VINEROW_ALWAYS_INLINE bool test(const Placed& placed, unsigned entry_of_block,
-                                    const TriangleBlock& block) {
-      enter(placed, entry_of_block);
-      double found_m[TriangleBlock::kSize];
-      const unsigned met = ray_M.distances_m(block, found_m);
-      bool is_nearest = false;
-      for (unsigned left = met; left != 0; left &= left - 1) {
-        const auto i = static_cast<unsigned>(std::countr_zero(left));
-        if (!take(found_m[i], block.first + i)) continue;
-        best_block = &block;
-        is_nearest = true;
-      }
-      return is_nearest;
-    }
-
-    void test(const Placed& placed, unsigned entry_of_triangle, unsigned triangle) {
-      enter(placed, entry_of_triangle);
-      const TriangleMesh& mesh = *placed.instance->mesh;
-      const auto& [a, b, c] = mesh.triangles[triangle];
-      const auto found_m = ray_M.distance_m(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
-      if (found_m && take(*found_m, triangle)) best_block = nullptr;
-    }
-  };
-
-  using Lanes = std::array<Lane, kPacket>;
-
-  /// What the traversal passes to the callback. A ray's id is the number of its lane.
-  struct Cast : RTCIntersectContext {
-    const std::vector<Placed>* placed;
-    double margin_m;
-    Lane* lanes;
-  };
-
-  static void find_box(const RTCBoundsFunctionArguments* arguments) {
-    const auto& boxes = *static_cast<const Boxes*>(arguments->geometryUserPtr);
-    Eigen::AlignedBox3d box;
-    const TriangleBlock& block = (*boxes.blocks)[arguments->primID];
-    for (std::uint32_t i = 0; i < block.count; ++i) {
-      for (const auto& corner_M : block.corners_M) {
-        box.extend(boxes.X * Vector3d(corner_M[0][i], corner_M[1][i], corner_M[2][i]));
-      }
-    }
-    const auto low = [&](int axis) { return static_cast<float>(box.min()[axis] - boxes.margin_m); };
-    const auto high = [&](int axis) {
-      return static_cast<float>(box.max()[axis] + boxes.margin_m);
-    };
-    *arguments->bounds_o = {low(0), low(1), low(2), 0.0f, high(0), high(1), high(2), 0.0f};
-  }
-
-  /// Called if rays meet the box of a block: one, or those of a packet.
-  VINEROW_ALWAYS_INLINE static void look_at_block(const RTCIntersectFunctionNArguments* arguments) {
-    auto& cast = *static_cast<Cast*>(arguments->context);
-    const auto& boxes = *static_cast<const Boxes*>(arguments->geometryUserPtr);
-    const unsigned instance = arguments->context->instID[0];
-    const unsigned entry = instance != RTC_INVALID_GEOMETRY_ID ? instance : arguments->geomID;
-    const Placed& placed = (*cast.placed)[entry];
-    const TriangleBlock& block = (*boxes.blocks)[arguments->primID];
-    const unsigned count = arguments->N;
-    RTCRayN* rays = RTCRayHitN_RayN(arguments->rayhit, count);
-    RTCHitN* hits = RTCRayHitN_HitN(arguments->rayhit, count);
-    for (unsigned i = 0; i < count; ++i) {
-      if (arguments->valid[i] == 0) continue;
-      Lane& lane = cast.lanes[RTCRayN_id(rays, count, i)];
-      if (!lane.test(placed, entry, block)) continue;
-      // Skip boxes that start farther away; test those at the same distance.
-      RTCRayN_tfar(rays, count, i) =
-          static_cast<float>(lane.best_m - lane.tree_start_m + cast.margin_m);
-      RTCHitN_geomID(hits, count, i) = arguments->geomID;
-    }
-  }
-
-  /// The same for rays that only ask whether they meet anything.
-  VINEROW_ALWAYS_INLINE static void block_rays(const RTCOccludedFunctionNArguments* arguments) {
-    auto& cast = *static_cast<Cast*>(arguments->context);
-    const auto& boxes = *static_cast<const Boxes*>(arguments->geometryUserPtr);
-    const unsigned instance = arguments->context->instID[0];
-    const unsigned entry = instance != RTC_INVALID_GEOMETRY_ID ? instance : arguments->geomID;
-    const TriangleBlock& block = (*boxes.blocks)[arguments->primID];
-    for (unsigned i = 0; i < arguments->N; ++i) {
-      if (arguments->valid[i] == 0) continue;
-      Lane& lane = cast.lanes[RTCRayN_id(arguments->ray, arguments->N, i)];
-      if (!lane.test((*cast.placed)[entry], entry, block)) continue;
-      RTCRayN_tfar(arguments->ray, arguments->N, i) = -std::numeric_limits<float>::infinity();
-    }
-  }
-
-  struct BlockFunctions {
-    RTCIntersectFunctionN look;
-    RTCOccludedFunctionN block;
-  };
-  /// The fastest versions on this processor. All have the same bits.
-  static BlockFunctions block_functions() {
-#if defined(__x86_64__)
-    struct Avx {
-      __attribute__((target("avx"))) static void look(const RTCIntersectFunctionNArguments* a) {
-        look_at_block(a);
-      }
-      __attribute__((target("avx"))) static void block(const RTCOccludedFunctionNArguments* a) {
-        block_rays(a);
-      }
-    };
-    if (__builtin_cpu_supports("avx")) return {Avx::look, Avx::block};
-#endif
-    return {[](const RTCIntersectFunctionNArguments* arguments) { look_at_block(arguments); },
-            [](const RTCOccludedFunctionNArguments* arguments) { block_rays(arguments); }};
-  }
-
   /// Embree's ray starts at the bounds of the meshes, so that a distant start costs no digits in
   /// single precision. @returns false if the ray misses them
-  bool begin(const SceneRay& ray, Lane& lane) const {
+  bool begin(const SceneRay& ray, RayLane& lane) const {
     if (placed.empty() || !ray.p_W.allFinite() || !ray.dir_W.allFinite() ||
         !(ray.max_distance_m >= 0.0)) {
       return false;
@@ -245,7 +80,7 @@ struct MeshRays::Impl {
 
   /// One of the first rays, if Embree's trees are not needed for it: its hit is the same.
   /// @returns false if enough have been cast to make the trees worth building
-  bool cast_without_trees(Lane& lane, SurfaceMask mask) const {
+  bool cast_without_trees(RayLane& lane, SurfaceMask mask) const {
     if (has_trees.load(std::memory_order_acquire)) return false;
     // Where the ray enters a box, widened against rounding; the search goes on to the hit so far.
     const auto distance_of = [&lane](double margin, const Vector3d& p, const Vector3d& dir) {
@@ -259,7 +94,7 @@ struct MeshRays::Impl {
     bool is_complete = true;
     const auto distance_W = distance_of(0.0, lane.p_W, lane.dir_W);  // boxes_W are widened
     instances.search(distance_W, lane.best_m, [&](std::uint32_t item) {
-      const Placed& place = placed[item];
+      const PlacedMesh& place = placed[item];
       if ((mask & mask_of(place.instance->surface)) == 0) return;
       if (!is_complete || distance_W(boxes_W[item]) == kNever) return;
       if (!place.tree || first_rays.fetch_add(1, std::memory_order_relaxed) >= max_first_rays) {
@@ -275,8 +110,8 @@ struct MeshRays::Impl {
     return is_complete;
   }
 
-  Cast make_cast(Lane* lanes) const {
-    Cast cast;
+  RayCast make_cast(RayLane* lanes) const {
+    RayCast cast;
     rtcInitIntersectContext(&cast);
     cast.placed = &placed;
     cast.margin_m = margin_m;
@@ -299,7 +134,7 @@ struct MeshRays::Impl {
   /// Casts up to eight rays.
   /// @param search  of those that Embree's trees are needed for: (valid, cast, packet)
   template <class Search>
-  void cast_packet(std::span<const SceneRay> rays, SurfaceMask mask, Lanes& lanes,
+  void cast_packet(std::span<const SceneRay> rays, SurfaceMask mask, RayLanes& lanes,
                    const Search& search) {
     alignas(32) std::array<int, kPacket> valid{};  // -1: takes part
     RTCRayHit8 packet;
@@ -331,14 +166,26 @@ struct MeshRays::Impl {
     }
     if (!is_any) return;
     ensure_trees();
-    Cast cast = make_cast(lanes.data());
+    RayCast cast = make_cast(lanes.data());
     cast.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     search(valid.data(), cast, packet);
   }
 
-  std::optional<RayHit> hit_of(const Lane& lane) const {
+  /// Casts rays, eight at a time. @param use  called with (place of the ray, its lane)
+  template <class Search, class Use>
+  void cast_packets(std::span<const SceneRay> rays, SurfaceMask mask, const Search& search,
+                    const Use& use) {
+    for (std::size_t at = 0; at < rays.size(); at += kPacket) {
+      const std::size_t count = std::min(kPacket, rays.size() - at);
+      RayLanes lanes;
+      cast_packet(rays.subspan(at, count), mask, lanes, search);
+      for (std::size_t i = 0; i < count; ++i) use(at + i, lanes[i]);
+    }
+  }
+
+  std::optional<RayHit> hit_of(const RayLane& lane) const {
     if (!lane.has_hit()) return std::nullopt;
-    const Placed& met = placed[lane.best_entry];
+    const PlacedMesh& met = placed[lane.best_entry];
     // The block was read just now, unlike the mesh.
     const auto [a, b, c] =
         lane.best_block ? corners_of(*lane.best_block, lane.best_triangle - lane.best_block->first)
@@ -357,8 +204,8 @@ struct MeshRays::Impl {
   RTCScene scene = nullptr;
   std::map<const TriangleMesh*, RTCScene> shared;
   std::map<const TriangleMesh*, std::vector<TriangleBlock>> blocks;
-  std::vector<Placed> placed;
-  std::deque<Boxes> boxes;                                      // geometries point to the elements
+  std::vector<PlacedMesh> placed;
+  std::deque<BlockBoxes> boxes;                                 // geometries point to the elements
   std::map<const TriangleMesh*, Eigen::AlignedBox3d> moving_M;  ///< boxes of meshes that move
   Eigen::AlignedBox3d bounds_W;
   std::vector<Eigen::AlignedBox3f> boxes_W;  ///< of the instances, as bounds_W; of a world alone
@@ -392,7 +239,7 @@ struct MeshRays::Impl {
     boxes.push_back({&of_mesh, X, margin_m});
     rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(of_mesh.size()));
     rtcSetGeometryUserData(geometry, &boxes.back());
-    rtcSetGeometryBoundsFunction(geometry, find_box, nullptr);
+    rtcSetGeometryBoundsFunction(geometry, find_block_box, nullptr);
     const BlockFunctions functions = block_functions();
     rtcSetGeometryIntersectFunction(geometry, functions.look);
     rtcSetGeometryOccludedFunction(geometry, functions.block);
@@ -436,8 +283,8 @@ struct MeshRays::Impl {
 
   void add(const MeshInstance& instance, int mesh_index, bool stands_once,
            const Lazy<MeshTrees::Tree>* tree = nullptr) {
-    Placed entry{&instance,       mesh_index, stands_once, tree, Eigen::Matrix3d::Identity(),
-                 Vector3d::Zero()};
+    PlacedMesh entry{&instance,       mesh_index, stands_once, tree, Eigen::Matrix3d::Identity(),
+                     Vector3d::Zero()};
     settle(entry);
     placed.push_back(entry);
   }
@@ -463,7 +310,7 @@ struct MeshRays::Impl {
   }
 
   /// Takes over where the instance is.
-  static void settle(Placed& entry) {
+  static void settle(PlacedMesh& entry) {
     entry.R_MW = entry.instance->X_WM.q.toRotationMatrix().transpose();
     entry.p_MW = -(entry.R_MW * entry.instance->X_WM.p);
   }
@@ -483,7 +330,7 @@ struct MeshRays::Impl {
   /// too, whatever the rounding.
   void calc_bounds(const std::map<const TriangleMesh*, Eigen::AlignedBox3d>& boxes_M) {
     bounds_W.setEmpty();
-    for (const Placed& entry : placed) {
+    for (const PlacedMesh& entry : placed) {
       bounds_W.extend(box_W_of(entry, boxes_M));
     }
     bounds_W.min().array() -= margin_m;
@@ -491,7 +338,7 @@ struct MeshRays::Impl {
   }
 
   static Eigen::AlignedBox3d box_W_of(
-      const Placed& entry, const std::map<const TriangleMesh*, Eigen::AlignedBox3d>& boxes_M) {
+      const PlacedMesh& entry, const std::map<const TriangleMesh*, Eigen::AlignedBox3d>& boxes_M) {
     const Eigen::AlignedBox3d& box = boxes_M.at(entry.instance->mesh.get());
     Eigen::AlignedBox3d box_W;
     if (box.isEmpty()) return box_W;
@@ -505,7 +352,7 @@ struct MeshRays::Impl {
   /// Boxes of the instances, widened as the bounds and by the rounding to single precision, which
   /// the margin exceeds.
   void calc_boxes(const std::map<const TriangleMesh*, Eigen::AlignedBox3d>& boxes_M) {
-    for (const Placed& entry : placed) {
+    for (const PlacedMesh& entry : placed) {
       Eigen::AlignedBox3d box = box_W_of(entry, boxes_M);
       if (!box.isEmpty()) {
         box.min().array() -= 2.0 * margin_m;
@@ -569,7 +416,7 @@ void MeshRays::move() {
   if (impl_->placed.empty()) return;
   impl_->ensure_trees();
   for (std::size_t i = 0; i < impl_->placed.size(); ++i) {
-    Impl::Placed& entry = impl_->placed[i];
+    PlacedMesh& entry = impl_->placed[i];
     RTCGeometry geometry = rtcGetGeometry(impl_->scene, static_cast<unsigned>(i));
     Impl::set_transform(geometry, *entry.instance);
     rtcCommitGeometry(geometry);
@@ -591,11 +438,11 @@ bool MeshRays::empty() const {
 
 std::optional<RayHit> MeshRays::cast(const Vector3d& p_W, const Vector3d& dir_W,
                                      double max_distance_m, SurfaceMask mask) const {
-  Impl::Lane lane;
+  RayLane lane;
   if (!impl_->begin({p_W, dir_W, max_distance_m}, lane)) return std::nullopt;
   if (impl_->cast_without_trees(lane, mask)) return impl_->hit_of(lane);
   impl_->ensure_trees();
-  Impl::Cast cast = impl_->make_cast(&lane);
+  RayCast cast = impl_->make_cast(&lane);
   const Vector3d p_start_W = p_W + lane.tree_start_m * dir_W;
   RTCRayHit ray;
   ray.ray.org_x = static_cast<float>(p_start_W.x());
@@ -619,29 +466,23 @@ std::optional<RayHit> MeshRays::cast(const Vector3d& p_W, const Vector3d& dir_W,
 void MeshRays::cast_rays(std::span<const SceneRay> rays, std::span<std::optional<RayHit>> hits,
                          SurfaceMask mask) const {
   VINEROW_DEMAND(hits.size() == rays.size());
-  for (std::size_t at = 0; at < rays.size(); at += kPacket) {
-    const std::size_t count = std::min(kPacket, rays.size() - at);
-    Impl::Lanes lanes;
-    impl_->cast_packet(rays.subspan(at, count), mask, lanes,
-                       [this](const int* valid, auto& cast, RTCRayHit8& packet) {
-                         rtcIntersect8(valid, impl_->scene, &cast, &packet);
-                       });
-    for (std::size_t i = 0; i < count; ++i) hits[at + i] = impl_->hit_of(lanes[i]);
-  }
+  impl_->cast_packets(
+      rays, mask,
+      [this](const int* valid, RayCast& cast, RTCRayHit8& packet) {
+        rtcIntersect8(valid, impl_->scene, &cast, &packet);
+      },
+      [&](std::size_t i, const RayLane& lane) { hits[i] = impl_->hit_of(lane); });
 }
 
 void MeshRays::find_blocked(std::span<const SceneRay> rays, std::span<bool> blocked,
                             SurfaceMask mask) const {
   VINEROW_DEMAND(blocked.size() == rays.size());
-  for (std::size_t at = 0; at < rays.size(); at += kPacket) {
-    const std::size_t count = std::min(kPacket, rays.size() - at);
-    Impl::Lanes lanes;
-    impl_->cast_packet(rays.subspan(at, count), mask, lanes,
-                       [this](const int* valid, auto& cast, RTCRayHit8& packet) {
-                         rtcOccluded8(valid, impl_->scene, &cast, &packet.ray);
-                       });
-    for (std::size_t i = 0; i < count; ++i) blocked[at + i] = lanes[i].has_hit();
-  }
+  impl_->cast_packets(
+      rays, mask,
+      [this](const int* valid, RayCast& cast, RTCRayHit8& packet) {
+        rtcOccluded8(valid, impl_->scene, &cast, &packet.ray);
+      },
+      [&](std::size_t i, const RayLane& lane) { blocked[i] = lane.has_hit(); });
 }
 
 }  // namespace vinerow::physics

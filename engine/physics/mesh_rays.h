@@ -1,5 +1,6 @@
 #pragma once
-/// Rays against the triangle meshes of a world, on Embree. Only this class includes it.
+/// Rays against the triangle meshes of a world, on Embree. Only this class and its callbacks
+/// (block_callbacks.h) include it.
 ///
 /// Embree searches a tree of slightly enlarged boxes in single precision and returns every triangle
 /// whose box the ray may meet. `TriangleRay` decides in double precision, from the triangle's own

@@ -152,7 +152,7 @@ class Study(study_case.StudyCase):
         self.assertIn("invalid", (self.folder / "out" / "study.html").read_text())
 
     def test_a_budget_ends_a_cell_and_no_other(self):
-        file = self.write("factors: {long: {key: duration_s, values: [0.1, 100000]}}\nbudget: {time_s: 8}\n"
+        file = self.write("factors: {long: {key: duration_s, values: [0.1, 10000000]}}\nbudget: {time_s: 8}\n"
                           "set: {criteria: [], stop_when_finished: false}\n")
         self.study("run", file, status=3)
         self.assertEqual([row["state"] for row in self.rows()], ["met", "out of time"])
@@ -166,7 +166,7 @@ class Study(study_case.StudyCase):
         file = self.write("budget: {memory_MB: 5}\n", duration_s=3000)
         self.study("run", file, status=3)
         self.assertEqual(self.rows()[0]["state"], "out of memory")
-        file = self.write("seeds: 2\n", name="killed.yaml", duration_s=100000, set_more=", stop_when_finished: false")
+        file = self.write("seeds: 2\n", name="killed.yaml", duration_s=10000000, set_more=", stop_when_finished: false")
         driver = subprocess.Popen([VINEROW, "study", "run", file, "--out", self.folder / "killed", "--jobs", "1", "--quiet"],
                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         for _ in range(2):  # both cells

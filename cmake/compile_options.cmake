@@ -46,10 +46,14 @@ endif()
 # The elementary functions are ours (engine/elementary). A compiler that knows them by name computes those of constants
 # itself, by its own library, and joins or replaces calls: it must call them.
 set(VINEROW_OWN_FUNCTIONS)
+set(VINEROW_ELEMENTARY_SYMBOLS ${CMAKE_BINARY_DIR}/generated/elementary_symbols.txt)
+set(elementary_symbols)
 foreach(function sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp exp2 exp10 expm1 log log2 log10 log1p
         pow cbrt hypot erf erfc tgamma sincos)
   list(APPEND VINEROW_OWN_FUNCTIONS -fno-builtin-${function})
+  string(APPEND elementary_symbols "${function}; ${function}f; ")
 endforeach()
+file(CONFIGURE OUTPUT ${VINEROW_ELEMENTARY_SYMBOLS} CONTENT "{ ${elementary_symbols}};\n")
 add_compile_options(${VINEROW_OWN_FUNCTIONS})
 # Eigen splits products of more than some 500 terms by the size of the processor's caches, unless it may not ask for it.
 add_compile_definitions(EIGEN_NO_CPUID)

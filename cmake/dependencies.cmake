@@ -47,6 +47,18 @@ target_compile_definitions(bullet_float64 INTERFACE BT_USE_DOUBLE_PRECISION)
 target_link_libraries(bullet_float64 INTERFACE ${BULLET_DYNAMICS_FLOAT64} ${BULLET_COLLISION_FLOAT64}
                                                ${BULLET_MATH_FLOAT64})
 
+# GDAL is opened by its first use (engine/io/geo/gdal_library.h), under the name that a linked program would ask for.
+get_target_property(gdal_file GDAL::GDAL LOCATION)
+file(REAL_PATH "${gdal_file}" gdal_file)
+get_filename_component(gdal_file "${gdal_file}" NAME)
+string(REGEX MATCH "^libgdal\\.so\\.[0-9]+" VINEROW_GDAL_FILE "${gdal_file}")
+if(NOT VINEROW_GDAL_FILE)
+  set(VINEROW_GDAL_FILE "${gdal_file}")
+endif()
+add_library(gdal_headers INTERFACE)
+target_include_directories(gdal_headers SYSTEM INTERFACE $<TARGET_PROPERTY:GDAL::GDAL,INTERFACE_INCLUDE_DIRECTORIES>)
+target_compile_definitions(gdal_headers INTERFACE VINEROW_GDAL_FILE="${VINEROW_GDAL_FILE}")
+
 # OMPL's own variables bring in libraries that its planners do not need.
 find_library(OMPL_LIBRARY NAMES ompl PATHS ${OMPL_LIBRARY_DIRS} REQUIRED)
 add_library(ompl_planners INTERFACE)

@@ -22,6 +22,9 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
 
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME vinerow)
+# Opened by its first use, where dpkg-shlibdeps does not look: libgdal.so.32 is in libgdal32.
+string(REGEX REPLACE "\\.so\\.?" "" gdal_package "${VINEROW_GDAL_FILE}")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS "${gdal_package}")
 # Loaded at run time: without them a run has no pictures, or pictures without words.
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "libosmesa6, fonts-dejavu-core")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "ffmpeg, python3-vinerow, libvinerow-dev")

@@ -212,6 +212,20 @@ class Manual(unittest.TestCase):
                 self.assertIn(f" {option} ", text)
 
 
+class Gdal(unittest.TestCase):
+    def test_where_it_cannot_be_loaded_only_geodata_fail(self):
+        with tempfile.TemporaryDirectory() as folder:
+            broken = pathlib.Path(folder)
+            for name in re.findall(rb"libgdal\.so[.0-9]*", (pathlib.Path(VINEROW).parents[1] / "lib" / "libvinerow.so.0").read_bytes()):
+                (broken / name.decode()).touch()
+            cloud = broken / "cloud.xyz"
+            cloud.write_text("500000 5000000 100\n500001 5000000 100\n500000 5000001 100\n")
+            told = vinerow("map", cloud, "--crs", "EPSG:25832", "--out", broken / "map", status=2, LD_LIBRARY_PATH=folder)
+            self.assertIn("geodata need GDAL, which cannot be loaded: ", told)
+            self.assertIn("file too short", told)
+            self.assertIn("vineyard", vinerow("list", "world", LD_LIBRARY_PATH=folder))
+
+
 class Completion(unittest.TestCase):
     def bash(self, *words: str, cwd=ROOT, **environment: str) -> list[str]:
         """What bash offers for the last word; the shell sources what the command prints."""

@@ -8,20 +8,13 @@
 #include <cstdlib>
 
 #include "engine/core/error.h"
-#include "engine/io/geo/crs_text.h"
-#include "engine/io/geo/gdal_handles.h"
+#include "engine/io/geo/crs.h"
 #include "engine/io/geo/quiet_gdal.h"
 #include "engine/math/angles.h"
 #include "engine/math/geo.h"
 
 namespace vinerow::io {
 namespace {
-
-/// Unit of z in metres.
-double height_unit_m(const OGRSpatialReference& crs) {
-  if (crs.IsCompound() || crs.IsVertical()) return crs.GetTargetLinearUnits("VERT_CS");
-  return crs.IsProjected() ? crs.GetLinearUnits() : 1.0;
-}
 
 /// True for a valid longitude and latitude in degrees. PROJ returns infinity for positions that it
 /// cannot transform, but passes all numbers through from WGS84 to WGS84.
@@ -33,31 +26,28 @@ bool is_on_earth(double x, double y) {
 
 EpsgCode find_epsg_code(const std::string& crs) {
   const QuietGdal quiet;
-  const OGRSpatialReference parsed = parse_crs(crs);
-  const char* authority = parsed.GetAuthorityName(nullptr);
-  const char* code = parsed.GetAuthorityCode(nullptr);
+  const Crs parsed = parse_crs(crs);
+  const char* authority = gdal().OSRGetAuthorityName(parsed.get(), nullptr);
+  const char* code = gdal().OSRGetAuthorityCode(parsed.get(), nullptr);
   const int number = code == nullptr ? 0 : std::atoi(code);
   if (authority == nullptr || std::string(authority) != "EPSG" || number < 1024 ||
-      number >= 32767 || parsed.IsCompound() || !(parsed.IsProjected() || parsed.IsGeographic())) {
+      number >= 32767 || parsed.is_compound() ||
+      !(parsed.is_projected() || parsed.is_geographic())) {
     throw ConfigError(fmt::format(
         "crs = '{}' must be the EPSG code of a geographic or projected system, like EPSG:32632",
         crs.substr(0, 60)));
   }
-  return {static_cast<std::uint16_t>(number), parsed.IsGeographic() != 0};
+  return {static_cast<std::uint16_t>(number), parsed.is_geographic()};
 }
 
 struct CloudFrame::Impl {
   Impl(const std::string& text, const GeoOrigin& origin) : frame(origin) {
-    OGRSpatialReference crs = parse_crs(text);
-    height_m = height_unit_m(crs);
-    name = crs.GetName() ? crs.GetName() : "unknown";
+    Crs crs = parse_crs(text);
+    height_m = crs.height_unit_m();
+    name = crs.name();
     // Heights are handled separately, so that PROJ does not apply a geoid if it has the grid.
-    if (crs.IsCompound()) crs.StripVertical();
-    crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-    OGRSpatialReference wgs84;
-    wgs84.SetWellKnownGeogCS("WGS84");
-    wgs84.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-    to_wgs84.reset(OGRCreateCoordinateTransformation(&crs, &wgs84));
+    crs.strip_vertical();
+    to_wgs84 = Transformation(crs, make_wgs84());
     if (!to_wgs84) {
       throw ConfigError(fmt::format("crs '{}' cannot be transformed to WGS84", name));
     }
@@ -79,7 +69,7 @@ CloudFrame::~CloudFrame() = default;
 Eigen::Vector3d CloudFrame::to_local(const Eigen::Vector3d& position) const {
   const QuietGdal quiet;
   double x = position.x(), y = position.y();
-  if (!impl_->to_wgs84->Transform(1, &x, &y) || !is_on_earth(x, y)) {
+  if (!impl_->to_wgs84.apply(x, y) || !is_on_earth(x, y)) {
     throw ConfigError(fmt::format("point ({}, {}, {}) is outside the area of the crs '{}'",
                                   position.x(), position.y(), position.z(), impl_->name));
   }
@@ -98,7 +88,7 @@ void CloudFrame::to_local(std::span<CloudPoint> points) const {
       y[k] = block[k].position.y();
     }
     // The check below finds points that could not be transformed and names them.
-    impl_->to_wgs84->Transform(block.size(), x.data(), y.data());
+    impl_->to_wgs84.apply(block.size(), x.data(), y.data());
     for (std::size_t k = 0; k < block.size(); ++k) {
       Eigen::Vector3d& position = block[k].position;
       if (is_on_earth(x[k], y[k])) {
@@ -121,14 +111,13 @@ bool looks_like_degrees(const Eigen::AlignedBox3d& bounds) {
 void check_cloud_unit(const std::filesystem::path& file, const std::string& crs,
                       const Eigen::AlignedBox3d& bounds) {
   if (!looks_like_degrees(bounds)) return;
-  const QuietGdal quiet;
   std::string reason =
       "has no coordinate reference system; give it by --crs EPSG:<code> (EPSG:4326 for WGS84)";
   if (!crs.empty()) {
-    const OGRSpatialReference parsed = parse_crs(crs);
-    if (parsed.IsGeographic()) return;
-    reason = fmt::format("its coordinate reference system '{}' is projected",
-                         parsed.GetName() ? parsed.GetName() : "unknown");
+    const QuietGdal quiet;
+    const Crs parsed = parse_crs(crs);
+    if (parsed.is_geographic()) return;
+    reason = fmt::format("its coordinate reference system '{}' is projected", parsed.name());
   }
   throw ConfigError(
       fmt::format("point cloud '{}' seems to be in degrees (x {} to {}, y {} to {}, z {} "

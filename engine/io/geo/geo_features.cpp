@@ -1,8 +1,6 @@
 #include "engine/io/geo/geo_features.h"
 
 #include <fmt/format.h>
-#include <ogr_geometry.h>
-#include <ogrsf_frmts.h>
 
 #include <algorithm>
 #include <cctype>
@@ -13,7 +11,7 @@
 #include "engine/core/error.h"
 #include "engine/core/files.h"
 #include "engine/io/files/yaml.h"
-#include "engine/io/geo/crs_text.h"
+#include "engine/io/geo/crs.h"
 #include "engine/io/geo/gdal_handles.h"
 #include "engine/io/geo/quiet_gdal.h"
 #include "engine/math/angles.h"
@@ -34,28 +32,26 @@ std::string in_lower_case(std::string text) {
 /// Reader of the features of one layer.
 class LayerReader {
  public:
-  LayerReader(const std::filesystem::path& file, OGRLayer& layer, std::vector<GeoFeature>& features)
+  LayerReader(const std::filesystem::path& file, OGRLayerH layer, std::vector<GeoFeature>& features)
       : file_(file), layer_(layer), features_(features) {
-    const OGRSpatialReference* own = layer.GetSpatialRef();
-    if (own == nullptr || own->IsEmpty() || own->IsLocal()) return;
-    OGRSpatialReference from = *own;
-    from.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-    const OGRSpatialReference wgs84 = make_wgs84();
-    to_wgs84_.reset(OGRCreateCoordinateTransformation(&from, &wgs84));
+    const OGRSpatialReferenceH own = gdal().OGR_L_GetSpatialRef(layer);
+    if (is_georeferenced(own)) to_wgs84_ = Transformation(Crs(own), make_wgs84());
   }
 
   void read() {
-    layer_.ResetReading();
-    while (OGRFeature* next = layer_.GetNextFeature()) {
-      const OGRFeatureUniquePtr source(next);
+    gdal().OGR_L_ResetReading(layer_);
+    while (const FeatureHandle source{gdal().OGR_L_GetNextFeature(layer_)}) {
       GeoFeature feature;
       feature.index = index_ = static_cast<int>(next_index_++);
-      for (int i = 0; i < source->GetFieldCount(); ++i) {
-        if (!source->IsFieldSetAndNotNull(i)) continue;
-        feature.properties[in_lower_case(source->GetFieldDefnRef(i)->GetNameRef())] =
-            source->GetFieldAsString(i);
+      for (int i = 0; i < gdal().OGR_F_GetFieldCount(source.get()); ++i) {
+        if (!gdal().OGR_F_IsFieldSetAndNotNull(source.get(), i)) continue;
+        const OGRFieldDefnH field = gdal().OGR_F_GetFieldDefnRef(source.get(), i);
+        feature.properties[in_lower_case(gdal().OGR_Fld_GetNameRef(field))] =
+            gdal().OGR_F_GetFieldAsString(source.get(), i);
       }
-      if (const OGRGeometry* geometry = source->GetGeometryRef()) add(*geometry, feature, 0);
+      if (const OGRGeometryH geometry = gdal().OGR_F_GetGeometryRef(source.get())) {
+        add(geometry, feature, 0);
+      }
     }
   }
 
@@ -71,19 +67,24 @@ class LayerReader {
           "it in the same folder");
     }
     double longitude_deg = x, latitude_deg = y;
-    const bool is_good = std::isfinite(x) && std::isfinite(y) &&
-                         to_wgs84_->Transform(1, &longitude_deg, &latitude_deg) != 0;
+    const bool is_good =
+        std::isfinite(x) && std::isfinite(y) && to_wgs84_.apply(longitude_deg, latitude_deg);
     if (!is_good || !(std::abs(longitude_deg) <= 180.0) || !(std::abs(latitude_deg) <= 90.0)) {
       fail(fmt::format("the coordinate ({}, {}) is not a valid position", x, y));
     }
     return {rad_from_deg(latitude_deg), rad_from_deg(longitude_deg), std::isfinite(z) ? z : 0.0};
   }
 
-  void add_points(const OGRSimpleCurve& line, GeometryKind kind, GeoFeature feature) {
+  Geodetic position(OGRGeometryH geometry, int i) const {
+    return convert(gdal().OGR_G_GetX(geometry, i), gdal().OGR_G_GetY(geometry, i),
+                   gdal().OGR_G_GetZ(geometry, i));
+  }
+
+  void add_points(OGRGeometryH line, GeometryKind kind, GeoFeature feature) {
     feature.kind = kind;
-    feature.has_altitude = line.Is3D() != 0;
-    for (int i = 0; i < line.getNumPoints(); ++i) {
-      feature.points.push_back(convert(line.getX(i), line.getY(i), line.getZ(i)));
+    feature.has_altitude = gdal().OGR_G_Is3D(line) != 0;
+    for (int i = 0; i < gdal().OGR_G_GetPointCount(line); ++i) {
+      feature.points.push_back(position(line, i));
     }
     if (feature.points.size() < 2) {
       fail(fmt::format("a line needs at least 2 points, it has {}", feature.points.size()));
@@ -91,44 +92,43 @@ class LayerReader {
     features_.push_back(std::move(feature));
   }
 
-  void add(const OGRGeometry& geometry, const GeoFeature& feature, int depth) {
+  void add(OGRGeometryH geometry, const GeoFeature& feature, int depth) {
     constexpr int kDeepest = 32;
     if (depth > kDeepest) fail("its geometry is nested too deeply");
-    if (geometry.IsEmpty()) return;
-    switch (wkbFlatten(geometry.getGeometryType())) {
+    if (gdal().OGR_G_IsEmpty(geometry)) return;
+    switch (gdal().OGR_GT_Flatten(gdal().OGR_G_GetGeometryType(geometry))) {
       case wkbPoint: {
-        const OGRPoint& point = *geometry.toPoint();
         GeoFeature one = feature;
         one.kind = GeometryKind::kPoint;
-        one.has_altitude = point.Is3D() != 0;
-        one.points = {convert(point.getX(), point.getY(), point.getZ())};
+        one.has_altitude = gdal().OGR_G_Is3D(geometry) != 0;
+        one.points = {position(geometry, 0)};
         features_.push_back(std::move(one));
         return;
       }
       case wkbLineString:
-        add_points(*geometry.toLineString(), GeometryKind::kLineString, feature);
+        add_points(geometry, GeometryKind::kLineString, feature);
         return;
       case wkbPolygon: {
-        const OGRLinearRing* ring = geometry.toPolygon()->getExteriorRing();
+        const OGRGeometryH ring = gdal().OGR_G_GetGeometryRef(geometry, 0);
         if (ring == nullptr) fail("a polygon needs an outer ring");
-        add_points(*ring, GeometryKind::kPolygon, feature);
+        add_points(ring, GeometryKind::kPolygon, feature);
         return;
       }
       case wkbMultiPoint:
       case wkbMultiLineString:
       case wkbMultiPolygon:
       case wkbGeometryCollection:
-        for (const OGRGeometry* part : *geometry.toGeometryCollection()) {
-          add(*part, feature, depth + 1);
+        for (int i = 0; i < gdal().OGR_G_GetGeometryCount(geometry); ++i) {
+          add(gdal().OGR_G_GetGeometryRef(geometry, i), feature, depth + 1);
         }
         return;
       default:
-        fail(fmt::format("unknown geometry '{}'", geometry.getGeometryName()));
+        fail(fmt::format("unknown geometry '{}'", gdal().OGR_G_GetGeometryName(geometry)));
     }
   }
 
   const std::filesystem::path& file_;
-  OGRLayer& layer_;
+  OGRLayerH layer_;
   std::vector<GeoFeature>& features_;
   Transformation to_wgs84_;
   int index_ = 0;
@@ -142,10 +142,10 @@ std::vector<GeoFeature> read_by_gdal(const std::filesystem::path& file) {
         fmt::format("file '{}' does not exist{}", file.string(), nearest_file_hint(file)));
   }
   const QuietGdal quiet;
-  GDALAllRegister();
+  gdal().GDALAllRegister();
   const char* const drivers[] = {"LIBKML", "KML", "ESRI Shapefile", "GPKG", nullptr};
-  const Dataset dataset(static_cast<GDALDataset*>(
-      GDALOpenEx(file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, drivers, nullptr, nullptr)));
+  const Dataset dataset(gdal().GDALOpenEx(file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, drivers,
+                                          nullptr, nullptr));
   if (!dataset) {
     throw ConfigError(fmt::format("file '{}' cannot be read: it is not a {}", file.string(),
                                   lower_extension(file) == ".shp"    ? "shapefile"
@@ -153,7 +153,9 @@ std::vector<GeoFeature> read_by_gdal(const std::filesystem::path& file) {
                                                                      : "KML file"));
   }
   std::vector<GeoFeature> features;
-  for (OGRLayer* layer : dataset->GetLayers()) LayerReader(file, *layer, features).read();
+  for (int k = 0; k < gdal().GDALDatasetGetLayerCount(dataset.get()); ++k) {
+    LayerReader(file, gdal().GDALDatasetGetLayer(dataset.get(), k), features).read();
+  }
   return features;
 }
 

@@ -15,8 +15,7 @@
 #include "engine/core/files.h"
 #include "engine/core/suggest.h"
 #include "engine/io/files/json_text.h"
-#include "engine/io/geo/crs_text.h"
-#include "engine/io/geo/gdal_handles.h"
+#include "engine/io/geo/crs.h"
 #include "engine/io/geo/geo_features.h"
 #include "engine/io/geo/quiet_gdal.h"
 #include "engine/math/angles.h"
@@ -29,7 +28,7 @@ using nlohmann::json;
 struct Place {
   const std::filesystem::path& file;
   int index;
-  OGRCoordinateTransformation* to_wgs84 = nullptr;  ///< nullptr: the numbers are WGS84
+  const Transformation& to_wgs84;  ///< none: the numbers are WGS84
   std::string text() const { return fmt::format("'{}', feature {}", file.string(), index); }
 };
 
@@ -63,30 +62,29 @@ std::string shown(const json& value) {
 /// Transformation for the `crs` member of GeoJSON from before RFC 7946; null if it is absent or
 /// means WGS84.
 Transformation read_crs_member(const json& root, const std::filesystem::path& file) {
-  if (!root.is_object() || !root.contains("crs") || root["crs"].is_null()) return nullptr;
+  if (!root.is_object() || !root.contains("crs") || root["crs"].is_null()) return {};
   const json& crs = root["crs"];
   std::string name;
   if (crs.is_object() && crs.contains("properties") && crs["properties"].is_object() &&
       crs["properties"].contains("name") && crs["properties"]["name"].is_string()) {
     name = crs["properties"]["name"].get<std::string>();
   }
-  const QuietGdal quiet;
   if (name.empty()) {
     throw ConfigError(fmt::format(
         "GeoJSON file '{}': crs = {}, must be like {{\"type\": \"name\", \"properties\": "
         "{{\"name\": \"EPSG:25832\"}}}}",
         file.string(), shown(crs)));
   }
-  OGRSpatialReference from;
+  const QuietGdal quiet;
+  std::optional<Crs> from;
   try {
     from = parse_crs(name);
   } catch (const ConfigError& error) {
     throw ConfigError(fmt::format("GeoJSON file '{}': {}", file.string(), error.what()));
   }
-  from.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  const OGRSpatialReference wgs84 = make_wgs84();
-  if (from.IsGeographic() && from.IsSameGeogCS(&wgs84)) return nullptr;
-  Transformation result(OGRCreateCoordinateTransformation(&from, &wgs84));
+  const Crs wgs84 = make_wgs84();
+  if (from->is_geographic() && gdal().OSRIsSameGeogCS(from->get(), wgs84.get()) != 0) return {};
+  Transformation result(*from, wgs84);
   if (!result) {
     throw ConfigError(fmt::format("GeoJSON file '{}': no transformation from '{}' to WGS84",
                                   file.string(), name));
@@ -114,12 +112,12 @@ Geodetic read_position(const json& position, const Place& place, bool& has_altit
   }
   double longitude_deg = position[0], latitude_deg = position[1];
   const double altitude_m = position.size() > 2 ? position[2].get<double>() : 0.0;
-  const bool is_converted = place.to_wgs84 == nullptr ||
-                            (std::isfinite(longitude_deg) && std::isfinite(latitude_deg) &&
-                             place.to_wgs84->Transform(1, &longitude_deg, &latitude_deg) != 0);
+  const bool is_converted =
+      !place.to_wgs84 || (std::isfinite(longitude_deg) && std::isfinite(latitude_deg) &&
+                          place.to_wgs84.apply(longitude_deg, latitude_deg));
   if (!is_converted || !(std::abs(longitude_deg) <= 180.0) || !(std::abs(latitude_deg) <= 90.0) ||
       !std::isfinite(altitude_m)) {
-    if (place.to_wgs84 != nullptr) {
+    if (place.to_wgs84) {
       throw ConfigError(
           fmt::format("{}: coordinate {} cannot be transformed from the file's crs to WGS84",
                       place.text(), shown(position)));
@@ -318,8 +316,9 @@ std::vector<GeoFeature> read_geojson(const std::filesystem::path& file) {
   const json root = parse_file(file);
   std::vector<GeoFeature> features;
   const Transformation to_wgs84 = read_crs_member(root, file);
-  const QuietGdal quiet;
-  const auto place_of = [&](int index) { return Place{file, index, to_wgs84.get()}; };
+  std::optional<QuietGdal> quiet;
+  if (to_wgs84) quiet.emplace();
+  const auto place_of = [&](int index) { return Place{file, index, to_wgs84}; };
   const std::string type =
       root.is_object() && root.contains("type") && root["type"].is_string() ? root["type"] : "";
   if (type == "FeatureCollection") {

@@ -5,8 +5,7 @@
 #include <cmath>
 
 #include "engine/core/error.h"
-#include "engine/io/geo/crs_text.h"
-#include "engine/io/geo/gdal_handles.h"
+#include "engine/io/geo/crs.h"
 #include "engine/io/geo/quiet_gdal.h"
 #include "engine/math/angles.h"
 #include "engine/math/geo.h"
@@ -15,17 +14,11 @@ namespace vinerow::io {
 
 struct LocalToCrs::Impl {
   Impl(const std::string& text, const GeoOrigin& origin) : frame(origin) {
-    OGRSpatialReference crs = parse_crs(text);
-    name = crs.GetName() ? crs.GetName() : "unknown";
-    if (crs.IsCompound() || crs.IsVertical()) {
-      height_m = crs.GetTargetLinearUnits("VERT_CS");
-    } else if (crs.IsProjected()) {
-      height_m = crs.GetLinearUnits();
-    }
-    if (crs.IsCompound()) crs.StripVertical();
-    crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-    const OGRSpatialReference wgs84 = make_wgs84();
-    from_wgs84.reset(OGRCreateCoordinateTransformation(&wgs84, &crs));
+    Crs crs = parse_crs(text);
+    name = crs.name();
+    height_m = crs.height_unit_m();
+    crs.strip_vertical();
+    from_wgs84 = Transformation(make_wgs84(), crs);
     if (!from_wgs84) {
       throw ConfigError(fmt::format("WGS84 cannot be transformed to the crs '{}'", name));
     }
@@ -49,7 +42,7 @@ Eigen::Vector3d LocalToCrs::from_local(const Eigen::Vector3d& p_W) const {
   const Geodetic place = impl_->frame.to_geodetic(p_W);
   double x = deg_from_rad(place.longitude_rad), y = deg_from_rad(place.latitude_rad);
   const double longitude = x, latitude = y;
-  if (!impl_->from_wgs84->Transform(1, &x, &y) || !std::isfinite(x) || !std::isfinite(y)) {
+  if (!impl_->from_wgs84.apply(x, y) || !std::isfinite(x) || !std::isfinite(y)) {
     throw ConfigError(
         fmt::format("the position {:.6f} N, {:.6f} E is outside the area of the crs '{}'", latitude,
                     longitude, impl_->name));

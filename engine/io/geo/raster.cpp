@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "engine/core/error.h"
-#include "engine/io/geo/crs_text.h"
+#include "engine/io/geo/crs.h"
 #include "engine/io/geo/gdal_handles.h"
 #include "engine/io/geo/quiet_gdal.h"
 #include "engine/math/angles.h"
@@ -18,12 +18,12 @@
 namespace vinerow::io {
 namespace {
 
-OGRSpatialReference make_crs(const std::string& wkt) {
-  OGRSpatialReference crs;
-  crs.importFromWkt(wkt.c_str());
-  // x = easting or longitude, y = northing or latitude, regardless of the authority's axis order.
-  crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  return crs;
+Crs crs_from_wkt(const std::string& wkt) {
+  const Crs crs;
+  std::string text = wkt;
+  char* read = text.data();  // moved to behind what was read
+  gdal().OSRImportFromWkt(crs.get(), &read);
+  return Crs(crs.get());
 }
 
 }  // namespace
@@ -32,9 +32,7 @@ OGRSpatialReference make_crs(const std::string& wkt) {
 class ToRaster {
  public:
   explicit ToRaster(const ElevationRaster& raster) : raster_(raster) {
-    const OGRSpatialReference wgs84 = make_wgs84();
-    const OGRSpatialReference target = make_crs(raster.crs_wkt);
-    transformation_.reset(OGRCreateCoordinateTransformation(&wgs84, &target));
+    transformation_ = Transformation(make_wgs84(), crs_from_wkt(raster.crs_wkt));
     if (!transformation_) {
       throw ConfigError(fmt::format("raster '{}': no transformation from WGS84 to '{}'",
                                     raster.file.string(), raster.crs_name));
@@ -48,7 +46,7 @@ class ToRaster {
   double height_m(double latitude_rad, double longitude_rad) const {
     double x = deg_from_rad(longitude_rad), y = deg_from_rad(latitude_rad);
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-    if (!transformation_->Transform(1, &x, &y)) return kNone;
+    if (!transformation_.apply(x, y)) return kNone;
     const double dx = x - raster_.geo_transform[0], dy = y - raster_.geo_transform[3];
     const double column = inverse_[0] * dx + inverse_[1] * dy - 0.5;
     const double row = inverse_[2] * dx + inverse_[3] * dy - 0.5;
@@ -93,24 +91,24 @@ namespace {
                   is_swapped ? "; are latitude and longitude swapped?" : ""));
 }
 
-void read_crs(ElevationRaster& raster, GDALDataset& dataset, const std::string& wanted) {
-  OGRSpatialReference crs;
+void read_crs(ElevationRaster& raster, GDALDatasetH dataset, const std::string& wanted) {
+  std::optional<Crs> crs;
   if (!wanted.empty()) {
     crs = parse_crs(wanted);
   } else {
-    const OGRSpatialReference* own = dataset.GetSpatialRef();
-    if (own == nullptr || own->IsEmpty() || own->IsLocal()) {
+    const OGRSpatialReferenceH own = gdal().GDALGetSpatialRef(dataset);
+    if (!is_georeferenced(own)) {
       throw ConfigError(fmt::format(
           "raster '{}' has no coordinate reference system; give it by 'crs: EPSG:<code>'",
           raster.file.string()));
     }
-    crs = *own;
+    crs = Crs(own);
   }
   char* wkt = nullptr;
-  crs.exportToWkt(&wkt);
+  gdal().OSRExportToWkt(crs->get(), &wkt);
   raster.crs_wkt = wkt ? wkt : "";
-  CPLFree(wkt);
-  raster.crs_name = crs.GetName() ? crs.GetName() : "unknown";
+  gdal().VSIFree(wkt);
+  raster.crs_name = crs->name();
 }
 
 }  // namespace
@@ -121,20 +119,20 @@ ElevationRaster read_elevation(const std::filesystem::path& file, const std::str
   if (!std::filesystem::is_regular_file(file, error)) {
     throw ConfigError(fmt::format("raster '{}' does not exist", file.string()));
   }
-  GDALAllRegister();
-  const Dataset dataset(static_cast<GDALDataset*>(
-      GDALOpenEx(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, nullptr, nullptr, nullptr)));
-  if (!dataset || dataset->GetRasterCount() < 1) {
+  gdal().GDALAllRegister();
+  const Dataset dataset(gdal().GDALOpenEx(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, nullptr,
+                                          nullptr, nullptr));
+  if (!dataset || gdal().GDALGetRasterCount(dataset.get()) < 1) {
     throw ConfigError(
         fmt::format("raster '{}' cannot be read: GDAL knows no such format", file.string()));
   }
   ElevationRaster raster;
   raster.file = file;
-  raster.columns = dataset->GetRasterXSize();
-  raster.rows = dataset->GetRasterYSize();
-  read_crs(raster, *dataset, crs);
+  raster.columns = gdal().GDALGetRasterXSize(dataset.get());
+  raster.rows = gdal().GDALGetRasterYSize(dataset.get());
+  read_crs(raster, dataset.get(), crs);
   const double* g = raster.geo_transform;
-  if (dataset->GetGeoTransform(raster.geo_transform) != CE_None ||
+  if (gdal().GDALGetGeoTransform(dataset.get(), raster.geo_transform) != CE_None ||
       g[1] * g[5] - g[2] * g[4] == 0.0) {
     throw ConfigError(
         fmt::format("raster '{}' has no georeference (no geotransform)", file.string()));
@@ -147,17 +145,18 @@ ElevationRaster read_elevation(const std::filesystem::path& file, const std::str
         "with 'gdal_translate -projwin'",
         file.string(), raster.columns, raster.rows, kMaxPixels / 1e6));
   }
-  GDALRasterBand* band = dataset->GetRasterBand(1);
+  const GDALRasterBandH band = gdal().GDALGetRasterBand(dataset.get(), 1);
   raster.heights_m.resize(static_cast<std::size_t>(raster.columns) * raster.rows);
-  if (band->RasterIO(GF_Read, 0, 0, raster.columns, raster.rows, raster.heights_m.data(),
-                     raster.columns, raster.rows, GDT_Float32, 0, 0) != CE_None) {
+  if (gdal().GDALRasterIO(band, GF_Read, 0, 0, raster.columns, raster.rows, raster.heights_m.data(),
+                          raster.columns, raster.rows, GDT_Float32, 0, 0) != CE_None) {
     throw ConfigError(
         fmt::format("raster '{}' cannot be read: its pixels are broken", file.string()));
   }
   int has_no_data = 0;
-  const auto no_data = static_cast<float>(band->GetNoDataValue(&has_no_data));
+  const auto no_data = static_cast<float>(gdal().GDALGetRasterNoDataValue(band, &has_no_data));
   int has_scale = 0, has_offset = 0;
-  const double scale = band->GetScale(&has_scale), offset = band->GetOffset(&has_offset);
+  const double scale = gdal().GDALGetRasterScale(band, &has_scale),
+               offset = gdal().GDALGetRasterOffset(band, &has_offset);
   for (float& height : raster.heights_m) {
     if ((has_no_data && height == no_data) || !std::isfinite(height)) {
       height = std::numeric_limits<float>::quiet_NaN();

@@ -63,6 +63,17 @@ TEST_F(CloudCrs, FaultsAreNamed) {
             "crs = 'EPSG:nonsense' is not a coordinate reference system, must be like EPSG:32632");
   EXPECT_EQ(error_in([] { CloudFrame("", kOrigin); }),
             "crs = '' is not a coordinate reference system, must be like EPSG:32632");
+  // GDAL would read a definition from a file or from the network.
+  const std::string file =
+      write("degrees.prj",
+            "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,298.257223563]],"
+            "PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]]");
+  for (const std::string& name :
+       {file, "/vsisubfile/0_999," + file, std::string("https://localhost/utm.prj")}) {
+    EXPECT_NE(error_in([&] { CloudFrame(name, kOrigin); }).find("is not a coordinate reference"),
+              std::string::npos)
+        << name;
+  }
   const CloudFrame utm("EPSG:25832", kOrigin);
   const std::string error = error_in([&] { utm.to_local({1e12, 1e12, 0}); });
   EXPECT_NE(error.find("is outside the area of the crs 'ETRS89 / UTM zone 32N'"), std::string::npos)

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "engine/math/box_tree.h"
@@ -29,6 +30,11 @@ class PolylineIndex {
   /// Nearest points of the two nearest lines, by the same rule.
   std::array<Nearest, 2> nearest_two(const Eigen::Vector2d& p) const;
 
+  /// Calls `visit` for every segment with a point within `reach_m`, and maybe for others that are
+  /// farther. In no order; a line comes once for each of its segments. No heap, thread safe.
+  void visit_within(const Eigen::Vector2d& p, double reach_m,
+                    const std::function<void(const Nearest&)>& visit) const;
+
   const std::vector<Polyline>& lines() const { return lines_; }
 
  private:
@@ -41,6 +47,8 @@ class PolylineIndex {
 
   std::vector<Polyline> lines_;
   std::vector<Segment> segments_;
+  // Boxes lie along the lines' prevailing direction, or those of slanting rows would overlap.
+  Eigen::Matrix2d from_W_ = Eigen::Matrix2d::Identity();
   BoxTree<double, 2> tree_;
   double largest_m_ = 0.0;  // coordinate
 };

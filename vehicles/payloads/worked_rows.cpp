@@ -1,6 +1,7 @@
 #include "vehicles/payloads/worked_rows.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/api/height_field.h"
@@ -45,9 +46,6 @@ RowLines::RowLines(const std::vector<PlantRow>& rows, const HeightField* terrain
   for (const PlantRow& row : rows) {
     VINEROW_DEMAND(row.line_W.size() >= 2);
     const Polyline& line = lines.emplace_back(from_above(row.line_W));
-    Eigen::AlignedBox2d box;
-    for (const Vector2d& p : line.points()) box.extend(p);
-    boxes_.push_back(box);
     std::vector<double> ground;
     for (const Eigen::Vector3d& p : row.line_W) ground.push_back(p.z());
     ground_m_.push_back(std::move(ground));
@@ -93,9 +91,22 @@ AdjacentRows RowLines::adjacent(const Vector2d& p_W, double heading_rad, double 
                                 double max_angle_rad, double beyond_end_m) const {
   const Vector2d ahead(std::cos(heading_rad), std::sin(heading_rad));
   AdjacentRows found;
-  for (int row = 0; row < count(); ++row) {
-    const double far_m = reach_m + std::max(0.0, beyond_end_m);
-    if (boxes_[static_cast<std::size_t>(row)].exteriorDistance(p_W) > far_m) continue;
+  // Rows that are farther away than that cannot be beside the position.
+  const double far_m = reach_m + std::max(0.0, beyond_end_m);
+  constexpr int kMaxNear = 16;
+  std::array<int, kMaxNear> near;
+  int near_count = 0;
+  index_.visit_within(p_W, far_m, [&](const PolylineIndex::Nearest& at) {
+    if (near_count > kMaxNear) return;
+    const auto end = near.begin() + near_count;
+    if (std::find(near.begin(), end, at.line) != end) return;
+    if (near_count < kMaxNear) near[static_cast<std::size_t>(near_count)] = at.line;
+    ++near_count;
+  });
+  const bool is_all = near_count > kMaxNear;
+  if (!is_all) std::sort(near.begin(), near.begin() + near_count);
+  for (int k = 0; k < (is_all ? count() : near_count); ++k) {
+    const int row = is_all ? k : near[static_cast<std::size_t>(k)];
     const RowPlace at = place(row, p_W);
     if (std::abs(at.lateral_m) > reach_m || at.along_m < -beyond_end_m ||
         at.along_m > length_m(row) + beyond_end_m) {

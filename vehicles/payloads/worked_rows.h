@@ -4,7 +4,6 @@
 /// No heap after construction.
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <optional>
 #include <vector>
 
@@ -36,7 +35,7 @@ class RowLines {
   ///   lines themselves, which miss hollows and humps between their points
   explicit RowLines(const std::vector<PlantRow>& rows, const HeightField* terrain = nullptr);
 
-  int count() const { return static_cast<int>(boxes_.size()); }
+  int count() const { return static_cast<int>(index_.lines().size()); }
   double length_m(int row) const { return line(row).length_m(); }
   /// @pre count() > 0
   RowPlace nearest(const Eigen::Vector2d& p_W) const;
@@ -63,7 +62,6 @@ class RowLines {
   PolylineIndex index_;
   std::vector<std::vector<double>> ground_m_;  // of each point
   std::vector<Profile> profiles_;              // of each row, if a terrain is given
-  std::vector<Eigen::AlignedBox2d> boxes_;
 };
 
 }  // namespace vinerow::vehicles

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <utility>
 
 #include "engine/core/random.h"
 
@@ -91,6 +94,36 @@ TEST(PolylineIndex, FindsWhatASearchOfAllSegmentsFinds) {
           lines, index, {random.uniform(-reach_m, reach_m), random.uniform(-reach_m, reach_m)});
     }
   }
+}
+
+TEST(PolylineIndex, VisitsEverySegmentWithinReach) {
+  RandomStream random(5, "", "rows");
+  const std::vector<Points> lines = bent_rows(12, 0.6, random);
+  const PolylineIndex index = index_of(lines);
+  std::size_t needed = 0, visited = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Vector2d p(random.uniform(-30.0, 60.0), random.uniform(-10.0, 60.0));
+    const double reach_m = random.uniform(0.0, 4.0);
+    std::set<std::pair<int, int>> within, seen;
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+      for (std::size_t n = 0; n + 1 < lines[k].size(); ++n) {
+        const Found alone = search_all({{lines[k][n], lines[k][n + 1]}}, p)[0];
+        if (alone.distance_m <= reach_m) within.emplace(k, n);
+      }
+    }
+    index.visit_within(p, reach_m, [&](const PolylineIndex::Nearest& at) {
+      EXPECT_TRUE(seen.emplace(at.line, at.segment).second) << "twice";
+      const Points& line = lines[at.line];
+      const Found alone = search_all({{line[at.segment], line[at.segment + 1]}}, p)[0];
+      EXPECT_EQ(at.distance_m, alone.distance_m);
+    });
+    EXPECT_TRUE(std::includes(seen.begin(), seen.end(), within.begin(), within.end()));
+    needed += within.size();
+    visited += seen.size();
+  }
+  // Boxes along the rows keep what is visited in vain small, however the rows lie.
+  EXPECT_GT(needed, 500u);
+  EXPECT_LT(visited, 4 * needed);
 }
 
 TEST(PolylineIndex, AgreesWithEachPolyline) {

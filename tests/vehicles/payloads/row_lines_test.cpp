@@ -104,5 +104,54 @@ TEST(RowLines, NothingIsBesideAVehicleThatTurnsIsFarOrBeyondTheEnd) {
   EXPECT_EQ(count({9.9, 1.0}, 0.0, -0.2), 0);
 }
 
+TEST(RowLines, TheNearestOfEachSideIsAmongAllRows) {
+  constexpr double kReach_m = 2.0, kMaxAngle_rad = 0.35;
+  for (const double spacing_m : {2.5, 0.1}) {  // two rows within reach, or forty
+    // Slanting, with a bend in the middle, of different lengths.
+    std::vector<PlantRow> rows;
+    for (int i = 0; i < 45; ++i) {
+      const Eigen::Vector3d along(0.8, 0.6, 0.0),
+          start = i * spacing_m * Eigen::Vector3d(-0.6, 0.8, 0.0);
+      rows.push_back({i,
+                      {start, start + 6.0 * along,
+                       start + (12.0 + 0.1 * i) * Eigen::Vector3d(0.7, 0.714, 0.0)},
+                      0.6,
+                      0.5,
+                      2.0});
+    }
+    const RowLines lines(rows);
+    RandomStream random(4, "", "test");
+    int pairs = 0;
+    for (int n = 0; n < 2000; ++n) {
+      const Vector2d p(random.uniform(-70.0, 15.0), random.uniform(-5.0, 100.0));
+      const Vector2d q =
+          n % 2 == 0 ? p : Vector2d(random.uniform(-8.0, 12.0), random.uniform(0.0, 14.0));
+      const double heading_rad = 0.65 + random.uniform(-0.5, 0.5) + (n % 3 == 0 ? kPi : 0.0);
+      const double beyond_m = random.uniform(-0.5, 1.5);
+      // By the definition: the row's straight extension is within reach and its end near enough.
+      int left = -1, right = -1;
+      double left_m = kReach_m, right_m = kReach_m;
+      const Vector2d ahead(std::cos(heading_rad), std::sin(heading_rad));
+      for (int row = 0; row < lines.count(); ++row) {
+        const RowPlace at = lines.place(row, q);
+        const double along = ahead.dot(at.direction_W);
+        if (at.along_m < -beyond_m || at.along_m > lines.length_m(row) + beyond_m ||
+            std::abs(along) < std::cos(kMaxAngle_rad)) {
+          continue;
+        }
+        // Positive: the vehicle sees the row on its right.
+        const double to_right_m = along > 0.0 ? at.lateral_m : -at.lateral_m;
+        if (to_right_m >= 0.0 && to_right_m < right_m) right = row, right_m = to_right_m;
+        if (to_right_m < 0.0 && -to_right_m < left_m) left = row, left_m = -to_right_m;
+      }
+      const AdjacentRows found = lines.adjacent(q, heading_rad, kReach_m, kMaxAngle_rad, beyond_m);
+      ASSERT_EQ(found.left ? found.left->row : -1, left) << "at " << q.transpose();
+      ASSERT_EQ(found.right ? found.right->row : -1, right) << "at " << q.transpose();
+      pairs += left >= 0 && right >= 0;
+    }
+    EXPECT_GT(pairs, 100);
+  }
+}
+
 }  // namespace
 }  // namespace vinerow::vehicles::row_lines_test

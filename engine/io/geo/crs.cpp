@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 
 #include "engine/core/error.h"
@@ -11,10 +12,17 @@ namespace vinerow::io {
 namespace {
 
 /// True for what GDAL would open and read as a definition: a file, one of its virtual file systems,
-/// or a URL. (The C interface has no switch for this before GDAL 3.9.)
+/// or a URL, apart from the names that OGC gives to systems in the form of one. (The C interface
+/// has no switch for this before GDAL 3.9.)
 bool names_a_file(const std::string& text) {
-  for (const char* start : {"/vsi", "http://", "https://"}) {
-    if (text.rfind(start, 0) == 0) return true;
+  std::string start = text.substr(0, 32);
+  for (char& c : start) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (start.rfind("/vsi", 0) == 0) return true;
+  for (const char* scheme : {"http://", "https://"}) {
+    if (start.rfind(scheme, 0) != 0) continue;
+    const std::string host = start.substr(std::string(scheme).size());
+    return host.rfind("opengis.net/def/crs/", 0) != 0 &&
+           host.rfind("www.opengis.net/def/crs/", 0) != 0;
   }
   std::error_code too_long;
   return std::filesystem::exists(text, too_long);

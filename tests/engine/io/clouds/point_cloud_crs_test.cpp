@@ -69,12 +69,14 @@ TEST_F(CloudCrs, FaultsAreNamed) {
             "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,298.257223563]],"
             "PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]]");
   for (const std::string& name :
-       {file, "/vsisubfile/0_999," + file, std::string("https://localhost/utm.prj")}) {
+       {file, "/vsisubfile/0_999," + file, std::string("HTTPS://localhost/opengis.net/def/crs/"),
+        std::string("http://www.opengis.net.localhost/def/crs/EPSG/0/25832")}) {
     EXPECT_NE(error_in([&] { CloudFrame(name, kOrigin); }).find("is not a coordinate reference"),
               std::string::npos)
         << name;
   }
-  const CloudFrame utm("EPSG:25832", kOrigin);
+  // Names of OGC in the form of an address are looked up nowhere.
+  const CloudFrame utm("http://www.opengis.net/def/crs/EPSG/0/25832", kOrigin);
   const std::string error = error_in([&] { utm.to_local({1e12, 1e12, 0}); });
   EXPECT_NE(error.find("is outside the area of the crs 'ETRS89 / UTM zone 32N'"), std::string::npos)
       << error;

@@ -55,14 +55,22 @@ void SignalBus::check_connected() const {
     // Suggest only names of the same vehicle, and compare only their last part.
     const std::size_t slash = signal->name().find('/') + 1;
     const std::string scope = signal->name().substr(0, slash);
+    const std::string last = signal->name().substr(slash);
     std::vector<std::string> written;
+    std::string hint;
     for (const auto& other : signals_) {
-      const bool is_meant = !other->writer().empty() && other->name().starts_with(scope);
-      if (is_meant) written.push_back(other->name().substr(slash));
+      if (other->writer().empty() || !other->name().starts_with(scope)) continue;
+      written.push_back(other->name().substr(slash));
+      // "front_semantic" beside "front": a camera writes some pictures only if a parameter says so.
+      if (last.starts_with(written.back() + "_")) {
+        hint = fmt::format("; {} writes '{}': does one of its parameters add '{}'?",
+                           other->writer(), written.back(), last.substr(written.back().size()));
+      }
     }
-    throw ConfigError(fmt::format(
-        "{} reads signal '{}', which nobody writes{} (written in '{}': {})", signal->first_reader(),
-        signal->name(), did_you_mean(signal->name().substr(slash), written), scope, join(written)));
+    throw ConfigError(
+        fmt::format("{} reads signal '{}', which nobody writes{}{} (written in '{}': {})",
+                    signal->first_reader(), signal->name(), did_you_mean(last, written), hint,
+                    scope, join(written)));
   }
 }
 

@@ -182,5 +182,21 @@ TEST(Surveyed, PointsFarFromEveryRowAreNoted) {
       << world->notes[0];
 }
 
+TEST(Surveyed, FeaturesWithoutAMeaningAreNoted) {
+  const std::string file = test::temporary_file("field.geojson",
+                                                R"({"type":"FeatureCollection","features":[
+        {"type":"Feature","properties":{"type":"row"},"geometry":{"type":"LineString","coordinates":[[8.0,45.0],[8.0,45.0002]]}},
+        {"type":"Feature","properties":{"name":"hydrant"},"geometry":{"type":"Point","coordinates":[8.001,45.0001]}},
+        {"type":"Feature","properties":{"type":"parcel"},"geometry":{"type":"Polygon","coordinates":[[[8,45],[8.001,45],[8.001,45.001],[8,45]]]}}]})");
+  ParameterSet parameters = test::world_parameters("surveyed");
+  parameters.set("survey_file", file);
+  const auto world = test::make_world("surveyed", parameters);
+  EXPECT_EQ(
+      world->notes,
+      (std::vector<std::string>{
+          file + ": 1 polygons are left out: the parcel's border runs headland_m around the rows",
+          file + ": 1 points are left out: neither type nor name says vine, tree, pole or post"}));
+}
+
 }  // namespace
 }  // namespace vinerow::worlds::surveyed_test

@@ -382,7 +382,11 @@ SurveyFile read_survey(const std::filesystem::path& file, const std::string& row
       } else if (words.find("vine") != std::string::npos ||
                  words.find("tree") != std::string::npos) {
         survey.vines.push_back(feature);
+      } else if (has_lines) {
+        ++survey.other_points;
       }
+    } else {
+      ++survey.areas;
     }
   }
   if (survey.rows.empty()) {

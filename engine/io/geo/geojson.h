@@ -40,6 +40,8 @@ struct SurveyFile {
   std::vector<GeoFeature> rows;   ///< LineStrings
   std::vector<GeoFeature> poles;  ///< points whose type or name contains pole or post
   std::vector<GeoFeature> vines;  ///< points whose type or name contains vine or tree
+  int areas = 0;                  ///< polygons, which are left out
+  int other_points = 0;           ///< left out too; 0 if rows are built from points
 };
 
 /// Reads rows, and poles and vines if the file has them, from any file of read_features

@@ -1,7 +1,7 @@
+#include "engine/api/signal.h"
 #include "engine/api/messages/commands.h"
 #include "engine/api/messages/motion.h"
 #include "engine/api/messages/sensors.h"
-#include "engine/api/signal.h"
 
 #include <gtest/gtest.h>
 
@@ -51,6 +51,22 @@ TEST(Signal, WrongWiresAreRefused) {
     EXPECT_STREQ(error.what(),
                  "rover.controller reads signal 'rover/trut', which nobody writes; did you mean "
                  "'truth'? (written in 'rover/': truth)");
+  }
+}
+
+TEST(Signal, ThePartThatMayAddAMissingSignalIsNamed) {
+  SignalBus bus;
+  bus.advertise<Odometry>("rover/front", "rover.sensors.front");
+  bus.advertise<Odometry>("drone/front_sem", "drone.sensors.front");
+  bus.subscribe<Odometry>("rover/front_semantic", "rover.estimator");
+  try {
+    bus.check_connected();
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(),
+                 "rover.estimator reads signal 'rover/front_semantic', which nobody writes; "
+                 "rover.sensors.front writes 'front': does one of its parameters add '_semantic'? "
+                 "(written in 'rover/': front)");
   }
 }
 

@@ -13,6 +13,8 @@
 
 namespace vinerow::io {
 
+// clang-format off
+
 /// The functions that are in use. Their types are those of GDAL's headers.
 #define VINEROW_GDAL_FUNCTIONS(X)                                                                        \
   X(CPLErrorReset)                                                                                       \
@@ -54,6 +56,8 @@ namespace vinerow::io {
                                                                           OSRSetProjCS) X(OSRSetTM)      \
                                                                           X(OSRSetWellKnownGeogCS)       \
                                                                               X(OSRStripVertical)
+
+// clang-format on
 
 struct GdalLibrary {
 #define VINEROW_GDAL_MEMBER(function) decltype(&::function) function = nullptr;

@@ -3,10 +3,11 @@
 
 Times are those of the fastest of 15 turns: what else runs on the machine slows the others, by up to a half.
 
-usage: python_bench.py [calls] [steps] [resets] [first_update]     run in the environment of tools/python_environment
+usage: python_bench.py [calls] [steps] [reset] [resets] [first_update]     run in the environment of tools/python_environment
 
   calls         a call of Session.step() that has nothing to do, and one field of a signal
   steps         environment steps at 50 Hz, 16 and 64 environments on one thread: the processor's cache holds 16
+  reset         a reset of each task, with a new seed
   resets        memory of 10^6 resets (takes about 10 minutes)
   first_update  wall clock from the start of the interpreter to the first update of PPO
 """
@@ -71,6 +72,15 @@ def steps() -> None:
             env.close()
 
 
+def reset() -> None:
+    for task in ("headland_turn", "row_following", "row_flight", "spraying"):
+        env = vinerow.gym.Env(task, factors={})
+        seeds = iter(range(1, 1_000_000))
+        env.reset(seed=next(seeds))
+        print(f"reset of {task}: {cpu_us(lambda: env.reset(seed=next(seeds)), 20) / 1e3:.2f} ms")
+        env.close()
+
+
 def resident_kB() -> int:
     lines = pathlib.Path("/proc/self/status").read_text().splitlines()
     return int(next(line for line in lines if line.startswith("VmRSS")).split()[1])
@@ -100,6 +110,6 @@ def first_update() -> None:
 
 
 if __name__ == "__main__":
-    chosen = sys.argv[1:] or ["calls", "steps", "first_update"]
+    chosen = sys.argv[1:] or ["calls", "steps", "reset", "first_update"]
     for one in chosen:
-        {"calls": calls, "steps": steps, "resets": resets, "first_update": first_update}[one]()
+        {"calls": calls, "steps": steps, "reset": reset, "resets": resets, "first_update": first_update}[one]()

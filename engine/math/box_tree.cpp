@@ -1,9 +1,6 @@
 #include "engine/math/box_tree.h"
 
 #include <algorithm>
-#include <array>
-#include <numeric>
-#include <utility>
 #include <vector>
 
 namespace vinerow {
@@ -13,21 +10,26 @@ namespace {
 // small.
 constexpr std::uint32_t kLeafItems = 6;
 
-/// Moves the `half` items with the lowest centres along the axis to the front, equal ones by index.
-/// Sorting copies of the centres saves a lookup of two boxes in each comparison.
+/// An item with the centre of its box: what a split reads and moves lies side by side in memory.
 template <class Box>
-void divide(std::span<const Box> boxes, int axis, std::size_t half,
-            std::span<std::uint32_t> items) {
-  using Key = std::pair<typename Box::Scalar, std::uint32_t>;
-  constexpr std::size_t kFew = 128;
-  std::array<Key, kFew> few;
-  std::vector<Key> many(items.size() > kFew ? items.size() : 0);
-  const std::span<Key> keys = many.empty() ? std::span(few).first(items.size()) : std::span(many);
-  for (std::size_t k = 0; k < items.size(); ++k) {
-    keys[k] = {boxes[items[k]].center()[axis], items[k]};
-  }
-  std::nth_element(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(half), keys.end());
-  for (std::size_t k = 0; k < items.size(); ++k) items[k] = keys[k].second;
+struct Entry {
+  typename Box::VectorType centre;
+  std::uint32_t item;
+};
+
+/// Moves the `half` entries with the lowest centres along the longest side of all centres to the
+/// front, equal ones by item.
+template <class Box>
+void divide(std::size_t half, std::span<Entry<Box>> entries) {
+  Box centres;
+  for (const Entry<Box>& entry : entries) centres.extend(entry.centre);
+  int axis = 0;
+  centres.sizes().maxCoeff(&axis);
+  const auto is_before = [axis](const Entry<Box>& a, const Entry<Box>& b) {
+    return a.centre[axis] < b.centre[axis] || (a.centre[axis] == b.centre[axis] && a.item < b.item);
+  };
+  std::nth_element(entries.begin(), entries.begin() + static_cast<std::ptrdiff_t>(half),
+                   entries.end(), is_before);
 }
 
 }  // namespace
@@ -35,8 +37,6 @@ void divide(std::span<const Box> boxes, int axis, std::size_t half,
 template <class Scalar, int kDimension>
 BoxTree<Scalar, kDimension>::BoxTree(std::span<const Box> boxes) {
   if (boxes.empty()) return;
-  items_.resize(boxes.size());
-  std::iota(items_.begin(), items_.end(), 0u);
   nodes_.reserve(boxes.size() / kLeafItems * 4 + 1);
   build(boxes, 0, static_cast<std::uint32_t>(boxes.size()));
   nodes_.shrink_to_fit();
@@ -45,28 +45,35 @@ BoxTree<Scalar, kDimension>::BoxTree(std::span<const Box> boxes) {
 template <class Scalar, int kDimension>
 std::uint32_t BoxTree<Scalar, kDimension>::build(std::span<const Box> boxes, std::uint32_t begin,
                                                  std::uint32_t end) {
-  const auto index = static_cast<std::uint32_t>(nodes_.size());
-  nodes_.emplace_back();
-  Box bounds, centres;
-  for (std::uint32_t k = begin; k < end; ++k) {
-    bounds.extend(boxes[items_[k]]);
-    centres.extend(boxes[items_[k]].center());
-  }
-  nodes_[index].box = bounds;
-  if (end - begin <= kLeafItems) {
-    nodes_[index].link = begin;
-    nodes_[index].count = end - begin;
+  std::vector<Entry<Box>> entries(end - begin);
+  for (std::uint32_t k = begin; k < end; ++k) entries[k - begin] = {boxes[k].center(), k};
+  // A node precedes its children; its box is theirs together.
+  const auto make = [&](const auto& self, std::span<Entry<Box>> some) -> std::uint32_t {
+    const auto index = static_cast<std::uint32_t>(nodes_.size());
+    nodes_.emplace_back();
+    Box bounds;
+    if (some.size() <= kLeafItems) {
+      nodes_[index].link = static_cast<std::uint32_t>(items_.size());
+      nodes_[index].count = static_cast<std::uint32_t>(some.size());
+      for (const Entry<Box>& entry : some) {
+        bounds.extend(boxes[entry.item]);
+        items_.push_back(entry.item);
+      }
+    } else {
+      const std::size_t half = some.size() / 2;
+      divide<Box>(half, some);
+      const std::uint32_t left = self(self, some.first(half));
+      const std::uint32_t right = self(self, some.subspan(half));
+      bounds.extend(nodes_[left].box);
+      bounds.extend(nodes_[right].box);
+      nodes_[index].link = right;
+      nodes_[index].count = 0;
+    }
+    nodes_[index].box = bounds;
     return index;
-  }
-  int axis = 0;
-  centres.sizes().maxCoeff(&axis);
-  const std::uint32_t half = (end - begin) / 2, middle = begin + half;
-  divide(boxes, axis, half, std::span(items_).subspan(begin, end - begin));
-  build(boxes, begin, middle);
-  const std::uint32_t right = build(boxes, middle, end);
-  nodes_[index].link = right;
-  nodes_[index].count = 0;
-  return index;
+  };
+  items_.reserve(entries.size());
+  return make(make, entries);
 }
 
 template class BoxTree<float, 3>;

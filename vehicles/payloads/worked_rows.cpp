@@ -93,6 +93,7 @@ AdjacentRows RowLines::adjacent(const Vector2d& p_W, double heading_rad, double 
   AdjacentRows found;
   // Rows that are farther away than that cannot be beside the position.
   const double far_m = reach_m + std::max(0.0, beyond_end_m);
+  // No heap: they go to a list of fixed length. Where more are that near, all rows are looked at.
   constexpr int kMaxNear = 16;
   std::array<int, kMaxNear> near;
   int near_count = 0;
@@ -104,6 +105,7 @@ AdjacentRows RowLines::adjacent(const Vector2d& p_W, double heading_rad, double 
     ++near_count;
   });
   const bool is_all = near_count > kMaxNear;
+  // In the order of the rows: of two that are equally near the first counts.
   if (!is_all) std::sort(near.begin(), near.begin() + near_count);
   for (int k = 0; k < (is_all ? count() : near_count); ++k) {
     const int row = is_all ? k : near[static_cast<std::size_t>(k)];

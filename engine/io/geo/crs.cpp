@@ -28,6 +28,7 @@ bool names_a_file(const std::string& text) {
   return std::filesystem::exists(text, too_long);
 }
 
+/// A definition that GDAL reads brings its authority's order of axes, so this follows each reading.
 void put_easting_first(OGRSpatialReferenceH crs) {
   gdal().OSRSetAxisMappingStrategy(crs, OAMS_TRADITIONAL_GIS_ORDER);
 }
@@ -75,6 +76,23 @@ Crs parse_crs(const std::string& text) {
   }
   put_easting_first(crs.get());
   return crs;
+}
+
+Crs parse_wkt(const std::string& wkt) {
+  Crs crs;
+  std::string text = wkt;
+  char* rest = text.data();  // GDAL moves it to behind what it has read
+  gdal().OSRImportFromWkt(crs.get(), &rest);
+  put_easting_first(crs.get());
+  return crs;
+}
+
+std::string wkt_of(const Crs& crs) {
+  char* text = nullptr;
+  gdal().OSRExportToWkt(crs.get(), &text);
+  std::string wkt = text == nullptr ? "" : text;
+  gdal().VSIFree(text);
+  return wkt;
 }
 
 Crs make_wgs84() {

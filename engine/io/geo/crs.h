@@ -46,6 +46,11 @@ bool is_georeferenced(OGRSpatialReferenceH crs);
 /// @throws ConfigError "crs = 'x' is not a coordinate reference system, must be like EPSG:32632"
 Crs parse_crs(const std::string& text);
 
+/// @param wkt  of another Crs
+Crs parse_wkt(const std::string& wkt);
+/// WKT that parse_wkt() reads; "" for a system without a definition.
+std::string wkt_of(const Crs& crs);
+
 /// WGS84 with longitude and latitude in degrees, in this order.
 Crs make_wgs84();
 

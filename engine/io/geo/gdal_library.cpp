@@ -8,8 +8,9 @@
 namespace vinerow::io {
 namespace {
 
-/// Without kOwnLibrariesFirst: GDAL and PROJ must call the elementary functions of the program
-/// (engine/elementary). The Python package, whose interpreter has loaded others, links GDAL.
+/// Stays open until the program ends. Without kOwnLibrariesFirst: GDAL and PROJ must call the
+/// elementary functions of the program (engine/elementary). The Python package, whose interpreter
+/// has loaded others, links GDAL.
 GdalLibrary open_gdal() {
   void* library = dlopen(VINEROW_GDAL_FILE, RTLD_LAZY | RTLD_LOCAL);
   if (library == nullptr) {

@@ -16,23 +16,11 @@
 #include "engine/math/geo.h"
 
 namespace vinerow::io {
-namespace {
-
-Crs crs_from_wkt(const std::string& wkt) {
-  const Crs crs;
-  std::string text = wkt;
-  char* read = text.data();  // moved to behind what was read
-  gdal().OSRImportFromWkt(crs.get(), &read);
-  return Crs(crs.get());
-}
-
-}  // namespace
-
 /// Transformation from WGS84 (longitude, latitude in degrees) to the raster's CRS.
 class ToRaster {
  public:
   explicit ToRaster(const ElevationRaster& raster) : raster_(raster) {
-    transformation_ = Transformation(make_wgs84(), crs_from_wkt(raster.crs_wkt));
+    transformation_ = Transformation(make_wgs84(), parse_wkt(raster.crs_wkt));
     if (!transformation_) {
       throw ConfigError(fmt::format("raster '{}': no transformation from WGS84 to '{}'",
                                     raster.file.string(), raster.crs_name));
@@ -104,10 +92,7 @@ void read_crs(ElevationRaster& raster, GDALDatasetH dataset, const std::string& 
     }
     crs = Crs(own);
   }
-  char* wkt = nullptr;
-  gdal().OSRExportToWkt(crs->get(), &wkt);
-  raster.crs_wkt = wkt ? wkt : "";
-  gdal().VSIFree(wkt);
+  raster.crs_wkt = wkt_of(*crs);
   raster.crs_name = crs->name();
 }
 

@@ -37,6 +37,32 @@ TEST(Scheduler, InsideAnInstantStagesKeepTheirOrderWhateverTheOrderOfAdding) {
   EXPECT_EQ(order, "stepgcaj");
 }
 
+std::int64_t fake_ns = 0;  // a clock is a plain function
+int clock_reads = 0;
+std::int64_t read_fake_clock() {
+  ++clock_reads;
+  return fake_ns;
+}
+
+TEST(Scheduler, EachTaskHasItsOwnTimeAndNobodyThatBetweenInstants) {
+  Scheduler scheduler(Duration{10});
+  fake_ns = clock_reads = 0;
+  scheduler.set_clock(read_fake_clock, true);
+  scheduler.add(Stage::kSense, "a", Duration{10}, {}, [](Time) { fake_ns += 30; });
+  scheduler.add(Stage::kPlan, "rare", Duration{20}, {}, [](Time) { fake_ns += 500; });
+  scheduler.add(Stage::kControl, "b", Duration{10}, {}, [](Time) { fake_ns += 7; });
+  for (int k = 0; k < 4; ++k) {
+    scheduler.run_due(Time{k * 10});
+    fake_ns += 1000;
+  }
+  const std::vector<Scheduler::TaskReport> reports = scheduler.reports();
+  ASSERT_EQ(reports.size(), 3u);
+  EXPECT_NEAR(reports[0].wall_s, 4 * 30e-9, 1e-15);
+  EXPECT_NEAR(reports[1].wall_s, 2 * 500e-9, 1e-15);
+  EXPECT_NEAR(reports[2].wall_s, 4 * 7e-9, 1e-15);
+  EXPECT_EQ(clock_reads, 2 * 4 + 2 * 3) << "one for the instant and one for each tick";
+}
+
 TEST(Scheduler, AnOffsetDelaysTheFirstTick) {
   Scheduler scheduler(Duration{10});
   std::vector<std::int64_t> ticks;

@@ -177,7 +177,7 @@ TEST(Surveyed, PointsFarFromEveryRowAreNoted) {
   parameters.set("survey_file", file);
   const auto world = test::make_world("surveyed", parameters);
   ASSERT_EQ(world->notes.size(), 1u);
-  EXPECT_NE(world->notes[0].find("1 vines are farther than 1.00 m from every row"),
+  EXPECT_NE(world->notes[0].find("1 vine left out: farther than 1.00 m from every row"),
             std::string::npos)
       << world->notes[0];
 }
@@ -187,6 +187,7 @@ TEST(Surveyed, FeaturesWithoutAMeaningAreNoted) {
                                                 R"({"type":"FeatureCollection","features":[
         {"type":"Feature","properties":{"type":"row"},"geometry":{"type":"LineString","coordinates":[[8.0,45.0],[8.0,45.0002]]}},
         {"type":"Feature","properties":{"name":"hydrant"},"geometry":{"type":"Point","coordinates":[8.001,45.0001]}},
+        {"type":"Feature","properties":{},"geometry":{"type":"Point","coordinates":[8.001,45.0002]}},
         {"type":"Feature","properties":{"type":"parcel"},"geometry":{"type":"Polygon","coordinates":[[[8,45],[8.001,45],[8.001,45.001],[8,45]]]}}]})");
   ParameterSet parameters = test::world_parameters("surveyed");
   parameters.set("survey_file", file);
@@ -194,8 +195,8 @@ TEST(Surveyed, FeaturesWithoutAMeaningAreNoted) {
   EXPECT_EQ(
       world->notes,
       (std::vector<std::string>{
-          file + ": 1 polygons are left out: the parcel's border runs headland_m around the rows",
-          file + ": 1 points are left out: neither type nor name says vine, tree, pole or post"}));
+          file + ": 1 polygon left out: the parcel's border runs headland_m around the rows",
+          file + ": 2 points left out: neither type nor name says vine, tree, pole or post"}));
 }
 
 }  // namespace

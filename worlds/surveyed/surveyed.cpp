@@ -237,16 +237,16 @@ std::unique_ptr<WorldModel> make_surveyed(const ParameterSet& parameters,
   const double reach_m = smallest_pitch_m(world->rows) / 3.0;
   const Assigned vines = assign_points(survey.vines, frame, rows, reach_m);
   const Assigned poles = assign_points(survey.poles, frame, rows, reach_m);
-  const auto note = [&](int count, const std::string& what) {
-    if (count > 0) world->notes.push_back(fmt::format("{}: {} {}", file, count, what));
+  const auto note = [&](int count, const char* what, const std::string& why) {
+    if (count == 0) return;
+    world->notes.push_back(
+        fmt::format("{}: {} {}{} left out: {}", file, count, what, count == 1 ? "" : "s", why));
   };
-  note(survey.areas, "polygons are left out: the parcel's border runs headland_m around the rows");
-  note(survey.other_points,
-       "points are left out: neither type nor name says vine, tree, pole or post");
-  const std::string far_off =
-      fmt::format(" are farther than {:.2f} m from every row and are left out", reach_m);
-  note(vines.far_off, "vines" + far_off);
-  note(poles.far_off, "poles" + far_off);
+  note(survey.areas, "polygon", "the parcel's border runs headland_m around the rows");
+  note(survey.other_points, "point", "neither type nor name says vine, tree, pole or post");
+  const std::string far_off = fmt::format("farther than {:.2f} m from every row", reach_m);
+  note(vines.far_off, "vine", far_off);
+  note(poles.far_off, "pole", far_off);
 
   std::vector<VineRow> vine_rows;
   for (std::size_t i = 0; i < rows.size(); ++i) {

@@ -1,10 +1,13 @@
 # `cmake --install` gives the command, the shared library, the headers, a package for find_package(vinerow), the Python package and
-# the documentation. Components are Debian packages (packaging/debian.cmake): `runtime`, `dev`, `python`; `texts` is in none of them.
+# the documentation. Components are Debian packages (packaging/debian.cmake): `runtime`, `dev`, `python`, `nets`; `texts` is in none of them.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 install(TARGETS vinerow EXPORT vinerowTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime NAMELINK_COMPONENT dev)
 install(TARGETS vinerow_command RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
+if(TARGET vinerow_net_host)
+  install(TARGETS vinerow_net_host LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT nets)
+endif()
 install(DIRECTORY assets DESTINATION ${CMAKE_INSTALL_DATADIR}/vinerow COMPONENT runtime)
 # README.md and CHANGELOG.md link to files under docs/, so they lie as in the tree.
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/vinerow COMPONENT runtime)

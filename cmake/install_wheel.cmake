@@ -5,6 +5,8 @@ install(TARGETS vinerow vinerow_python LIBRARY DESTINATION vinerow COMPONENT whe
 install(TARGETS vinerow_command RUNTIME DESTINATION vinerow/bin COMPONENT wheel)
 install(DIRECTORY assets DESTINATION vinerow/share/vinerow COMPONENT wheel)
 # Parts written in Python, for the command.
-if(TARGET vinerow_python_host)
-  install(TARGETS vinerow_python_host LIBRARY DESTINATION vinerow COMPONENT wheel OPTIONAL)
-endif()
+foreach(opened_later vinerow_python_host vinerow_net_host)
+  if(TARGET ${opened_later})
+    install(TARGETS ${opened_later} LIBRARY DESTINATION vinerow COMPONENT wheel OPTIONAL)
+  endif()
+endforeach()

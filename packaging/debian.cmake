@@ -1,4 +1,5 @@
-# Debian packages by CPack: vinerow, libvinerow-dev and python3-vinerow (`tools/package` builds and makes them).
+# Debian packages by CPack: vinerow, libvinerow-dev, python3-vinerow and, where OpenCV is at hand, vinerow-nets (`tools/package` builds
+# and makes them).
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME vinerow)
 set(CPACK_PACKAGE_VENDOR "The Vinerow authors")
@@ -11,6 +12,9 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_THREADS 0)
 
 set(CPACK_COMPONENTS_ALL runtime dev python)
+if(TARGET vinerow_net_host)
+  list(APPEND CPACK_COMPONENTS_ALL nets)
+endif()
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -27,7 +31,7 @@ string(REGEX REPLACE "\\.so\\.?" "" gdal_package "${VINEROW_GDAL_FILE}")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS "${gdal_package}")
 # Loaded at run time: without them a run has no pictures, or pictures without words.
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "libosmesa6, fonts-dejavu-core")
-set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "ffmpeg, python3-vinerow, libvinerow-dev")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "ffmpeg, python3-vinerow, libvinerow-dev, vinerow-nets")
 set(CPACK_DEBIAN_RUNTIME_DESCRIPTION "physics simulator of robots in vineyards and orchards
 Rovers, quadrotors and fixed-wing aircraft with their sensors, estimators,
 planners and controllers. A scenario file becomes a log, metrics, pictures, a
@@ -52,13 +56,17 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "vinerow (= ${PROJECT_VERSION}), python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
 set(CPACK_DEBIAN_PYTHON_DESCRIPTION "physics simulator of robots in vineyards - Python
 Steps simulations from Python, and reads logs as NumPy arrays.")
+set(CPACK_DEBIAN_NETS_PACKAGE_NAME vinerow-nets)
+set(CPACK_DEBIAN_NETS_PACKAGE_DEPENDS "vinerow (= ${PROJECT_VERSION})")
+set(CPACK_DEBIAN_NETS_DESCRIPTION "physics simulator of robots in vineyards - neural networks
+Runs ONNX files in estimators, by OpenCV.")
 # Byte code is made at installation and removed with the package, as in Debian's own packages.
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_LIST_DIR}/python/postinst ${CMAKE_CURRENT_LIST_DIR}/python/prerm)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
 # Copyright and changelog of each package, only in packages.
-foreach(component runtime dev python)
+foreach(component ${CPACK_COMPONENTS_ALL})
   string(TOUPPER ${component} upper)
   set(VINEROW_PACKAGE ${CPACK_DEBIAN_${upper}_PACKAGE_NAME})
   install(CODE "set(VINEROW_SOURCE_DIR \"${PROJECT_SOURCE_DIR}\")

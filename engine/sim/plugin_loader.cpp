@@ -7,8 +7,8 @@
 
 #include "engine/api/plugin.h"
 #include "engine/core/error.h"
+#include "engine/core/own_libraries.h"
 #include "engine/sim/abi_difference.h"
-#include "engine/sim/own_libraries_first.h"
 #include "engine/sim/python_parts.h"
 
 namespace vinerow {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "engine/core/error.h"
-#include "engine/sim/own_libraries_first.h"
+#include "engine/core/own_libraries.h"
 
 namespace vinerow {
 namespace {
@@ -17,21 +17,13 @@ constexpr const char* kHostName = "libvinerow_python_host.so";
 
 std::atomic<const PythonParts*> python_parts = nullptr;
 
-/// Folder of the library that contains this function: the host is beside it.
-std::filesystem::path folder_of_this_library() {
-  Dl_info info{};
-  if (dladdr(reinterpret_cast<const void*>(&set_python_parts), &info) == 0 || !info.dli_fname)
-    return {};
-  return std::filesystem::absolute(info.dli_fname).parent_path();
-}
-
 /// @throws ConfigError with the reason why there is no interpreter
 void start_interpreter(const std::filesystem::path& file) {
   const auto fail = [&file](const std::string& reason) {
     throw ConfigError(
         fmt::format("plug-in '{}' is written in Python, but {}", file.string(), reason));
   };
-  const std::filesystem::path host = folder_of_this_library() / kHostName;
+  const std::filesystem::path host = find_own_library(kHostName);
   if (!std::filesystem::exists(host)) {
     fail(fmt::format("{} is missing; install python3-vinerow", host.string()));
   }

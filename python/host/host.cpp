@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <string>
 
-#include "engine/sim/own_libraries_first.h"
+#include "engine/core/own_libraries.h"
 
 namespace vinerow::python {
 namespace {

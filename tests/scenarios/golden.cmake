@@ -3,6 +3,9 @@
 # Only of the release build: sanitizers are too slow for whole missions.
 if(NOT VINEROW_SANITIZE)
   file(GLOB scenarios ${PROJECT_SOURCE_DIR}/assets/scenarios/*.yaml)
+  if(NOT VINEROW_NETS)
+    list(FILTER scenarios EXCLUDE REGEX "vineyard_row_net")
+  endif()
   foreach(scenario ${scenarios})
     get_filename_component(name ${scenario} NAME_WE)
     add_test(NAME golden.${name}
@@ -16,7 +19,11 @@ if(NOT VINEROW_SANITIZE)
   # The first seconds on a processor of 2008, emulated: no library can ask this one for AVX or FMA.
   find_program(QEMU_X86_64 qemu-x86_64-static)
   if(QEMU_X86_64 AND CMAKE_HOST_SYSTEM_PROCESSOR STREQUAL "x86_64")
-    foreach(name orchard_rover vineyard_4ws_two_rows vineyard_scan)
+    set(emulated orchard_rover vineyard_4ws_two_rows vineyard_scan)
+    if(VINEROW_NETS)
+      list(APPEND emulated vineyard_row_net)
+    endif()
+    foreach(name ${emulated})
       add_test(NAME golden_nehalem.${name}
                COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/golden.py start $<TARGET_FILE:vinerow_command>
                        ${name} --under "${QEMU_X86_64} -cpu Nehalem")

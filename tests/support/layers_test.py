@@ -11,6 +11,7 @@ CORE, MATH, API = "engine/core", "engine/math", "engine/api"
 BASE = [CORE, MATH, API]
 PHYSICS, IO, SCENARIO, SENSORS = "engine/physics", "engine/io", "engine/scenario", "engine/sensors"
 IMAGING, RENDER, RECORD, METRICS = "engine/imaging", "engine/render", "engine/record", "engine/metrics"
+NETS = "engine/nets"
 SIM, PLAYBACK, RUN = "engine/sim", "engine/playback", "engine/run"
 ROS2, LIVE, MAVLINK = "engine/ros2", "engine/live", "engine/mavlink"
 FILES, GEO, CLOUDS = "engine/io/files", "engine/io/geo", "engine/io/clouds"
@@ -50,6 +51,7 @@ ALLOWED = {
     RUN: BASE + [IO, SCENARIO, RECORD, SIM, PLAYBACK],
     ROS2: BASE + [RECORD],
     MAVLINK: [CORE],
+    NETS: [CORE],
     LIVE: BASE + [IO, SCENARIO, RECORD, SIM, RUN, ROS2, MAVLINK],
     # One folder for each vehicle, which knows the shared parts and no other vehicle.
     "vehicles": BASE + [PHYSICS, IO, VEHICLE_PARTS],
@@ -89,7 +91,7 @@ ALLOWED = {
     "controllers/estimation/odometry": BASE + CONTROLLER_PARTS + [ESTIMATION_PARTS],
     "controllers/estimation/row_localisation": BASE + [ESTIMATION_PARTS],
     # The ground of a map of rows.
-    "controllers/estimation/row_camera": BASE + [ESTIMATION_PARTS, "controllers/estimation/row_localisation"],
+    "controllers/estimation/row_camera": BASE + [NETS, ESTIMATION_PARTS, "controllers/estimation/row_localisation"],
     SEARCH: BASE + [PATHS],
     SURVEY: BASE + [PATHS, GEO, "engine/io/missions"],  # parcels and missions of ground stations
     ROUTES: BASE + [PATHS, SEARCH, "engine/io/missions"],
@@ -124,7 +126,7 @@ NAMESPACE = {
     **{room: "vinerow" for room in (CORE, MATH, API, SIM, "tools/parts")},
     "tools/testing": "vinerow",
     **{room: "vinerow::" + room.split("/")[1]
-       for room in (IMAGING, PHYSICS, IO, SCENARIO, SENSORS, RENDER, RECORD, METRICS, PLAYBACK, RUN)},
+       for room in (IMAGING, NETS, PHYSICS, IO, SCENARIO, SENSORS, RENDER, RECORD, METRICS, PLAYBACK, RUN)},
     "vehicles": "vinerow::vehicles",
     "worlds": "vinerow::worlds",
     MAPPING: "vinerow::mapping",
@@ -152,6 +154,7 @@ OUTSIDE = {
     r"ft2build|freetype": [RENDER],
     r"zstd|lz4|zlib": [RECORD],
     r"ompl/": [SEARCH],
+    r"opencv2/": [NETS],
     r"CLI/": ["tools"],
     r"boost/random": [SCENARIO],
     r"sqlite3": ["tools/study"],

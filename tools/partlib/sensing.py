@@ -224,6 +224,11 @@ vehicles:
     runs.save(figure, "clouds")
 
 
+# sky, ground, leaf, wood, bunch, fruit, post, wire, obstacle, vehicle, person, weed
+LABEL_COLOURS = np.array([[150, 190, 235], [176, 146, 102], [70, 150, 60], [102, 66, 40], [122, 44, 140], [214, 90, 48], [190, 192, 196],
+                          [240, 220, 70], [220, 40, 40], [30, 90, 200], [240, 90, 190], [150, 220, 60]], np.uint8)  # fmt: skip
+
+
 def draw_camera(runs: Runs) -> None:
     """One picture of a camera in an alley: colours, depth, labels and things."""
     run = runs.run("camera", "vineyard_camera", "duration_s=2.5", "vehicles.rover.sensors.front.width_px=640",
@@ -235,9 +240,6 @@ def draw_camera(runs: Runs) -> None:
     for layer in layers:
         runs.call("export", run, "--topic", f"/rover/{layer}", "-o", folder)
     figure, axes = panels(2, 2, width=8.6, height=3.25)
-    # sky, ground, leaf, wood, bunch, fruit, post, wire, obstacle, vehicle, person, weed
-    labels = np.array([[150, 190, 235], [176, 146, 102], [70, 150, 60], [102, 66, 40], [122, 44, 140], [214, 90, 48], [190, 192, 196],
-                       [240, 220, 70], [220, 40, 40], [30, 90, 200], [240, 90, 190], [150, 220, 60]], np.uint8)  # fmt: skip
     for ax, (layer, title) in zip(axes, layers.items()):
         picture = np.array(Image.open(sorted((folder / f"rover_{layer}").glob("*.png"))[-1]))
         bare(ax)
@@ -247,7 +249,7 @@ def draw_camera(runs: Runs) -> None:
             shown = ax.imshow(depth, cmap="viridis_r", vmin=0, vmax=15)
             figure.colorbar(shown, ax=ax, label="m", fraction=0.035, pad=0.01)
         elif layer == "front_semantic":
-            ax.imshow(labels[picture])
+            ax.imshow(LABEL_COLOURS[picture])
         elif layer == "front_instance":
             number = picture.astype(np.uint32) @ np.array([1, 256, 65536], np.uint32)
             mixed = number * np.uint32(2654435761)
@@ -255,6 +257,24 @@ def draw_camera(runs: Runs) -> None:
         else:
             ax.imshow(picture)
     runs.save(figure, "camera")
+
+
+def draw_net(runs: Runs) -> None:
+    """What the net of vineyard_row_net sees and finds, in winter and in summer, beside the exact labels."""
+    layers = {"front": "colours", "net_labels": "labels of the net", "front_semantic": "exact labels"}
+    figure, axes = panels(2, 3, width=8.6, height=2.2)
+    axes = iter(axes)
+    for season, bbch in (("winter", 0), ("ripening", 85)):
+        run = runs.run(f"net_{bbch}", "vineyard_row_net", "duration_s=6", f"world.vines.bbch={bbch}",
+                       "vehicles.rover.sensors.front.semantic=true")  # fmt: skip
+        for layer, title in layers.items():
+            runs.call("export", run, "--topic", f"/rover/{layer}", "-o", run.parent / "pictures")
+            picture = np.array(Image.open(sorted((run.parent / "pictures" / f"rover_{layer}").glob("*.png"))[-1]))
+            ax = next(axes)
+            bare(ax)
+            ax.set_title(f"{season}: {title}")
+            ax.imshow(picture if layer == "front" else LABEL_COLOURS[picture], interpolation="nearest")
+    runs.save(figure, "net")
 
 
 def draw_dataset(runs: Runs) -> None:

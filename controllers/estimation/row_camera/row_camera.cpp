@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "controllers/estimation/parts/estimator_events.h"
 #include "controllers/estimation/parts/trace.h"
 #include "controllers/estimation/parts/wheel_speed.h"
+#include "controllers/estimation/row_camera/net_labels.h"
 #include "controllers/estimation/row_camera/row_camera_filter.h"
 #include "controllers/estimation/row_camera/row_marks.h"
 #include "controllers/estimation/row_localisation/row_ground.h"
@@ -24,19 +26,33 @@ namespace {
 struct RowCameraParams {
   std::string camera = "camera", imu = "imu", wheels = "encoders";
   RowMarksParams marks;
+  NetLabelsParams net;
   RowCameraFilterParams filter;
+
+  bool has_net() const { return !net.model.empty(); }
+  bool reads_labels() const {
+    return marks.source == RowMarksParams::Source::kLabels && !has_net();
+  }
 };
+
+std::string fault_of(const RowCameraParams& params) {
+  const bool is_unused =
+      params.has_net() && params.marks.source == RowMarksParams::Source::kColours;
+  return is_unused ? "model finds labels, but marks: colours uses none; remove one of them" : "";
+}
 
 const ParameterTable<RowCameraParams>& row_camera_table() {
   using P = RowCameraParams;
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .text("camera", &P::camera,
-                "sensor of type camera; marks: labels needs its `semantic: true`")
+                "sensor of type camera; marks: labels without a model needs its `semantic: true`")
           .text("imu", &P::imu, "signal of the inertial unit, whose rate about z is used")
           .text("wheels", &P::wheels, "signal of the wheel speeds")
           .include(&P::marks, row_marks_table())
-          .include(&P::filter, row_camera_filter_table());
+          .include(&P::net, net_labels_table())
+          .include(&P::filter, row_camera_filter_table())
+          .rule(&fault_of);
   return table;
 }
 
@@ -89,16 +105,18 @@ class RowCamera final : public Estimator {
         filter_(params.filter, lines_of(context)),
         ground_(*context.map),
         height_m_(context.vehicle_description->height_above_ground_m),
-        random_(context.random("start")) {}
+        random_(context.random("start")) {
+    if (params.has_net()) net_.emplace(params.net, part_ + " (row_camera)");
+  }
 
   void connect(Ports& ports) override {
     truth_ = ports.read<Odometry>("truth");
     imu_ = ports.read<ImuSample>(params_.imu);
     wheels_ = ports.read<NamedValues>(params_.wheels);
-    const bool has_labels = params_.marks.source == RowMarksParams::Source::kLabels;
-    picture_ = ports.read<Picture>(params_.camera + (has_labels ? "_semantic" : ""));
+    picture_ = ports.read<Picture>(params_.camera + (params_.reads_labels() ? "_semantic" : ""));
     info_ = ports.read<CameraInfo>(params_.camera + "_info");
     estimate_ = ports.write<Odometry>("estimate");
+    if (net_) labels_ = ports.write<Picture>("net_labels");
     events_.connect(ports);
   }
 
@@ -136,14 +154,8 @@ class RowCamera final : public Estimator {
   void take_picture(Time now) {
     if (!marks_.has_camera() && info_.has_value()) marks_.set_camera(info_.value());
     if (!marks_.has_camera() || !picture_.is_newer_than(seen_)) return;
-    if (picture_.value().format != marks_.format()) {
-      throw SimulationError(
-          part_, now,
-          fmt::format("marks: colours needs a camera with picture: colour, which '{}' is not",
-                      params_.camera));
-    }
     const PastState past = trace_.at(picture_.stamp());
-    const int used = filter_.correct(marks_.find(picture_.value()), past.x);
+    const int used = filter_.correct(marks_.find(usable_picture(now)), past.x);
     if (used >= kFew) {
       last_seen_ = now;
       is_lost_ = false;
@@ -151,6 +163,24 @@ class RowCamera final : public Estimator {
       is_lost_ = true;
       events_.report_event(Event::Level::kWarning,
                            "no row has been seen for 5 s: dead reckoning alone");
+    }
+  }
+
+  /// What the marks are found in.
+  const Picture& usable_picture(Time now) {
+    const Picture& seen = picture_.value();
+    if (!params_.reads_labels() && seen.format != Picture::Format::kRgb8) {
+      throw SimulationError(part_, now,
+                            fmt::format("{} needs a camera with picture: colour, which '{}' is not",
+                                        net_ ? "model" : "marks: colours", params_.camera));
+    }
+    if (!net_) return seen;
+    try {
+      const Picture& labels = net_->find(seen);
+      labels_.write(picture_.stamp(), labels);
+      return labels;
+    } catch (const ConfigError& error) {
+      throw SimulationError(part_, now, error.what());
     }
   }
 
@@ -179,6 +209,7 @@ class RowCamera final : public Estimator {
   double period_s_;
   WheelSpeed wheel_speed_;
   RowMarks marks_;
+  std::optional<NetLabels> net_;
   RowCameraFilter filter_;
   RowGround ground_;
   double height_m_;
@@ -194,6 +225,7 @@ class RowCamera final : public Estimator {
   SignalReader<Picture> picture_;
   SignalReader<CameraInfo> info_;
   SignalWriter<Odometry> estimate_;
+  SignalWriter<Picture> labels_;  // what the net found
   EstimatorEvents events_;
 };
 
@@ -203,13 +235,15 @@ PartSpec row_camera_spec() {
   PartSpec spec;
   spec.name = "row_camera";
   spec.description =
-      "Place and heading between mapped rows from a camera's picture (feet of trunks and posts, or "
-      "borders of bare strips), wheels and a rate gyro; no satellites.";
+      "Place and heading between mapped rows from a camera's picture (feet of trunks and posts, "
+      "whose "
+      "labels may come from a neural network, or borders of bare strips), wheels and a rate gyro; "
+      "no satellites.";
   spec.parameters = row_camera_table().specs();
   spec.default_rate_Hz = 40.0;
   spec.reads = {"<camera>_semantic or <camera>", "<camera>_info", "<imu>", "<wheels>",
                 "truth (start)"};
-  spec.writes = {"estimate"};
+  spec.writes = {"estimate", "net_labels"};
   return spec;
 }
 

@@ -56,6 +56,9 @@ const ParameterTable<RowMarksParams>& row_marks_table() {
                   "marks are used from this distance ahead of the vehicle's origin")
           .number("farthest_m", "m", &P::farthest_m, between(0.1, 100.0),
                   "up to this distance; the ground is taken as flat")
+          .integer("foot_px", &P::foot_px, between(1, 100),
+                   "a trunk or post has at least so many pixels above its foot; less is taken for "
+                   "an error of the labels (marks: labels)")
           .number("strip_half_width_m", "m", &P::strip_half_width_m, between(0.0, 2.0),
                   "half width of the bare strip (marks: colours)")
           .degrees("tilt_std_deg", &P::tilt_std_rad, between(0.0, 20.0),
@@ -109,13 +112,18 @@ void RowMarks::add(const Point& ground_B, double before_row_m) {
 
 void RowMarks::find_feet(const Picture& labels) {
   const auto label = [&](int x, int y) { return static_cast<Label>(labels.data[index(x, y)]); };
+  const auto stands = [&](int x, int y) {
+    return label(x, y) == Label::kWood || label(x, y) == Label::kPost;
+  };
   for (int x = 0; x < width_; ++x) {
     int y = height_ - 1;
     while (y > 0 && label(x, y) == Label::kVehicle) --y;
     while (y > 0 && label(x, y) == Label::kGround) --y;
     // Leaves and bunches that hang before the foot hide it.
-    const bool is_foot = label(x, y) == Label::kWood || label(x, y) == Label::kPost;
-    if (!is_foot || y + 1 >= height_ || label(x, y + 1) != Label::kGround) continue;
+    if (y + 1 >= height_ || label(x, y + 1) != Label::kGround) continue;
+    int tall_px = 0;
+    while (tall_px < params_.foot_px && y >= tall_px && stands(x, y - tall_px)) ++tall_px;
+    if (tall_px < params_.foot_px) continue;
     const auto& ground_B = ground_B_[index(x, y)];
     if (ground_B) add(*ground_B, 0.0);
   }

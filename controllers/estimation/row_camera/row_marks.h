@@ -3,6 +3,7 @@
 ///
 /// labels   picture of labels: the feet of trunks and posts. In each column, from below, the first
 ///          pixel of wood or of a post whose lower neighbour is ground stands on the row's line.
+///          The labels may come from a net (net_labels.h), which makes errors of single pixels.
 /// colours  picture in colours: the border of the bare strip under the plants. In each row of
 ///          pixels, from the middle outwards, soil begins `strip_half_width_m` before the row's
 ///          line where the colour turns from green to brown. Brown is what has more red against
@@ -35,6 +36,7 @@ struct RowMarksParams {
   enum class Source { kLabels, kColours } source = Source::kLabels;
   double nearest_m = 0.8;  ///< ahead of B
   double farthest_m = 6.0;
+  int foot_px = 1;
   double strip_half_width_m = 0.34;
   double tilt_std_rad = 0.02;
 };

@@ -6,7 +6,8 @@ usage: bindings.py VINEROW IO_TEST
 
 The dynamic linker prints where it binds each symbol (LD_DEBUG=bindings). The C library chooses its functions by what the
 processor offers, so a single call that reaches it makes the digest of a run that of one kind of processor. GDAL and PROJ come when
-a file needs them, so the program reads one; so does IO_TEST, which has the functions without the shared library.
+a file needs them, so the program reads one; so does IO_TEST, which has the functions without the shared library. OpenCV comes with
+the first neural network.
 
 With --python, the same for an interpreter that imports the package vinerow. It has loaded the C library before, and its own
 modules may call that.
@@ -18,6 +19,7 @@ import subprocess
 import sys
 import tempfile
 
+SCENARIO_WITH_NET = os.path.join(os.path.dirname(__file__), "../../../assets/scenarios/vineyard_row_net.yaml")
 FUNCTIONS = """sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp exp2 exp10 expm1 log log2 log10 log1p pow cbrt
 hypot erf erfc tgamma sincos""".split()
 NAMES = {name + ending for name in FUNCTIONS for ending in ("", "f")}
@@ -25,7 +27,8 @@ BINDING = re.compile(r"binding file (\S+) \[\d+\] to (\S+) \[\d+\]: normal symbo
 # Libraries that state passes on its way: they do call elementary functions, so the test sees something.
 GEODATA = ("libproj", "libgdal")
 WITNESSES = ("libompl", "libGeographic", "libassimp")
-OURS = (*WITNESSES, *GEODATA, "libvinerow", "libBullet", "libLinearMath")
+NETS = ("libopencv_dnn",)
+OURS = (*WITNESSES, *GEODATA, *NETS, "libvinerow", "libBullet", "libLinearMath")
 
 
 def bindings(command):
@@ -64,10 +67,14 @@ def main():
                 file.write("500000 5000000 100\n500001 5000000 100\n500000 5000001 100\n")
             mapping = [vinerow, "map", cloud, "--crs", "EPSG:25832", "--out", os.path.join(folder, "map")]
             wrong = faults("map", mapping, WITNESSES + GEODATA)
+        if os.path.exists(os.path.join(os.path.dirname(vinerow), "../lib/libvinerow_net_host.so")):
+            with tempfile.TemporaryDirectory() as folder:
+                run = [vinerow, "run", SCENARIO_WITH_NET, "--set", "duration_s=0.1", "--out", folder, "--no-pictures", "--no-report", "--quiet"]
+                wrong += faults("net", run, NETS)
         wrong += faults("io_test", [other, "--gtest_filter=LocalToCrs.*"], GEODATA)
-        # Loading GDAL would take most of the time that a program needs until main().
+        # Loading these would take most of the time that a program needs until main().
         loaded = {os.path.basename(source) for source, _, _ in bindings([vinerow, "--version"])}
-        wrong += [f"the program loads {library} at its start" for library in loaded if library.startswith(GEODATA)]
+        wrong += [f"the program loads {library} at its start" for library in loaded if library.startswith(GEODATA + NETS)]
     for fault in wrong:
         print(fault)
     sys.exit(1 if wrong else 0)

@@ -100,6 +100,27 @@ TEST(RowMarks, LeavesThatHangBeforeTheFootHideIt) {
   EXPECT_TRUE(marks.find(labels).empty());
 }
 
+TEST(RowMarks, AFootHasATrunkAboveIt) {
+  // Columns with 1, 2, ... pixels of wood on the ground, leaves above.
+  Picture labels = empty_picture(Picture::Format::kMono8);
+  for (int v = 0; v < 240; ++v) {
+    for (int u = 0; u < 320; ++u) {
+      const int tall_px = u % 8;
+      const Label label = v > 180             ? Label::kGround
+                          : v > 180 - tall_px ? Label::kWood
+                                              : Label::kLeaf;
+      labels.data[static_cast<std::size_t>(v) * 320 + u] = static_cast<std::uint8_t>(label);
+    }
+  }
+  for (const int foot_px : {1, 3, 7}) {
+    RowMarksParams params;
+    params.foot_px = foot_px;
+    RowMarks marks(params, mounting(), kHeight_m);
+    marks.set_camera(camera());
+    EXPECT_EQ(marks.find(labels).size(), 40u * static_cast<std::size_t>(8 - foot_px)) << foot_px;
+  }
+}
+
 TEST(RowMarks, FindTheBordersOfBareStripsInAnyLight) {
   RowMarksParams params;
   params.source = RowMarksParams::Source::kColours;

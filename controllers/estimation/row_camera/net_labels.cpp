@@ -1,0 +1,104 @@
+#include "controllers/estimation/row_camera/net_labels.h"
+
+#include <fmt/format.h>
+
+#include "engine/api/parameter_table.h"
+#include "engine/core/error.h"
+#include "engine/core/suggest.h"
+
+namespace vinerow::controllers {
+namespace {
+
+Label label_of_class(const std::string& name, const std::string& part) {
+  std::vector<std::string> known;
+  for (int i = 0; i < kLabelCount; ++i) {
+    const auto label = static_cast<Label>(i);
+    if (name == to_string(label)) return label;
+    known.emplace_back(to_string(label));
+  }
+  throw ConfigError(fmt::format("{}: model_classes has '{}', which is none of the labels {}{}",
+                                part, name, join(known), did_you_mean(name, known)));
+}
+
+std::vector<Label> labels_of_classes(const std::vector<std::string>& names,
+                                     const std::string& part) {
+  std::vector<Label> labels;
+  for (const std::string& name : names) labels.push_back(label_of_class(name, part));
+  return labels;
+}
+
+std::unique_ptr<nets::SegmentationNet> open_net(const std::string& model, const std::string& part) {
+  try {
+    return std::make_unique<nets::SegmentationNet>(model);
+  } catch (const ConfigError& error) {
+    throw ConfigError(fmt::format("{}: {}", part, error.what()));
+  }
+}
+
+}  // namespace
+
+const ParameterTable<NetLabelsParams>& net_labels_table() {
+  using P = NetLabelsParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .path("model", &P::model,
+                "ONNX file of a segmentation net that finds the labels in the colour picture "
+                "(marks: labels); default: the camera's own labels")
+          .texts("model_classes", &P::classes,
+                 "labels of the model's classes, in the order of its scores")
+          .numbers("model_mean", "", &P::mean, kAnyNumber,
+                   "of red, green and blue, 0 to 1: subtracted from the picture")
+          .numbers("model_std", "", &P::std, kPositive, "by which the rest is divided");
+  return table;
+}
+
+NetLabels::NetLabels(const NetLabelsParams& params, const std::string& part)
+    : model_(params.model),
+      classes_(labels_of_classes(params.classes, part)),
+      net_(open_net(params.model, part)) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t byte = 0; byte < 256; ++byte) {
+      const double share = static_cast<double>(byte) / 255.0;
+      value_of_byte_[c][byte] = static_cast<float>((share - params.mean[c]) / params.std[c]);
+    }
+  }
+  labels_.format = Picture::Format::kMono8;
+}
+
+const Picture& NetLabels::find(const Picture& colours) {
+  const std::size_t count = std::size_t{colours.width} * colours.height;
+  planes_.resize(3 * count);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      planes_[c * count + i] = value_of_byte_[c][colours.data[3 * i + c]];
+    }
+  }
+  const int width = static_cast<int>(colours.width), height = static_cast<int>(colours.height);
+  const nets::Scores scores = net_->run(planes_, height, width);
+  if (scores.classes != static_cast<int>(classes_.size())) {
+    throw ConfigError(
+        fmt::format("model '{}' gives scores of {} classes, but model_classes lists {}", model_,
+                    scores.classes, classes_.size()));
+  }
+  labels_.width = colours.width;
+  labels_.height = colours.height;
+  labels_.data.resize(count);
+  const std::size_t cells =
+      static_cast<std::size_t>(scores.height) * static_cast<std::size_t>(scores.width);
+  for (int y = 0; y < height; ++y) {
+    const int row = y * scores.height / height;
+    for (int x = 0; x < width; ++x) {
+      const float* at = &scores.values[static_cast<std::size_t>(row) * scores.width +
+                                       static_cast<std::size_t>(x * scores.width / width)];
+      std::size_t best = 0;
+      for (std::size_t k = 1; k < classes_.size(); ++k) {
+        if (at[k * cells] > at[best * cells]) best = k;
+      }
+      labels_.data[static_cast<std::size_t>(y) * colours.width + static_cast<std::size_t>(x)] =
+          static_cast<std::uint8_t>(classes_[best]);
+    }
+  }
+  return labels_;
+}
+
+}  // namespace vinerow::controllers

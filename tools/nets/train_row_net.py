@@ -24,6 +24,7 @@ IGNORED = 255
 # Trunks and posts are a few percent of the pixels, and their feet are what matters.
 WEIGHTS = [1.0, 1.0, 1.0, 3.0, 3.0]
 
+
 def load(folder, part):
     """Pictures, n x h x w x 3 of 0..255, and their classes, n x h x w."""
     table = np.full(256, IGNORED, np.uint8)

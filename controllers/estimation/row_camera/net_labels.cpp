@@ -27,6 +27,7 @@ std::vector<Label> labels_of_classes(const std::vector<std::string>& names,
   return labels;
 }
 
+/// Errors name the part, so that the message points to the scenario's line.
 std::unique_ptr<nets::SegmentationNet> open_net(const std::string& model, const std::string& part) {
   try {
     return std::make_unique<nets::SegmentationNet>(model);
@@ -56,6 +57,7 @@ NetLabels::NetLabels(const NetLabelsParams& params, const std::string& part)
     : model_(params.model),
       classes_(labels_of_classes(params.classes, part)),
       net_(open_net(params.model, part)) {
+  // A byte has 256 values: the division is done once for each.
   for (std::size_t c = 0; c < 3; ++c) {
     for (std::size_t byte = 0; byte < 256; ++byte) {
       const double share = static_cast<double>(byte) / 255.0;
@@ -83,8 +85,16 @@ const Picture& NetLabels::find(const Picture& colours) {
   labels_.width = colours.width;
   labels_.height = colours.height;
   labels_.data.resize(count);
-  const std::size_t cells =
+  label_pixels(scores);
+  return labels_;
+}
+
+void NetLabels::label_pixels(const nets::Scores& scores) {
+  const int width = static_cast<int>(labels_.width), height = static_cast<int>(labels_.height);
+  // Scores lie class by class: those of a pixel are a whole grid apart.
+  const std::size_t grid =
       static_cast<std::size_t>(scores.height) * static_cast<std::size_t>(scores.width);
+  std::size_t pixel = 0;
   for (int y = 0; y < height; ++y) {
     const int row = y * scores.height / height;
     for (int x = 0; x < width; ++x) {
@@ -92,13 +102,11 @@ const Picture& NetLabels::find(const Picture& colours) {
                                        static_cast<std::size_t>(x * scores.width / width)];
       std::size_t best = 0;
       for (std::size_t k = 1; k < classes_.size(); ++k) {
-        if (at[k * cells] > at[best * cells]) best = k;
+        if (at[k * grid] > at[best * grid]) best = k;
       }
-      labels_.data[static_cast<std::size_t>(y) * colours.width + static_cast<std::size_t>(x)] =
-          static_cast<std::uint8_t>(classes_[best]);
+      labels_.data[pixel++] = static_cast<std::uint8_t>(classes_[best]);
     }
   }
-  return labels_;
 }
 
 }  // namespace vinerow::controllers

@@ -39,6 +39,8 @@ class NetLabels {
   const Picture& find(const Picture& colours);
 
  private:
+  void label_pixels(const nets::Scores& scores);
+
   std::string model_;
   std::vector<Label> classes_;
   std::unique_ptr<nets::SegmentationNet> net_;

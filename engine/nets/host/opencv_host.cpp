@@ -83,7 +83,7 @@ VINEROW_EXPORTED const VinerowNetScores* vinerow_net_run(VinerowNet* net, const 
     net->net.setInput(cv::Mat(4, size, CV_32F, const_cast<float*>(planes)));
     net->scores = net->net.forward();
     const cv::Mat& found = net->scores;
-    const bool is_plain = found.type() == CV_32F && found.isContinuous();
+    const bool is_plain = found.type() == CV_32F && found.isContinuous() && found.total() > 0;
     if (!is_plain || found.dims != 4 || found.size[0] != 1) {
       std::string shape;
       for (int i = 0; i < found.dims; ++i) {

@@ -40,6 +40,9 @@ class SignalBase {
   std::uint64_t forgotten() const { return forgotten_; }
   const std::string& writer() const { return writer_; }
   const std::string& first_reader() const { return first_reader_; }
+  /// Name of the signal in whose frame this one is, for what a part computes from a sensor's
+  /// reading, e.g. "rover/front"; empty: its frame is the one of its own name.
+  const std::string& frame_source() const { return frame_source_; }
   /// True if the signal has a reader, also an optional one.
   bool is_read() const { return is_read_; }
 
@@ -59,6 +62,7 @@ class SignalBase {
   std::uint64_t sequence_ = 0;
   std::uint64_t forgotten_ = 0;
   std::string writer_;
+  std::string frame_source_;
   std::string first_reader_;
   bool is_read_ = false;
 };
@@ -142,9 +146,11 @@ class SignalWriter {
 
 class SignalBus {
  public:
+  /// @param frame_source  see SignalBase::frame_source()
   /// @throws ConfigError if the name has a writer already or another type.
   template <class T>
-  SignalWriter<T> advertise(const std::string& name, const std::string& writer);
+  SignalWriter<T> advertise(const std::string& name, const std::string& writer,
+                            const std::string& frame_source = {});
 
   /// The signal may be advertised later; check_connected() finds those that never were.
   /// @throws ConfigError if the name has another type.
@@ -184,11 +190,13 @@ class SignalBus {
 };
 
 template <class T>
-SignalWriter<T> SignalBus::advertise(const std::string& name, const std::string& writer) {
+SignalWriter<T> SignalBus::advertise(const std::string& name, const std::string& writer,
+                                     const std::string& frame_source) {
   SignalBase& signal = slot(name, message_type<T>(), writer, [](const std::string& n) {
     return std::unique_ptr<SignalBase>(std::make_unique<Signal<T>>(n));
   });
   set_writer(signal, writer);
+  signal.frame_source_ = frame_source;
   return SignalWriter<T>(static_cast<Signal<T>*>(&signal));
 }
 
@@ -251,8 +259,12 @@ class Ports {
   }
   template <class T>
   SignalWriter<T> write(const std::string& name) {
-    const auto other = written_as_.find(name);
-    return bus_.advertise<T>(full_name(other == written_as_.end() ? name : other->second), part_);
+    return bus_.advertise<T>(name_to_write(name), part_);
+  }
+  /// Like write, for a signal in the frame of another one, e.g. labels of a camera's picture.
+  template <class T>
+  SignalWriter<T> write_in_frame_of(const std::string& source, const std::string& name) {
+    return bus_.advertise<T>(name_to_write(name), part_, full_name(source));
   }
   const std::string& scope() const { return scope_; }
   const std::string& part() const { return part_; }
@@ -260,6 +272,10 @@ class Ports {
  private:
   std::string full_name(const std::string& name) const {
     return name.find('/') == std::string::npos ? scope_ + "/" + name : name;
+  }
+  std::string name_to_write(const std::string& name) const {
+    const auto other = written_as_.find(name);
+    return full_name(other == written_as_.end() ? name : other->second);
   }
   SignalBus& bus_;
   std::string scope_;

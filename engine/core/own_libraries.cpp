@@ -1,6 +1,16 @@
 #include "engine/core/own_libraries.h"
 
+#include <dlfcn.h>
+
 namespace vinerow {
+
+int own_libraries_first() {
+#ifdef __SANITIZE_ADDRESS__
+  return 0;
+#else
+  return RTLD_DEEPBIND;
+#endif
+}
 
 std::filesystem::path find_own_library(const std::string& name) {
   Dl_info info{};

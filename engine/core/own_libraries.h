@@ -1,8 +1,6 @@
 #pragma once
 /// Libraries that belong to the simulator and are opened at run time, where they are needed.
 
-#include <dlfcn.h>
-
 #include <filesystem>
 #include <string>
 
@@ -10,11 +8,7 @@ namespace vinerow {
 
 /// Flag of dlopen() with which a library takes symbols from its own libraries before those that the
 /// program has loaded. The address sanitizer refuses it: its functions must come first.
-#ifdef __SANITIZE_ADDRESS__
-inline constexpr int kOwnLibrariesFirst = 0;
-#else
-inline constexpr int kOwnLibrariesFirst = RTLD_DEEPBIND;
-#endif
+int own_libraries_first();
 
 /// Path of such a library: beside the library or program that contains this function, or in the
 /// folder `lib` next to a program's `bin`. It need not exist.

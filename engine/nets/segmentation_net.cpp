@@ -30,7 +30,7 @@ Host open_host() {
         fmt::format("{} is missing; install vinerow-nets, or build with OpenCV", file.string());
     return host;
   }
-  void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | kOwnLibrariesFirst);
+  void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | own_libraries_first());
   if (library == nullptr) {
     host.fault = fmt::format("OpenCV cannot be loaded: {}", dlerror());
     return host;

@@ -366,6 +366,10 @@ std::map<std::string, std::string> frames_of_readings(const Simulation& simulati
       }
     }
   }
+  for (const auto& signal : simulation.bus().signals()) {
+    const auto source = frames.find(signal->frame_source());
+    if (source != frames.end()) frames[signal->name()] = source->second;
+  }
   return frames;
 }
 

@@ -37,7 +37,8 @@ std::string sensor_frame(const std::string& vehicle, const std::string& sensor,
 /// Mountings of the sensors of all vehicles. @pre the vehicles' parts were built once
 std::vector<record::StaticTransform> sensor_transforms(const Simulation& simulation);
 
-/// Frames of the signals of sensors' readings, and of their error-free readings, by signal.
+/// Frames of the signals of sensors' readings, of their error-free readings, and of what is
+/// computed from them (SignalBase::frame_source()), by signal.
 std::map<std::string, std::string> frames_of_readings(const Simulation& simulation);
 
 }  // namespace vinerow::playback

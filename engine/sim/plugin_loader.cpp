@@ -40,7 +40,7 @@ void load_plugin(const std::filesystem::path& file, Registry& registry) {
   const std::string path = std::filesystem::absolute(file).string();
   // A plug-in must call the simulator's elementary functions (engine/elementary). The command loads
   // them before the C library; an interpreter that imports the simulator does not.
-  void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL | kOwnLibrariesFirst);
+  void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL | own_libraries_first());
   if (!library)
     throw ConfigError(fmt::format("plug-in '{}' cannot be loaded: {}", file.string(), dlerror()));
 

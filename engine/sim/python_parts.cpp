@@ -30,7 +30,7 @@ void start_interpreter(const std::filesystem::path& file) {
   // Python's extension modules find the interpreter among the global symbols. Its own libraries
   // come first: sin in a part is then that of the machine's C library, as in any interpreter, and
   // not the simulator's.
-  void* library = dlopen(host.c_str(), RTLD_NOW | RTLD_GLOBAL | kOwnLibrariesFirst);
+  void* library = dlopen(host.c_str(), RTLD_NOW | RTLD_GLOBAL | own_libraries_first());
   if (!library) fail(fmt::format("its interpreter cannot be loaded: {}", dlerror()));
   using Start = const char* (*)();
   const auto start = reinterpret_cast<Start>(dlsym(library, "vinerow_python_start"));

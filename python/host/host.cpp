@@ -89,7 +89,7 @@ const char* import_package() {
   PyObject* folder = PyUnicode_DecodeFSDefault(folder_of_package().c_str());
   PyDict_SetItemString(names, "__builtins__", PyEval_GetBuiltins());
   PyDict_SetItemString(names, "folder", folder);
-  PyObject* own_first = PyLong_FromLong(kOwnLibrariesFirst);
+  PyObject* own_first = PyLong_FromLong(own_libraries_first());
   PyDict_SetItemString(names, "own_first", own_first);
   PyObject* result = PyRun_String(kPreparation, Py_file_input, names, names);
   if (!result) {

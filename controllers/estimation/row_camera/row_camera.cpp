@@ -116,7 +116,7 @@ class RowCamera final : public Estimator {
     picture_ = ports.read<Picture>(params_.camera + (params_.reads_labels() ? "_semantic" : ""));
     info_ = ports.read<CameraInfo>(params_.camera + "_info");
     estimate_ = ports.write<Odometry>("estimate");
-    if (net_) labels_ = ports.write<Picture>("net_labels");
+    if (net_) labels_ = ports.write_in_frame_of<Picture>(params_.camera, "net_labels");
     events_.connect(ports);
   }
 

@@ -8,7 +8,7 @@
 namespace vinerow::io {
 namespace {
 
-/// Stays open until the program ends. Without kOwnLibrariesFirst: GDAL and PROJ must call the
+/// Stays open until the program ends. Without own_libraries_first(): GDAL and PROJ must call the
 /// elementary functions of the program (engine/elementary). The Python package, whose interpreter
 /// has loaded others, links GDAL.
 GdalLibrary open_gdal() {

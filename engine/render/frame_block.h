@@ -23,6 +23,7 @@ struct FrameBlock {
   float land_rect[4];
   float soil_look[4];
   float grass_look[4];
+  float sampling[4];
 };
 
 /// Stores values as column-major floats.

@@ -2,101 +2,149 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
+
+#include "engine/core/parallel.h"
+#include "engine/render/texture_units.h"
 
 namespace vinerow::render {
 
 void FrameTarget::make() {
   gl_.GenFramebuffers(1, &framebuffer_);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
-  const auto attach = [&](GLuint& buffer, GLenum format, GLenum place) {
-    gl_.GenRenderbuffers(1, &buffer);
-    gl_.BindRenderbuffer(GL_RENDERBUFFER, buffer);
-    gl_.RenderbufferStorageMultisample(GL_RENDERBUFFER, 0, format, width_ * scale_,
-                                       height_ * scale_);
-    gl_.FramebufferRenderbuffer(GL_FRAMEBUFFER, place, GL_RENDERBUFFER, buffer);
+  const auto attach = [&](GLuint& texture, TextureUnit unit, GLenum format, GLenum layout,
+                          GLenum type, GLenum place) {
+    gl_.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+    gl_.GenTextures(1, &texture);
+    gl_.BindTexture(GL_TEXTURE_2D, texture);
+    gl_.TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format), pattern_.columns(),
+                   pattern_.rows(), 0, layout, type, nullptr);
+    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl_.FramebufferTexture2D(GL_FRAMEBUFFER, place, GL_TEXTURE_2D, texture, 0);
+    gl_.ActiveTexture(GL_TEXTURE0 + kUnitImage);
   };
-  attach(colour_, GL_RGBA8, GL_COLOR_ATTACHMENT0);
-  attach(depth_, GL_DEPTH24_STENCIL8, GL_DEPTH_STENCIL_ATTACHMENT);
+  gl_.GenRenderbuffers(1, &colour_);
+  gl_.BindRenderbuffer(GL_RENDERBUFFER, colour_);
+  gl_.RenderbufferStorageMultisample(GL_RENDERBUFFER, 0, GL_RGBA8, pattern_.columns(),
+                                     pattern_.rows());
+  gl_.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour_);
+  attach(depth_, kUnitDepth, GL_DEPTH24_STENCIL8, GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8,
+         GL_DEPTH_STENCIL_ATTACHMENT);
+  gl_.GenFramebuffers(1, &foliage_framebuffer_);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, foliage_framebuffer_);
+  attach(albedo_, kUnitAlbedo, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, GL_COLOR_ATTACHMENT0);
+  attach(normal_, kUnitNormal, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, GL_COLOR_ATTACHMENT1);
+  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_TEXTURE_2D, depth_, 0);
+  const GLenum both[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+  gl_.DrawBuffers(2, both);
   if (gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
     throw std::runtime_error(fmt::format("OpenGL cannot make a picture of {} x {} pixels",
-                                         width_ * scale_, height_ * scale_));
+                                         pattern_.columns(), pattern_.rows()));
   }
 }
 
 void FrameTarget::release() {
   if (framebuffer_ == 0) return;
-  const GLuint buffers[] = {colour_, depth_};
+  const GLuint textures[] = {depth_, albedo_, normal_};
   gl_.DeleteFramebuffers(1, &framebuffer_);
-  gl_.DeleteRenderbuffers(2, buffers);
+  gl_.DeleteFramebuffers(1, &foliage_framebuffer_);
+  gl_.DeleteRenderbuffers(1, &colour_);
+  gl_.DeleteTextures(3, textures);
   framebuffer_ = 0;
 }
 
-void FrameTarget::begin(int width, int height, int scale) {
-  if (width != width_ || height != height_ || scale != scale_ || framebuffer_ == 0) {
+void FrameTarget::begin(const SamplePattern& pattern) {
+  const bool fits = framebuffer_ != 0 && pattern.columns() == pattern_.columns() &&
+                    pattern.rows() == pattern_.rows();
+  pattern_ = pattern;
+  if (!fits) {
     release();
-    width_ = width;
-    height_ = height;
-    scale_ = scale;
     make();
   }
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
-  gl_.Viewport(0, 0, width_ * scale_, height_ * scale_);
+  resume();
+  gl_.Viewport(0, 0, pattern_.columns(), pattern_.rows());
   gl_.DepthMask(GL_TRUE);
   gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   gl_.ClearColor(0.5f, 0.5f, 0.5f, 1.0f);
   gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
 }
 
+void FrameTarget::begin_foliage() const {
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, foliage_framebuffer_);
+}
+
+void FrameTarget::resume() const {
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+}
+
+void FrameTarget::sum_row(const std::vector<std::uint8_t>& drawn, int y,
+                          std::vector<int>& sums) const {
+  std::fill(sums.begin(), sums.end(), 0);
+  const std::size_t stride = static_cast<std::size_t>(pattern_.stride()) * 4;
+  // Tap by tap, because compilers vectorize that.
+  for (const SamplePattern::Tap& tap : pattern_.taps()) {
+    const auto first = static_cast<std::ptrdiff_t>(pattern_.first_of(0, y)) + tap.offset;
+    const std::uint8_t* __restrict from = &drawn[4 * static_cast<std::size_t>(first)];
+    int* __restrict sum = sums.data();
+    for (int x = 0; x < pattern_.width(); ++x, from += stride, sum += 4) {
+      for (int c = 0; c < 4; ++c) sum[c] += tap.weight * from[c] * from[c];
+    }
+  }
+}
+
 Image FrameTarget::read() const {
   gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
   gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
-  const int wide = width_ * scale_;
-  const int high = height_ * scale_;
-  std::vector<std::uint8_t> rgba(static_cast<std::size_t>(wide) * high * 4);
-  gl_.ReadPixels(0, 0, wide, high, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
-  Image image{width_, height_,
-              std::vector<std::uint8_t>(static_cast<std::size_t>(width_) * height_ * 3)};
-  const float share = 1.0f / static_cast<float>(scale_ * scale_);
-  for (int y = 0; y < height_; ++y) {
-    // OpenGL's first row is the lowest.
-    const std::size_t lowest = static_cast<std::size_t>(height_ - 1 - y) * scale_ * wide * 4;
-    std::uint8_t* to = &image.rgb[static_cast<std::size_t>(y) * width_ * 3];
-    for (int x = 0; x < width_; ++x) {
-      int sum[3] = {0, 0, 0};
-      for (int row = 0; row < scale_; ++row) {
-        const std::uint8_t* from =
-            &rgba[lowest + (static_cast<std::size_t>(row) * wide + x * scale_) * 4];
-        for (int k = 0; k < scale_; ++k) {
-          for (int c = 0; c < 3; ++c) sum[c] += from[4 * k + c] * from[4 * k + c];
-        }
-      }
-      for (int c = 0; c < 3; ++c) {
-        to[3 * x + c] =
-            static_cast<std::uint8_t>(std::sqrt(static_cast<float>(sum[c]) * share) + 0.5f);
-      }
-    }
-  }
+  std::vector<std::uint8_t> drawn(static_cast<std::size_t>(pattern_.columns()) * pattern_.rows() *
+                                  4);
+  gl_.ReadPixels(0, 0, pattern_.columns(), pattern_.rows(), GL_RGBA, GL_UNSIGNED_BYTE,
+                 drawn.data());
+  const int width = pattern_.width(), height = pattern_.height();
+  Image image{width, height,
+              std::vector<std::uint8_t>(static_cast<std::size_t>(width) * height * 3)};
+  const float share = 1.0f / static_cast<float>(pattern_.weight_sum());
+  constexpr std::size_t kRowsAtOnce = 32;
+  for_chunks(static_cast<std::size_t>(height), kRowsAtOnce,
+             [&](std::size_t, std::size_t begin, std::size_t end) {
+               std::vector<int> sums(static_cast<std::size_t>(width) * 4);
+               for (std::size_t y = begin; y < end; ++y) {
+                 sum_row(drawn, static_cast<int>(y), sums);
+                 std::uint8_t* to = &image.rgb[y * width * 3];
+                 for (int x = 0; x < width; ++x) {
+                   for (int c = 0; c < 3; ++c) {
+                     const float mean = static_cast<float>(sums[4 * x + c]) * share;
+                     to[3 * x + c] = static_cast<std::uint8_t>(std::sqrt(mean) + 0.5f);
+                   }
+                 }
+               }
+             });
   return image;
 }
 
 std::vector<SeenMark> FrameTarget::take_marks(std::size_t count) const {
   std::vector<SeenMark> marks(count);
   if (count > 0) {
-    const int wide = width_ * scale_, high = height_ * scale_;
-    std::vector<std::uint8_t> stencil(static_cast<std::size_t>(wide) * high);
+    std::vector<std::uint8_t> stencil(static_cast<std::size_t>(pattern_.columns()) *
+                                      pattern_.rows());
     gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
-    gl_.ReadPixels(0, 0, wide, high, GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, stencil.data());
-    const double share = 1.0 / static_cast<double>(stencil.size());
-    for (int y = 0; y < high; ++y) {
-      for (int x = 0; x < wide; ++x) {
-        const std::size_t number = stencil[static_cast<std::size_t>(y) * wide + x];
-        if (number == 0 || number > count) continue;
-        SeenMark& mark = marks[number - 1];
-        mark.share += share;
-        mark.box_px.extend(Eigen::Vector2i(x / scale_, height_ - 1 - y / scale_));
+    gl_.ReadPixels(0, 0, pattern_.columns(), pattern_.rows(), GL_STENCIL_INDEX, GL_UNSIGNED_BYTE,
+                   stencil.data());
+    const int width = pattern_.width(), height = pattern_.height();
+    const double share = 1.0 / (double{1} * width * height * pattern_.weight_sum());
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        const auto first = static_cast<std::ptrdiff_t>(pattern_.first_of(x, y));
+        for (const SamplePattern::Tap& tap : pattern_.taps()) {
+          const std::size_t number = stencil[static_cast<std::size_t>(first + tap.offset)];
+          if (number == 0 || number > count) continue;
+          SeenMark& mark = marks[number - 1];
+          mark.share += share * tap.weight;
+          mark.box_px.extend(Eigen::Vector2i(x, y));
+        }
       }
     }
   }

@@ -1,14 +1,12 @@
 #pragma once
-/// Render target with colour, depth and stencil buffers, larger than the picture by an integer
-/// factor.
-///
-/// It supersamples instead of multisampling: with leaves, llvmpipe takes as long for 4 samples as
-/// for 4 pixels, and supersampling also smooths alpha-tested edges and textures.
+/// Render target with colour, depth and stencil buffers for the drawn pixels of a picture.
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <vector>
 
 #include "engine/render/gl.h"
+#include "engine/render/sample_pattern.h"
 #include "engine/render/scene.h"
 
 namespace vinerow::render {
@@ -23,12 +21,16 @@ class FrameTarget {
  public:
   explicit FrameTarget(const Gl& gl) : gl_(gl) {}
 
-  /// Binds and clears the buffers; recreates them if the size changed.
-  /// @param scale  drawn pixels per pixel of the picture, along each side
+  /// Binds and clears the buffers; recreates them if their size changed.
   /// @throws std::runtime_error if the implementation cannot make them
-  void begin(int width, int height, int scale);
-  /// The picture: means of scale x scale pixels. The mean is taken over squared sRGB values, which
-  /// approximates the mean of linear light.
+  void begin(const SamplePattern& pattern);
+  /// Binds the buffers for albedo and normal of leaves, which share the depth buffer.
+  void begin_foliage() const;
+  /// Binds the buffers of begin() again. Depth, albedo and normal of leaves are in texture units
+  /// kUnitDepth, kUnitAlbedo and kUnitNormal.
+  void resume() const;
+  /// The picture: means of drawn pixels, taken over squared sRGB values, which approximates the
+  /// mean of linear light.
   Image read() const;
   /// Areas of the stencil values 1, 2, ... count; clears the stencil.
   std::vector<SeenMark> take_marks(std::size_t count) const;
@@ -36,12 +38,13 @@ class FrameTarget {
  private:
   void make();
   void release();
+  /// Sums of squares of a row's pixels, RGBA. @param drawn  RGBA of the drawn pixels
+  void sum_row(const std::vector<std::uint8_t>& drawn, int y, std::vector<int>& sums) const;
 
   const Gl& gl_;
-  int width_ = 0;
-  int height_ = 0;
-  int scale_ = 1;
+  SamplePattern pattern_;
   GLuint framebuffer_ = 0, colour_ = 0, depth_ = 0;
+  GLuint foliage_framebuffer_ = 0, albedo_ = 0, normal_ = 0;
 };
 
 }  // namespace vinerow::render

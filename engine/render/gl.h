@@ -19,11 +19,13 @@ namespace vinerow::render {
   X(COLORMASK, ColorMask) X(COMPILESHADER, CompileShader) X(CREATEPROGRAM, CreateProgram) \
   X(CREATESHADER, CreateShader) X(CULLFACE, CullFace) X(DELETEBUFFERS, DeleteBuffers) \
   X(DELETEFRAMEBUFFERS, DeleteFramebuffers) X(DELETERENDERBUFFERS, DeleteRenderbuffers) \
-  X(DELETESHADER, DeleteShader) X(DEPTHFUNC, DepthFunc) X(DEPTHMASK, DepthMask) \
+  X(DELETESHADER, DeleteShader) X(DELETETEXTURES, DeleteTextures) X(DEPTHFUNC, DepthFunc) X(DEPTHMASK, DepthMask) \
   X(DISABLE, Disable) X(DRAWARRAYS, DrawArrays) X(DRAWBUFFER, DrawBuffer) \
+  X(DRAWBUFFERS, DrawBuffers) \
   X(DRAWELEMENTS, DrawElements) X(ENABLE, Enable) \
   X(ENABLEVERTEXATTRIBARRAY, EnableVertexAttribArray) \
   X(FRAMEBUFFERRENDERBUFFER, FramebufferRenderbuffer) \
+  X(FRAMEBUFFERTEXTURE2D, FramebufferTexture2D) \
   X(FRAMEBUFFERTEXTURELAYER, FramebufferTextureLayer) X(FRONTFACE, FrontFace) \
   X(GENBUFFERS, GenBuffers) X(GENFRAMEBUFFERS, GenFramebuffers) \
   X(GENRENDERBUFFERS, GenRenderbuffers) X(GENTEXTURES, GenTextures) \

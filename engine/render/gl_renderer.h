@@ -54,12 +54,17 @@ class GlRenderer final : public Renderer {
   void update_shadows(const Camera& camera, const std::vector<Drawable>& vehicles);
   void cast_shadows(const std::vector<const Drawable*>& casters,
                     const Eigen::Matrix4d& clip_from_world);
-  void upload_frame_block(const Frame& frame, const Eigen::Matrix4d& clip_from_world);
-  void draw_objects(const Frame& frame, const Frustum& frustum, const std::vector<Drawable>& links,
-                    const std::vector<int>& vehicle_of_link);
-  /// Sets the stencil value of the following draw calls: 0 for the world, else the vehicle's
-  /// number, from 1.
-  void mark_as(int number) { gl_.StencilFunc(GL_ALWAYS, number, 0xff); }
+  /// @param clip_from_world  of the drawn pixels
+  void upload_frame_block(const Frame& frame, const SamplePattern& pattern,
+                          const Eigen::Matrix4d& clip_from_world);
+  /// Sets the depth of drawn pixels outside the picture so that nothing is drawn there.
+  void cover_unused(const SamplePattern& pattern);
+  void draw_objects(const Frame& frame, const Frustum& frustum, const std::vector<Drawable>& links);
+  /// Colours of the leaves, which must be all that has been drawn so far.
+  void light_foliage();
+  /// Sets the stencil of the visible parts of vehicles to their numbers, from 1, and leaves 0
+  /// elsewhere.
+  void mark_vehicles(const std::vector<Drawable>& links, const std::vector<int>& vehicle_of_link);
   void draw_ground(const Frame& frame, const Frustum& frustum);
   void draw_tufts(const Frame& frame, const Frustum& frustum);
   void draw_hedges(const Camera& camera, const Frustum& frustum);
@@ -69,7 +74,8 @@ class GlRenderer final : public Renderer {
   void prepare_grid(const Frame& frame);
   void draw_grid_map();
   void draw_ribbon(const std::vector<RibbonVertex>& vertices);
-  void draw_lines(const Frame& frame, const Eigen::Matrix4d& clip_from_world);
+  void draw_lines(const Frame& frame, const SamplePattern& pattern,
+                  const Eigen::Matrix4d& clip_from_world);
   void draw_drawable(const Program& program, const Drawable& drawable);
   void draw_mesh(const GpuMesh& mesh);
   double ground_height_m(double x, double y) const;
@@ -94,7 +100,7 @@ class GlRenderer final : public Renderer {
   Eigen::Vector4f land_rect_ = {0, 0, 0, 0};
   bool has_land_ = false;
   std::unique_ptr<ShadowMaps> shadows_;
-  Program sky_, ground_, country_, surface_, foliage_, foliage_depth_, grass_, ribbon_,
+  Program sky_, ground_, country_, surface_, foliage_, foliage_light_, grass_, ribbon_,
       shadow_solid_, shadow_cards_;
   GridOverlay grid_;
   Program hedge_, stem_;
@@ -107,7 +113,7 @@ class GlRenderer final : public Renderer {
   std::vector<std::uint32_t> tuft_indices_;
   GLuint ribbon_array_ = 0;
   GLuint ribbon_buffer_ = 0;
-  double half_pixel_rad_ = 0.0;  ///< of the drawn (supersampled) pixels, in this frame
+  double half_pixel_rad_ = 0.0;  ///< half the distance of drawn pixels, in this frame
   FrameStatistics statistics_;
 };
 

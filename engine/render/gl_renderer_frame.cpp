@@ -23,16 +23,10 @@ constexpr double kHazePerMetre = 1.0 / 5200.0;
 struct Visible {
   const Drawable* drawable;
   double distance_m;
-  int number = 0;  ///< stencil value, see mark_as()
 };
 
 /// Stencil values are bytes.
 constexpr std::size_t kMaxMarked = 254;
-
-/// Drawn pixels per pixel of the picture, along each side.
-int scale_of(const Frame& frame) {
-  return std::clamp(static_cast<int>(std::lround(std::sqrt(frame.samples))), 1, 3);
-}
 
 Eigen::Matrix4d matrix_of(const Pose& X_WM) {
   Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
@@ -146,7 +140,8 @@ void GlRenderer::update_shadows(const Camera& camera, const std::vector<Drawable
   shadows_->update(focus, radius, draw_world, draw_vehicles, boxes);
 }
 
-void GlRenderer::upload_frame_block(const Frame& frame, const Eigen::Matrix4d& clip_from_world) {
+void GlRenderer::upload_frame_block(const Frame& frame, const SamplePattern& pattern,
+                                    const Eigen::Matrix4d& clip_from_world) {
   FrameBlock block{};
   const Camera& camera = frame.camera;
   store(block.clip_from_world, clip_from_world);
@@ -157,7 +152,6 @@ void GlRenderer::upload_frame_block(const Frame& frame, const Eigen::Matrix4d& c
     block.shadow_info[0] = static_cast<float>(shadows_->near_texel_m());
     block.shadow_info[1] = static_cast<float>(shadows_->far_texel_m());
     block.shadow_info[2] = 1.0f;
-    block.shadow_info[3] = scale_of(frame) > 1 ? 1.0f : 4.0f;
   }
   const auto haze = [](const Eigen::Vector3f& radiance) {
     return Eigen::Vector3d(radiance.cast<double>());
@@ -178,14 +172,18 @@ void GlRenderer::upload_frame_block(const Frame& frame, const Eigen::Matrix4d& c
   std::copy_n(land_rect_.data(), 4, block.land_rect);
   store(block.soil_look, look_.soil_tint.cast<double>(), look_.bare);
   store(block.grass_look, {look_.grass_brightness, look_.grass_dryness, 0.0});
+  const Eigen::Matrix4d drawn_from_clip = pattern.drawn_from_clip();
+  block.sampling[0] = static_cast<float>(pattern.lod_bias());
+  block.sampling[1] = static_cast<float>(drawn_from_clip(0, 0));
+  block.sampling[2] = static_cast<float>(drawn_from_clip(0, 1));
+  block.sampling[3] = static_cast<float>(drawn_from_clip(1, 1));
   gl_.BindBuffer(GL_UNIFORM_BUFFER, frame_buffer_);
   gl_.BufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STREAM_DRAW);
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_buffer_);
 }
 
 void GlRenderer::draw_objects(const Frame& frame, const Frustum& frustum,
-                              const std::vector<Drawable>& links,
-                              const std::vector<int>& vehicle_of_link) {
+                              const std::vector<Drawable>& links) {
   std::vector<Visible> solid;
   std::vector<Visible> cards;
   for (const LodGroup& group : groups_) {
@@ -195,12 +193,10 @@ void GlRenderer::draw_objects(const Frame& frame, const Frustum& frustum,
     if (!is_drawn_at(drawable.surface, seen)) continue;
     (drawable.leaf_cards ? cards : solid).push_back({&drawable, seen});
   }
-  for (std::size_t i = 0; i < links.size(); ++i) {
-    const Drawable& link = links[i];
+  for (const Drawable& link : links) {
     if (settings_.cull && !frustum.may_see(link.box_W)) continue;
     (link.leaf_cards ? cards : solid)
-        .push_back({&link, calc_seen_distance(frame.camera, frame.height, link.box_W),
-                    vehicle_of_link[i] + 1});
+        .push_back({&link, calc_seen_distance(frame.camera, frame.height, link.box_W)});
   }
   // Near objects first: objects hidden by them need not be shaded.
   const auto nearer = [](const Visible& a, const Visible& b) {
@@ -210,22 +206,54 @@ void GlRenderer::draw_objects(const Frame& frame, const Frustum& frustum,
   std::stable_sort(cards.begin(), cards.end(), nearer);
   const auto draw_all = [this](const Program& program, const std::vector<Visible>& things) {
     gl_.UseProgram(program.id);
-    for (const Visible& visible : things) {
-      mark_as(visible.number);
-      draw_drawable(program, *visible.drawable);
-    }
+    for (const Visible& visible : things) draw_drawable(program, *visible.drawable);
   };
+  // Leaves overlap many times: draw what their light depends on, then light the visible ones.
+  if (!cards.empty()) {
+    target_.begin_foliage();
+    draw_all(foliage_, cards);
+    target_.resume();
+    light_foliage();
+  }
   draw_all(surface_, solid);
-  // Leaves overlap many times: draw only their depth first, then shade the visible ones.
-  gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-  draw_all(foliage_depth_, cards);
-  gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  gl_.DepthFunc(GL_EQUAL);
+}
+
+void GlRenderer::light_foliage() {
+  // At the largest depth there is, so that it passes where anything has been drawn. The shader
+  // reads the depth buffer against which it is tested, which nothing writes meanwhile.
+  gl_.DepthFunc(GL_GREATER);
   gl_.DepthMask(GL_FALSE);
-  draw_all(foliage_, cards);
+  gl_.UseProgram(foliage_light_.id);
+  gl_.Disable(GL_CULL_FACE);
+  gl_.BindVertexArray(empty_array_);
+  gl_.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  ++statistics_.draw_calls;
   gl_.DepthFunc(GL_LEQUAL);
   gl_.DepthMask(GL_TRUE);
-  mark_as(0);
+}
+
+void GlRenderer::mark_vehicles(const std::vector<Drawable>& links,
+                               const std::vector<int>& vehicle_of_link) {
+  // A second time instead of while drawing: with the stencil on, llvmpipe tests the depth of
+  // leaves and grass after shading them.
+  gl_.Enable(GL_STENCIL_TEST);
+  gl_.StencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+  gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  gl_.DepthFunc(GL_EQUAL);
+  gl_.DepthMask(GL_FALSE);
+  for (const bool cards : {false, true}) {
+    const Program& program = cards ? foliage_ : surface_;
+    gl_.UseProgram(program.id);
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      if (links[i].leaf_cards != cards) continue;
+      gl_.StencilFunc(GL_ALWAYS, vehicle_of_link[i] + 1, 0xff);
+      draw_drawable(program, links[i]);
+    }
+  }
+  gl_.DepthFunc(GL_LEQUAL);
+  gl_.DepthMask(GL_TRUE);
+  gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  gl_.Disable(GL_STENCIL_TEST);
 }
 
 void GlRenderer::draw_tufts(const Frame& frame, const Frustum& frustum) {
@@ -314,7 +342,37 @@ void GlRenderer::draw_ribbon(const std::vector<RibbonVertex>& vertices) {
   statistics_.triangles += static_cast<std::int64_t>(vertices.size() / 3);
 }
 
-void GlRenderer::draw_lines(const Frame& frame, const Eigen::Matrix4d& clip_from_world) {
+void GlRenderer::cover_unused(const SamplePattern& pattern) {
+  // The triangle left of the picture, and its mirror image through the middle. Two drawn pixels
+  // stay between them and the picture.
+  const Eigen::Matrix4d drawn_from_clip = pattern.drawn_from_clip();
+  const double gap = 4.0 / pattern.columns();
+  const Eigen::Vector4d lower = drawn_from_clip * Eigen::Vector4d(-1, -1, 0, 1);
+  const Eigen::Vector4d upper = drawn_from_clip * Eigen::Vector4d(-1, 1, 0, 1);
+  const Eigen::Vector2d corners[] = {
+      {lower.x() - gap, -1.0}, {upper.x() - gap, 1.0}, {upper.x() - gap, -1.0}};
+  std::vector<RibbonVertex> vertices;
+  for (const float side : {1.0f, -1.0f}) {
+    for (const Eigen::Vector2d& corner : corners) {
+      RibbonVertex vertex{};
+      vertex.clip[0] = side * static_cast<float>(corner.x());
+      vertex.clip[1] = side * static_cast<float>(corner.y());
+      vertex.clip[2] = -1.0f;  // nearer than everything
+      vertex.clip[3] = 1.0f;
+      vertex.along_px = -1.0f;
+      vertices.push_back(vertex);
+    }
+  }
+  gl_.UseProgram(ribbon_.id);
+  gl_.Disable(GL_CULL_FACE);
+  gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  gl_.BindVertexArray(ribbon_array_);
+  draw_ribbon(vertices);
+  gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+}
+
+void GlRenderer::draw_lines(const Frame& frame, const SamplePattern& pattern,
+                            const Eigen::Matrix4d& clip_from_world) {
   gl_.UseProgram(ribbon_.id);
   gl_.Disable(GL_CULL_FACE);
   gl_.Enable(GL_BLEND);
@@ -330,6 +388,7 @@ void GlRenderer::draw_lines(const Frame& frame, const Eigen::Matrix4d& clip_from
         make_ribbon(line, terrain_ ? &*terrain_ : nullptr, clip_from_world, frame.camera,
                     frame.width, frame.height);
     if (vertices.empty()) continue;
+    transform(vertices, pattern.drawn_from_clip());
     number = number % 255 + 1;
     gl_.StencilFunc(GL_NOTEQUAL, number, 0xff);
     draw_ribbon(vertices);
@@ -368,10 +427,10 @@ Image GlRenderer::draw(const Frame& frame) {
       vehicle_of_link.push_back(static_cast<int>(std::min(v, kMaxMarked)));
     }
   }
-  const int scale = scale_of(frame);
-  half_pixel_rad_ = frame.camera.orthographic
-                        ? 0.0
-                        : std::tan(0.5 * frame.camera.fov_rad) / (frame.height * scale);
+  const SamplePattern pattern(frame.width, frame.height, frame.samples);
+  half_pixel_rad_ = frame.camera.orthographic ? 0.0
+                                              : std::tan(0.5 * frame.camera.fov_rad) /
+                                                    frame.height * pattern.spacing_px();
   const double aspect = double{1} * frame.width / frame.height;
   const double near_m = frame.camera.orthographic ? 0.1 : kNear_m;
   const double far_m = frame.camera.orthographic ? 3000.0 : kFar_m;
@@ -384,21 +443,20 @@ Image GlRenderer::draw(const Frame& frame) {
   gl_.DepthFunc(GL_LEQUAL);
   prepare_grid(frame);
   if (shadows_) update_shadows(frame.camera, vehicles);
-  upload_frame_block(frame, clip_from_world);
-  target_.begin(frame.width, frame.height, scale);
-  gl_.Enable(GL_STENCIL_TEST);
-  gl_.StencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
-  draw_objects(frame, frustum, vehicles, vehicle_of_link);
+  upload_frame_block(frame, pattern, pattern.drawn_from_clip() * clip_from_world);
+  target_.begin(pattern);
+  if (pattern.staggered()) cover_unused(pattern);
+  draw_objects(frame, frustum, vehicles);
   draw_hedges(frame.camera, frustum);
   draw_tufts(frame, frustum);
   draw_ground(frame, frustum);
   draw_sky();
-  gl_.Disable(GL_STENCIL_TEST);
+  mark_vehicles(vehicles, vehicle_of_link);
   const std::vector<SeenMark> seen =
       target_.take_marks(std::min(frame.vehicles.size(), kMaxMarked));
   for (const SeenMark& mark : seen) statistics_.vehicle_shares.push_back(mark.share);
   if (frame.grid != nullptr && !grid_on_ground_) draw_grid_map();
-  draw_lines(frame, clip_from_world);
+  draw_lines(frame, pattern, clip_from_world);
   Image image = target_.read();
   check_gl(gl_, "drawing a frame");
   annotate(frame, seen, image);

@@ -83,7 +83,7 @@ void GlRenderer::make_programs(const Scenery& scenery) {
   country_ = make_program("country", shaders::country());
   surface_ = make_program("surface", shaders::surface());
   foliage_ = make_program("foliage", shaders::foliage());
-  foliage_depth_ = make_program("foliage_depth", shaders::foliage_depth());
+  foliage_light_ = make_program("foliage_light", shaders::foliage_light());
   grass_ = make_program("grass", shaders::grass());
   ribbon_ = make_program("ribbon", shaders::ribbon());
   shadow_solid_ = make_program("shadow_solid", shaders::shadow_solid());

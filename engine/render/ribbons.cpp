@@ -196,6 +196,14 @@ std::vector<RibbonVertex> make_ribbon(const Polyline& line, const HeightField* f
   return std::move(builder.vertices);
 }
 
+void transform(std::vector<RibbonVertex>& ribbon, const Eigen::Matrix4d& matrix) {
+  const Eigen::Matrix4f m = matrix.cast<float>();
+  for (RibbonVertex& vertex : ribbon) {
+    Eigen::Map<Eigen::Vector4f> clip(vertex.clip);
+    clip = (m * clip).eval();
+  }
+}
+
 void set_alpha(std::vector<RibbonVertex>& ribbon, float alpha) {
   for (RibbonVertex& vertex : ribbon) vertex.colour[3] = to_byte(alpha);
 }

@@ -25,6 +25,9 @@ std::vector<RibbonVertex> make_ribbon(const Polyline& line, const HeightField* f
                                       const Eigen::Matrix4d& clip_from_world, const Camera& camera,
                                       int width_px, int height_px);
 
+/// Moves a ribbon into another clip space.
+void transform(std::vector<RibbonVertex>& ribbon, const Eigen::Matrix4d& matrix);
+
 /// Sets the opacity of a ribbon. @param alpha  0 to 1
 void set_alpha(std::vector<RibbonVertex>& ribbon, float alpha);
 

@@ -88,7 +88,8 @@ struct Frame {
   bool show_scale = false;  ///< scale bar and north arrow, in orthographic views from above
   int width = 1280;
   int height = 720;
-  int samples = 4;  ///< drawn pixels per pixel of the picture: 1, 4 (smooth edges) or 9
+  /// Drawn pixels per pixel of the picture: 1, 2 (sample_pattern.h), 4 or 9.
+  int samples = 2;
 };
 
 struct Image {

@@ -15,8 +15,8 @@ Pair sky();
 Pair ground(bool with_grid = false, bool with_land = false);
 Pair country();                      ///< the land beyond the terrain
 Pair surface();                      ///< posts, trunks, vehicles, anything opaque
-Pair foliage();                      ///< leaf cards, after foliage_depth()
-Pair foliage_depth();                ///< alpha-tested leaf cards, depth only
+Pair foliage();                      ///< albedo and normal of alpha-tested leaf cards
+Pair foliage_light();                ///< light on what foliage() has drawn
 Pair grass(bool with_grid = false);  ///< alpha-tested tufts near the camera
 Pair hedge();                        ///< rows of the scenery
 Pair stems();                        ///< stems below the rows

@@ -249,7 +249,7 @@ out vec4 colour;
 uniform sampler2DArray leaf_cards;
 
 void main() {
-  vec4 blade = texture(leaf_cards, card);
+  vec4 blade = texture(leaf_cards, card, sampling.x);
   if (blade.a < 0.5) discard;
   vec3 n = normalize(n_W);
   float brightness = clamp(blade.r * shade.r * 1.25, 0.0, 1.0);

@@ -45,15 +45,19 @@ uniform sampler2D image;
 uniform vec4 material;       // rgb, a: roughness
 uniform float texture_mode;  // 0 none, 1 by uv, 2 grain along z of the mesh
 
+float fifth_power(float x) {
+  return x * x * x * x * x;
+}
+
 void main() {
   vec3 n = normalize(n_W);
   vec3 v = -view_direction(p_W);
   if (!gl_FrontFacing) n = -n;
   vec3 albedo = material.rgb * vertex_colour;
   if (texture_mode > 1.5) {
-    albedo *= pow(texture(image, vec2((p_M.x + p_M.y) * 4.0, p_M.z * 0.8)).rgb, vec3(2.2)) * 3.4;
+    albedo *= pow(texture(image, vec2((p_M.x + p_M.y) * 4.0, p_M.z * 0.8), sampling.x).rgb, vec3(2.2)) * 3.4;
   } else if (texture_mode > 0.5) {
-    albedo *= pow(texture(image, uv).rgb, vec3(2.2));
+    albedo *= pow(texture(image, uv, sampling.x).rgb, vec3(2.2));
   }
   float sun = sun_visibility(p_W, n, 0.0);
   float n_l = max(dot(n, sun_direction.xyz), 0.0);
@@ -67,14 +71,14 @@ void main() {
   float denominator = n_h * n_h * (a2 - 1.0) + 1.0;
   float k = (rough + 1.0) * (rough + 1.0) * 0.125;
   float visible = 0.25 / ((n_l * (1.0 - k) + k) * (n_v * (1.0 - k) + k));
-  float fresnel = 0.04 + 0.96 * pow(1.0 - max(dot(h, v), 0.0), 5.0);
+  float fresnel = 0.04 + 0.96 * fifth_power(1.0 - max(dot(h, v), 0.0));
   float specular = min(a2 * kOneOverPi / (denominator * denominator) * visible * fresnel, 8.0);
 
   // Mirror image of sky and ground, blurred by roughness.
   vec3 r = reflect(-v, n);
   float sky_share = smoothstep(-0.15 - 0.5 * rough, 0.15 + 0.5 * rough, r.z);
   vec3 mirrored = mix(ground_irradiance.rgb, mix(haze_from_sun.rgb * 2.6, sky_irradiance.rgb, clamp(r.z, 0.0, 1.0)), sky_share) * kOneOverPi;
-  float edge = 0.04 + (max(1.0 - rough, 0.04) - 0.04) * pow(1.0 - n_v, 5.0);
+  float edge = 0.04 + (max(1.0 - rough, 0.04) - 0.04) * fifth_power(1.0 - n_v);
 
   vec3 radiance = albedo * kOneOverPi * (sun_irradiance.rgb * (n_l * sun) + ambient(n));
   radiance += sun_irradiance.rgb * (specular * n_l * sun) + mirrored * edge;
@@ -97,7 +101,9 @@ vec3 leaf_light(vec3 albedo, vec3 n, vec3 p, float lift) {
   float through = max((0.35 - n_l) / 1.35, 0.0) * (0.35 + 1.1 * toward * toward * toward);
   vec3 transmitted = albedo * vec3(1.25, 1.22, 0.55);
   vec3 h = normalize(sun_direction.xyz + v);
-  float gloss = pow(max(dot(n, h), 0.0), 22.0) * 0.03;
+  float n_h = max(dot(n, h), 0.0);
+  float n_h2 = n_h * n_h, n_h4 = n_h2 * n_h2, n_h16 = n_h4 * n_h4 * n_h4 * n_h4;
+  float gloss = n_h16 * n_h4 * n_h2 * 0.03;
 
   vec3 direct = sun_irradiance.rgb * sun;
   vec3 radiance = kOneOverPi * (albedo * (direct * front + ambient(n)) + transmitted * direct * through);
@@ -108,42 +114,56 @@ vec3 leaf_light(vec3 albedo, vec3 n, vec3 p, float lift) {
 }
 
 Pair foliage() {
-  const std::string fragment = frame_block() + light_functions() + leaf_light() + R"(
-in vec3 p_W;
+  return {frame_block() + kMeshVertex, frame_block() + R"(
 in vec3 n_W;
-in vec3 p_M;
 in vec2 uv;
 flat in float layer;
 in vec3 vertex_colour;
-out vec4 colour;
+layout(location = 0) out vec4 albedo;  // square root, which keeps dark leaves apart
+layout(location = 1) out vec4 normal;
 uniform sampler2DArray leaf_cards;
 uniform vec4 material;
 
-// Runs only where foliage_depth has written this depth, so nothing has to be discarded.
 void main() {
-  vec4 leaf = texture(leaf_cards, vec3(uv, layer));
+  vec4 leaf = texture(leaf_cards, vec3(uv, layer), sampling.x);
+  if (leaf.a < 0.5) discard;
   // Normal of the canopy's volume, tilted leaf by leaf.
   vec3 n = normalize(n_W);
   vec3 t = normalize(vec3(n.y, -n.x, 0.02));
   vec2 tilt = (leaf.gb - 0.5) * 2.2;
   n = normalize(n + t * tilt.x + cross(n, t) * tilt.y);
-
-  vec3 albedo = material.rgb * vertex_colour * (0.30 + 1.40 * leaf.r);
-  colour = vec4(finish(leaf_light(albedo, n, p_W, 0.10), p_W), 1.0);
-}
-)";
-  return {frame_block() + kMeshVertex, fragment};
-}
-
-Pair foliage_depth() {
-  return {frame_block() + kMeshVertex, R"(#version 330 core
-in vec2 uv;
-flat in float layer;
-uniform sampler2DArray leaf_cards;
-void main() {
-  if (texture(leaf_cards, vec3(uv, layer)).a < 0.5) discard;
+  albedo = vec4(sqrt(material.rgb * vertex_colour * (0.30 + 1.40 * leaf.r)), 1.0);
+  normal = vec4(0.5 + 0.5 * n, 1.0);
 }
 )"};
+}
+
+Pair foliage_light() {
+  // A little larger than the picture, for drawn pixels on its edge.
+  const std::string vertex = frame_block() + R"(
+void main() {
+  vec2 corner = (vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0) * 1.002;
+  gl_Position = vec4(dot(sampling.yz, corner), sampling.w * corner.y, 1.0, 1.0);
+}
+)";
+  const std::string fragment = frame_block() + light_functions() + leaf_light() + R"(
+out vec4 colour;
+uniform sampler2D frame_depth;
+uniform sampler2D frame_albedo;
+uniform sampler2D frame_normal;
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  vec3 root = texelFetch(frame_albedo, pixel, 0).rgb;
+  vec3 n = normalize(texelFetch(frame_normal, pixel, 0).xyz - 0.5);
+  float depth = texelFetch(frame_depth, pixel, 0).r;
+  vec2 place = gl_FragCoord.xy / vec2(textureSize(frame_depth, 0));
+  vec4 p = world_from_clip * vec4(2.0 * vec3(place, depth) - 1.0, 1.0);
+  vec3 p_W = p.xyz / p.w;
+  colour = vec4(finish(leaf_light(root * root, n, p_W, 0.10), p_W), 1.0);
+}
+)";
+  return {vertex, fragment};
 }
 
 Pair ribbon() {

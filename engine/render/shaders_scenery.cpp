@@ -107,9 +107,9 @@ uniform sampler2D noise_tile;
 void main() {
   // Bunches of leaves along and around the row, no two rows alike.
   vec2 q = vec2(uv.x, uv.y * 1.7) + row * vec2(7.31, 3.17);
-  vec4 bunch = texture(noise_tile, q * 0.07);
-  vec4 leaves = texture(noise_tile, q.yx * 0.19);
-  vec4 vigour = texture(noise_tile, q * vec2(0.021, 0.0));
+  vec4 bunch = texture(noise_tile, q * 0.07, sampling.x);
+  vec4 leaves = texture(noise_tile, q.yx * 0.19, sampling.x);
+  vec4 vigour = texture(noise_tile, q * vec2(0.021, 0.0), sampling.x);
   float leaf = 0.5 * bunch.a + 0.5 * leaves.a;
   if (leaf + 0.3 * vigour.g < 0.56) discard;
   vec3 n = normalize(n_W);

@@ -14,6 +14,9 @@ enum TextureUnit : int {
   kUnitGrid = 7,
   kUnitLand = 8,
   kUnitFields = 9,
+  kUnitDepth = 10,
+  kUnitAlbedo = 11,
+  kUnitNormal = 12,
 };
 
 struct SamplerUnit {
@@ -22,10 +25,11 @@ struct SamplerUnit {
 };
 
 inline constexpr SamplerUnit kSamplerUnits[] = {
-    {"shadow_maps", kUnitShadow}, {"sky_table", kUnitSky},   {"noise_tile", kUnitNoise},
-    {"ground_tile", kUnitGround}, {"row_mask", kUnitMask},   {"leaf_cards", kUnitLeaves},
-    {"image", kUnitImage},        {"grid_cells", kUnitGrid}, {"land_tile", kUnitLand},
-    {"field_table", kUnitFields},
+    {"shadow_maps", kUnitShadow},  {"sky_table", kUnitSky},     {"noise_tile", kUnitNoise},
+    {"ground_tile", kUnitGround},  {"row_mask", kUnitMask},     {"leaf_cards", kUnitLeaves},
+    {"image", kUnitImage},         {"grid_cells", kUnitGrid},   {"land_tile", kUnitLand},
+    {"field_table", kUnitFields},  {"frame_depth", kUnitDepth}, {"frame_albedo", kUnitAlbedo},
+    {"frame_normal", kUnitNormal},
 };
 
 }  // namespace vinerow::render

@@ -65,7 +65,7 @@ struct VehicleConfig {
   std::optional<PartConfig> guidance;
   std::optional<PartConfig> controller;
   std::optional<PartConfig> autopilot;  ///< in place of estimator, guidance and controller
-  std::vector<NamedPart> payloads;  ///< in file order
+  std::vector<NamedPart> payloads;      ///< in file order
   io::SourceMark where;
 
   /// Its estimate is the truth: it has neither an estimator of its own nor firmware that reports
@@ -114,7 +114,7 @@ inline constexpr double kMaxPictureInstants = 10'000.0;
 struct PicturesConfig {
   int width = 1280;
   int height = 720;
-  int samples = 4;                        ///< antialiasing, 1..8
+  int samples = 2;                        ///< antialiasing, 1..9
   std::vector<double> times_s;            ///< frames at these times
   std::vector<std::string> moment_texts;  ///< as written: "spray + 30"
   std::vector<PhaseMoment> moments;       ///< and at these instants of a mission

@@ -144,7 +144,8 @@ const ParameterTable<PicturesConfig>& pictures_table() {
       ParameterTable<P>()
           .integer("width", &P::width, between(16, 8192), "width in pixels")
           .integer("height", &P::height, between(16, 8192), "height in pixels")
-          .integer("samples", &P::samples, between(1, 8), "antialiasing samples per pixel")
+          .integer("samples", &P::samples, between(1, 9),
+                   "antialiasing samples per pixel: 1, 2, 4 or 9, else the nearest")
           .number("every_s", "s", &P::every_s, between(0.0, 1e7), "interval of frames; 0 = none")
           .numbers("times_s", "s", &P::times_s, between(0.0, 1e7), "frames at these times")
           .texts("moments", &P::moment_texts,

@@ -81,7 +81,7 @@ TEST(Renderer, ACubeIsWhereThePinholeModelPutsIt) {
   const double focal_px = 150.0 / std::tan(0.15);
   const double middle_x = 200.0 - focal_px * 0.7 / 9.5;
   const double half = focal_px * 0.5 / 9.5;
-  for (const int samples : {1, 4}) {
+  for (const int samples : {1, 2, 4}) {
     frame.samples = samples;
     const Eigen::AlignedBox2i box = test::box_of(renderer->draw(frame), is_red);
     ASSERT_FALSE(box.isEmpty());
@@ -372,7 +372,7 @@ TEST(Renderer, MeasuresHowMuchOfAVehicleIsSeen) {
   frame.vehicles[1].X_WL[0].p = {100, 0, 1};
   const auto renderer = renderer_of(world);
   ASSERT_TRUE(renderer);
-  for (const int samples : {1, 4}) {
+  for (const int samples : {1, 2, 4}) {
     frame.samples = samples;
     const Image plain = renderer->draw(frame);
     ASSERT_EQ(renderer->statistics().vehicle_shares.size(), 2u);

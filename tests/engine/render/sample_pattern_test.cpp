@@ -1,0 +1,123 @@
+#include "engine/render/sample_pattern.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+#include "engine/api/world_model.h"
+#include "engine/render/cameras.h"
+#include "tests/engine/render/test_scenes.h"
+
+namespace vinerow::render {
+namespace {
+
+/// Index of the drawn pixel in whose middle a place of the picture lies; -1: in no middle.
+/// @param x,y  pixels from the upper left corner
+std::ptrdiff_t drawn_at(const SamplePattern& pattern, double x, double y) {
+  const Eigen::Vector4d clip(2.0 * x / pattern.width() - 1.0, 1.0 - 2.0 * y / pattern.height(), 0,
+                             1);
+  const Eigen::Vector4d drawn = pattern.drawn_from_clip() * clip;
+  const double column = 0.5 * (drawn.x() + 1.0) * pattern.columns() - 0.5;
+  const double row = 0.5 * (drawn.y() + 1.0) * pattern.rows() - 0.5;
+  if (std::abs(column - std::round(column)) > 1e-6 || std::abs(row - std::round(row)) > 1e-6) {
+    return -1;
+  }
+  return std::lround(row) * pattern.columns() + std::lround(column);
+}
+
+std::ptrdiff_t tap_of(const SamplePattern& pattern, int x, int y, std::size_t tap) {
+  return static_cast<std::ptrdiff_t>(pattern.first_of(x, y)) + pattern.taps()[tap].offset;
+}
+
+TEST(SamplePattern, StaggeredPixelsAreTheirMiddlesAndCorners) {
+  for (const auto& [width, height] : {std::pair{7, 5}, std::pair{4, 9}, std::pair{1, 1}}) {
+    const SamplePattern pattern(width, height, 2);
+    ASSERT_EQ(pattern.taps().size(), 5u);
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        EXPECT_EQ(tap_of(pattern, x, y, 0), drawn_at(pattern, x + 0.5, y + 0.5));
+        EXPECT_EQ(tap_of(pattern, x, y, 1), drawn_at(pattern, x, y + 1));
+        EXPECT_EQ(tap_of(pattern, x, y, 2), drawn_at(pattern, x + 1, y + 1));
+        EXPECT_EQ(tap_of(pattern, x, y, 3), drawn_at(pattern, x, y));
+        EXPECT_EQ(tap_of(pattern, x, y, 4), drawn_at(pattern, x + 1, y));
+      }
+    }
+    EXPECT_EQ(pattern.taps()[0].weight * 2, pattern.weight_sum());
+    EXPECT_DOUBLE_EQ(pattern.spacing_px(), std::hypot(0.5, 0.5));
+  }
+}
+
+TEST(SamplePattern, SquarePatternsDivideThePixel) {
+  for (const int scale : {1, 2, 3}) {
+    const SamplePattern pattern(6, 4, scale * scale);
+    ASSERT_EQ(pattern.weight_sum(), scale * scale);
+    for (std::size_t tap = 0; tap < pattern.taps().size(); ++tap) {
+      const double right = (static_cast<double>(tap % scale) + 0.5) / scale;
+      const double up = (static_cast<double>(tap / scale) + 0.5) / scale;
+      EXPECT_EQ(tap_of(pattern, 3, 1, tap), drawn_at(pattern, 3 + right, 2 - up));
+    }
+  }
+}
+
+TEST(SamplePattern, LargestPicturesHaveFourSamplesInsteadOfTwo) {
+  EXPECT_TRUE(SamplePattern(8191, 8191, 2).staggered());
+  const SamplePattern largest(8192, 8192, 2);
+  EXPECT_FALSE(largest.staggered());
+  EXPECT_EQ(largest.weight_sum(), 4);
+}
+
+double rms(const Image& a, const Image& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.rgb.size(); ++i) {
+    sum += std::pow(double{1} * a.rgb[i] - b.rgb[i], 2);
+  }
+  return std::sqrt(sum / static_cast<double>(a.rgb.size()));
+}
+
+TEST(SamplePattern, TwoStaggeredSamplesAreAlmostAsGoodAsFour) {
+  // Posts, boards and their shadows at many angles, against the mean of 3 x 3 pixels of a picture
+  // three times as large that has 9 samples itself.
+  WorldModel world;
+  world.terrain = test::make_level_ground(30.0);
+  for (int i = 0; i < 40; ++i) {
+    world.meshes.push_back(test::make_instance(
+        "post", test::make_box({0.02f + 0.002f * static_cast<float>(i), 0.03f, 0.6f}),
+        {0.4 * i - 8.0, 3.0 * std::sin(0.7 * i), 0.5}, {0.8f, 0.8f, 0.7f}));
+    world.meshes.back().X_WM.q =
+        Eigen::AngleAxisd(0.2 * i, Eigen::Vector3d(0.3, 1, 0).normalized());
+  }
+  const auto renderer = test::renderer_of(world, {.grass_tufts = false, .distant_hills = false});
+  ASSERT_TRUE(renderer);
+  Frame frame;
+  frame.camera = look_at({-9, -9, 3}, {0, 0, 0.3});
+  frame.width = 3 * 320;
+  frame.height = 3 * 240;
+  frame.samples = 9;
+  const Image large = renderer->draw(frame);
+  Image best{320, 240, std::vector<std::uint8_t>(320 * 240 * 3)};
+  for (std::size_t y = 0; y < 240; ++y) {
+    for (std::size_t i = 0; i < 320 * 3; ++i) {
+      double sum = 0.0;
+      for (std::size_t k = 0; k < 9; ++k) {
+        const std::size_t row = 3 * y + k / 3, column = 3 * (i / 3) + k % 3;
+        sum += std::pow(large.rgb[(row * 960 + column) * 3 + i % 3], 2);
+      }
+      best.rgb[y * 960 + i] = static_cast<std::uint8_t>(std::lround(std::sqrt(sum / 9.0)));
+    }
+  }
+  frame.width = 320;
+  frame.height = 240;
+  std::map<int, double> error;
+  for (const int samples : {1, 2, 4}) {
+    frame.samples = samples;
+    error[samples] = rms(renderer->draw(frame), best);
+    std::printf("%d samples: rms %.2f levels\n", samples, error[samples]);
+  }
+  EXPECT_LT(error[2], 1.3 * error[4]);
+  EXPECT_LT(error[2], 0.6 * error[1]);
+}
+
+}  // namespace
+}  // namespace vinerow::render

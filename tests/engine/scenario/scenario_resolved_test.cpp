@@ -72,7 +72,7 @@ TEST(ResolvedScenario, WritesDefaultsSourcesAndAbsolutePaths) {
                 "pictures:\n"
                 "  width: 1280\n"
                 "  height: 720\n"
-                "  samples: 4\n"
+                "  samples: 2\n"
                 "  every_s: 0\n"
                 "  times_s: []\n"
                 "  shares: [1]\n"

@@ -130,7 +130,7 @@ const Variant kBad[] = {
     {2, "record: {compression: gzip}"},
     {2, "record: {truth_rate_Hz: 0}"},
     {2, "pictures: {width: 3}"},
-    {2, "pictures: {samples: 9}"},
+    {2, "pictures: {samples: 10}"},
     {2, "pictures: {shares: [1.5]}"},
     {2, "pictures: {times_s: [-1]}"},
     {2, "pictures: {cameras: {a: {kind: fixed}}}"},

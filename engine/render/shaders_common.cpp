@@ -153,31 +153,54 @@ vec2 place_in_tile(ivec2 cell) {
   return vec2(h & 0xffffu, h >> 16) * (1.0 / 65536.0);
 }
 
-// A texture without end: at the corners of a grid of triangles it is shifted by random amounts, and
-// between them the three are blended so that contrast stays. After E. Heitz, F. Neyret, "High-
-// performance by-example noise using a histogram-preserving blending operator", 2018.
-// lod, mean: of the texture; sharp: narrow borders, for textures whose blending would be visible.
-vec4 untiled(sampler2D tile, vec2 uv, float lod, bool sharp, vec4 mean) {
+// Triangle of a skewed grid around a point: its corners, and shares that fall towards the other two.
+struct Triangle {
+  ivec2 a, b, c;
+  vec3 share;
+};
+
+Triangle triangle_at(vec2 uv) {
   vec2 skewed = mat2(1.0, 0.0, -0.57735027, 1.15470054) * uv * 2.2;
   vec2 cell = floor(skewed);
   vec2 f = skewed - cell;
   float rest = 1.0 - f.x - f.y;
   float upper = rest < 0.0 ? 1.0 : 0.0;
   float side = 2.0 * upper - 1.0;
-  vec3 w = vec3(-rest * side, upper - f.y * side, upper - f.x * side);
-  w *= w;
-  if (sharp) {
-    w *= w;
-    w *= w;
-  }
-  w /= w.x + w.y + w.z;
   ivec2 corner = ivec2(cell);
   int u = int(upper);
-  vec4 a = textureLod(tile, uv + place_in_tile(corner + ivec2(u, u)), lod);
-  vec4 b = textureLod(tile, uv + place_in_tile(corner + ivec2(u, 1 - u)), lod);
-  vec4 c = textureLod(tile, uv + place_in_tile(corner + ivec2(1 - u, u)), lod);
-  vec4 sum = w.x * a + w.y * b + w.z * c;
+  return Triangle(corner + ivec2(u, u), corner + ivec2(u, 1 - u), corner + ivec2(1 - u, u),
+                  vec3(-rest * side, upper - f.y * side, upper - f.x * side));
+}
+
+// A texture without end: at the corners of a grid of triangles it is shifted by random amounts, and
+// between them the three are blended so that contrast stays. After E. Heitz, F. Neyret, "High-
+// performance by-example noise using a histogram-preserving blending operator", 2018.
+// lod, mean: of the texture.
+vec4 untiled(sampler2D tile, vec2 uv, float lod, vec4 mean) {
+  Triangle t = triangle_at(uv);
+  vec3 w = t.share * t.share;
+  w /= w.x + w.y + w.z;
+  vec4 sum = w.x * textureLod(tile, uv + place_in_tile(t.a), lod) +
+             w.y * textureLod(tile, uv + place_in_tile(t.b), lod) +
+             w.z * textureLod(tile, uv + place_in_tile(t.c), lod);
   return clamp(mean + (sum - mean) * inversesqrt(dot(w, w)), 0.0, 1.0);
+}
+
+// The same with narrow borders, for textures whose blending would be visible. The smallest share
+// counts only about the middle of a triangle: it is left out, and with it a third of the reads.
+vec4 untiled_sharp(sampler2D tile, vec2 uv, float lod, vec4 mean) {
+  Triangle t = triangle_at(uv);
+  vec3 w = t.share;
+  bool no_a = w.x <= w.y && w.x <= w.z;
+  bool no_b = !no_a && w.y <= w.z;
+  vec2 v = vec2(no_a ? w.z : w.x, no_b ? w.z : w.y);
+  v *= v;
+  v *= v;
+  v *= v;
+  v /= v.x + v.y;
+  vec4 sum = v.x * textureLod(tile, uv + place_in_tile(no_a ? t.c : t.a), lod) +
+             v.y * textureLod(tile, uv + place_in_tile(no_b ? t.c : t.b), lod);
+  return clamp(mean + (sum - mean) * inversesqrt(dot(v, v)), 0.0, 1.0);
 }
 
 // Smooth value noise, 0..1, over cells of one unit.
@@ -193,11 +216,11 @@ float value_noise(vec2 q, uint seed) {
 
 // octave: binary logarithm of a pixel's size on the ground, in m.
 vec4 macro_noise(vec2 q, float octave) {
-  return untiled(noise_tile, q * 0.0163, octave + kTileOctaves - 5.94, false, kNoiseMean);
+  return untiled(noise_tile, q * 0.0163, octave + kTileOctaves - 5.94, kNoiseMean);
 }
 
 vec4 meso_noise(vec2 q, float octave) {
-  return untiled(noise_tile, mat2(0.8, 0.6, -0.6, 0.8) * q * 0.098 + 0.3, octave + kTileOctaves - 3.35, false, kNoiseMean);
+  return untiled(noise_tile, mat2(0.8, 0.6, -0.6, 0.8) * q * 0.098 + 0.3, octave + kTileOctaves - 3.35, kNoiseMean);
 }
 
 // Lushness and dryness of the field, 0..1 about 0.5: over metres, tens and hundreds of metres.

@@ -86,9 +86,9 @@ Turf turf_at(vec2 q) {
   float octave = octave_of(q);
   t.macro = macro_noise(q, octave);
   t.meso = meso_noise(q, octave);
-  vec4 fine = untiled(ground_tile, q * 0.476, octave + kTileOctaves - 1.07, true, kGroundMean);
-  vec4 wide = untiled(ground_tile, mat2(0.54, 0.84, -0.84, 0.54) * q * 0.171 + 0.7,
-                      octave + kTileOctaves - 2.55, true, kGroundMean);
+  vec4 fine = untiled_sharp(ground_tile, q * 0.476, octave + kTileOctaves - 1.07, kGroundMean);
+  vec4 wide = untiled_sharp(ground_tile, mat2(0.54, 0.84, -0.84, 0.54) * q * 0.171 + 0.7,
+                      octave + kTileOctaves - 2.55, kGroundMean);
   t.detail = mix(fine, wide, 0.38);
   t.grass = grass_albedo(t.detail.r * 1.15, t.detail.g + grass_look.y, grass_tone(q, octave, t.macro, t.meso)) * grass_look.x;
   t.soil = mix(vec3(0.098, 0.066, 0.043), vec3(0.335, 0.255, 0.176), t.detail.b * 0.9 + 0.25 * (t.meso.r - 0.5)) * soil_look.rgb;

@@ -35,7 +35,9 @@ layout(std140) uniform FrameBlock {
 }
 
 const std::string& light_functions() {
-  static const std::string text = R"(
+  static const std::string text = fmt::format("const vec3 kGammaRoots = vec3({}, {}, {});\n",
+                                              kGammaRoots[0], kGammaRoots[1], kGammaRoots[2]) +
+                                  R"(
 uniform sampler2DArrayShadow shadow_maps;
 
 const float kOneOverPi = 0.31830989;
@@ -79,10 +81,9 @@ vec3 haze_colour(vec3 direction) {
   return mix(haze_from_sun.rgb, haze_to_sun.rgb, towards * towards);
 }
 
-// x to the power of 1/2.2 for x in 0..1, within 0.66 of 255 levels (minimax fit).
 vec3 display_gamma(vec3 x) {
   vec3 r2 = sqrt(x), r4 = sqrt(r2);
-  return 0.83519 * r2 + 0.21166 * r4 - 0.0443 * sqrt(r4);
+  return kGammaRoots.x * r2 + kGammaRoots.y * r4 + kGammaRoots.z * sqrt(r4);
 }
 
 // Filmic curve after K. Narkowicz, "ACES filmic tone mapping curve", 2015, then display gamma.
@@ -153,7 +154,7 @@ vec2 place_in_tile(ivec2 cell) {
   return vec2(h & 0xffffu, h >> 16) * (1.0 / 65536.0);
 }
 
-// Triangle of a skewed grid around a point: its corners, and shares that fall towards the other two.
+// Triangle of a skewed grid around a point: its corners, and their shares, which add up to 1.
 struct Triangle {
   ivec2 a, b, c;
   vec3 share;

@@ -27,6 +27,18 @@ TEST(Signal, ReadersSeeTheLastValueWithItsTime) {
   EXPECT_FALSE(in.is_newer_than(seen));
 }
 
+TEST(Signal, MayBeInTheFrameOfAnotherOne) {
+  SignalBus bus;
+  Ports estimator(bus, "rover", "rover.estimator");
+  Ports observer(bus, "rover", "rover.observers.second", {{"labels", "second_labels"}});
+  estimator.write<Odometry>("estimate");
+  estimator.write_in_frame_of<Odometry>("front", "labels");
+  observer.write_in_frame_of<Odometry>("front", "labels");
+  EXPECT_EQ(bus.find("rover/estimate")->frame_source(), "");
+  EXPECT_EQ(bus.find("rover/labels")->frame_source(), "rover/front");
+  EXPECT_EQ(bus.find("rover/second_labels")->frame_source(), "rover/front");
+}
+
 TEST(Signal, WrongWiresAreRefused) {
   SignalBus bus;
   bus.advertise<Odometry>("rover/truth", "rover");

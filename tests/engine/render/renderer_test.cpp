@@ -533,5 +533,51 @@ TEST(Renderer, LeafCardsAreSeenThroughBetweenTheLeaves) {
   EXPECT_GT(red, 300);
 }
 
+TEST(Renderer, LeavesAreLitInTheWholePicture) {
+  // A wall of cards fills a wide picture: its corners are as bright with every pattern of samples.
+  WorldModel world = western_light();
+  auto cards = std::make_shared<TriangleMesh>();
+  for (int i = 0; i < 60 * 20; ++i) {
+    const float y = 0.1f * static_cast<float>(i % 60) - 3.0f;
+    const float z = 0.1f * static_cast<float>(i / 60);
+    const auto first = static_cast<std::uint32_t>(cards->vertices.size());
+    for (const auto& [u, v] : {std::pair{0.f, 0.f}, {1.f, 0.f}, {1.f, 1.f}, {0.f, 1.f}}) {
+      cards->vertices.emplace_back(0.0f, y - 0.2f * u, z + 0.2f * v);
+      cards->normals.emplace_back(-1.0f, 0.0f, 0.0f);
+      cards->uvs.emplace_back(u, v);
+    }
+    cards->triangles.push_back({first, first + 1, first + 2});
+    cards->triangles.push_back({first, first + 2, first + 3});
+  }
+  MeshInstance leaves = make_instance("leaves", cards, {2, 0, 0}, {1, 1, 1});
+  leaves.material.leaf_cards = true;
+  leaves.material.texture = "builtin:vine_leaf";
+  world.meshes = {leaves};
+  const auto renderer = renderer_of(world);
+  ASSERT_TRUE(renderer);
+  Frame frame = small_frame(look_at({0, 0, 1}, {5, 0, 1}, 0.5), 400, 160);
+  const auto corner_mean = [](const Image& image, int x0, int y0) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (int i = 0; i < 40 * 40; ++i) {
+      sum += test::pixel(image, x0 + i % 40, y0 + i / 40).cast<double>();
+    }
+    return Eigen::Vector3d(sum / 1600.0);
+  };
+  frame.samples = 9;
+  const Image best = renderer->draw(frame);
+  for (const int samples : {1, 2, 4}) {
+    frame.samples = samples;
+    const Image image = renderer->draw(frame);
+    for (const int x : {0, 360}) {
+      for (const int y : {0, 120}) {
+        const Eigen::Vector3d mean = corner_mean(image, x, y);
+        EXPECT_GT(mean.y(), 1.3 * mean.z()) << samples << " samples at " << x << ", " << y;
+        EXPECT_LT((mean - corner_mean(best, x, y)).norm(), 6.0)
+            << samples << " samples at " << x << ", " << y;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vinerow::render::renderer_test

@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <map>
 
 #include "engine/api/world_model.h"
 #include "engine/render/cameras.h"
+#include "engine/render/shaders.h"
 #include "tests/engine/render/test_scenes.h"
 
 namespace vinerow::render {
@@ -66,6 +68,19 @@ TEST(SamplePattern, LargestPicturesHaveFourSamplesInsteadOfTwo) {
   const SamplePattern largest(8192, 8192, 2);
   EXPECT_FALSE(largest.staggered());
   EXPECT_EQ(largest.weight_sum(), 4);
+}
+
+TEST(Shaders, RootsGiveTheGammaOfDisplays) {
+  double largest = 0.0;
+  for (int i = 0; i <= 100'000; ++i) {
+    const double x = 1e-5 * i;
+    const double sum = shaders::kGammaRoots[0] * std::sqrt(x) +
+                       shaders::kGammaRoots[1] * std::pow(x, 0.25) +
+                       shaders::kGammaRoots[2] * std::pow(x, 0.125);
+    largest = std::max(largest, std::abs(sum - std::pow(x, 1.0 / 2.2)));
+  }
+  std::printf("gamma by roots: %.3f of 255 levels at most\n", 255.0 * largest);
+  EXPECT_LT(255.0 * largest, 0.66);
 }
 
 double rms(const Image& a, const Image& b) {

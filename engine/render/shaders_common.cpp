@@ -57,7 +57,8 @@ float sun_visibility(vec3 p, vec3 n, float lift) {
     layer = 1.0;
   }
   // Four taps around the point, corners of a turned square: each drawn pixel takes one diagonal, and
-  // rows take turns. The mean over a pixel is the same. No loop, which llvmpipe runs slowly.
+  // rows take turns, so that the mean over two rows is that of all four. No loop, which llvmpipe
+  // runs slowly.
   vec2 diagonal = (int(gl_FragCoord.y) & 1) == 0 ? vec2(0.4, 1.0) : vec2(1.0, -0.4);
   diagonal *= 1.15 / 2048.0;
   float sum = texture(shadow_maps, vec4(c.xy + diagonal, layer, c.z)) +

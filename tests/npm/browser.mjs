@@ -21,7 +21,8 @@ export class Browser {
     // Without a graphics card, a network beyond this machine, and with a profile of its own.
     browser.process = spawn(program, ["--headless=new", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
       "--disable-gpu-watchdog", "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE localhost, EXCLUDE 127.0.0.1", "--hide-scrollbars",
-      "--remote-debugging-port=0", "--user-data-dir=" + browser.profile, "about:blank"], { stdio: ["ignore", "ignore", "pipe"] });
+      "--remote-debugging-port=0", "--user-data-dir=" + browser.profile, "about:blank"], { stdio: ["ignore", "ignore", "pipe"], detached: true });
+    process.on("exit", () => browser.#kill());
     const port = await new Promise((resolve, reject) => {
       let text = "";
       browser.process.stderr.on("data", (data) => {
@@ -117,7 +118,24 @@ export class Browser {
     const ended = new Promise((resolve) => this.process.once("exit", resolve));
     this.process.kill();
     await ended;
-    // Its helpers may write there for seconds after it has ended; the waits add up to 20 s.
-    rmSync(this.profile, { recursive: true, force: true, maxRetries: 20 });
+    this.#kill();
+    // A helper that has left the group may still write. rmSync's own retries do not look for new files, hence this loop.
+    for (let attempt = 1; ; ++attempt) {
+      try {
+        return rmSync(this.profile, { recursive: true, force: true });
+      } catch (error) {
+        if (attempt === 100) throw error;
+        await pause(200);
+      }
+    }
+  }
+
+  /** Ends the browser and its helpers, which are one group of processes. */
+  #kill() {
+    try {
+      process.kill(-this.process.pid, "SIGKILL");
+    } catch {
+      // No process of the group is left.
+    }
   }
 }

@@ -30,6 +30,7 @@ struct Program {
   GLint material = -1;
   GLint texture_mode = -1;
   GLint thicken = -1;
+  GLint cell_octave = -1;
   GLint grid_rect = -1;
   GLint grid_size = -1;
 };
@@ -66,7 +67,8 @@ class GlRenderer final : public Renderer {
   /// elsewhere.
   void mark_vehicles(const std::vector<Drawable>& links, const std::vector<int>& vehicle_of_link);
   void draw_ground(const Frame& frame, const Frustum& frustum);
-  void draw_tufts(const Frame& frame, const Frustum& frustum);
+  void make_tufts(const Frame& frame, const Frustum& frustum);
+  void draw_tufts(const Program& program);
   void draw_hedges(const Camera& camera, const Frustum& frustum);
   void draw_sky();
   /// Prepares the texture and programs of the frame's grid; they are created for the first frame
@@ -100,8 +102,8 @@ class GlRenderer final : public Renderer {
   Eigen::Vector4f land_rect_ = {0, 0, 0, 0};
   bool has_land_ = false;
   std::unique_ptr<ShadowMaps> shadows_;
-  Program sky_, ground_, country_, surface_, foliage_, foliage_light_, grass_, ribbon_,
-      shadow_solid_, shadow_cards_;
+  Program sky_, ground_, fine_ground_, country_, surface_, foliage_, foliage_light_, grass_,
+      ribbon_, shadow_solid_, shadow_cards_;
   GridOverlay grid_;
   Program hedge_, stem_;
   Program grid_map_, grid_ground_, grid_grass_;  ///< made by prepare_grid

@@ -25,6 +25,10 @@ struct Visible {
   double distance_m;
 };
 
+/// Largest distance of the terrain's vertices at which haze and the ground's slow noise are
+/// interpolated between them. Waves shorter than two such distances are left out.
+constexpr double kFineGround_m = 4.0;
+
 /// Stencil values are bytes.
 constexpr std::size_t kMaxMarked = 254;
 
@@ -208,14 +212,20 @@ void GlRenderer::draw_objects(const Frame& frame, const Frustum& frustum,
     gl_.UseProgram(program.id);
     for (const Visible& visible : things) draw_drawable(program, *visible.drawable);
   };
-  // Leaves overlap many times: draw what their light depends on, then light the visible ones.
-  if (!cards.empty()) {
-    target_.begin_foliage();
-    draw_all(foliage_, cards);
-    target_.resume();
-    light_foliage();
-  }
+  // Leaves and grass overlap many times: draw what their light depends on, then light the visible
+  // ones.
+  make_tufts(frame, frustum);
+  target_.begin_foliage();
+  draw_all(foliage_, cards);
+  if (!grid_on_ground_) draw_tufts(grass_);
+  target_.resume();
+  light_foliage();
   draw_all(surface_, solid);
+  if (grid_on_ground_) {
+    gl_.UseProgram(grid_grass_.id);
+    grid_.set_place(grid_grass_.grid_rect, grid_grass_.grid_size);
+    draw_tufts(grid_grass_);
+  }
 }
 
 void GlRenderer::light_foliage() {
@@ -256,7 +266,8 @@ void GlRenderer::mark_vehicles(const std::vector<Drawable>& links,
   gl_.Disable(GL_STENCIL_TEST);
 }
 
-void GlRenderer::draw_tufts(const Frame& frame, const Frustum& frustum) {
+void GlRenderer::make_tufts(const Frame& frame, const Frustum& frustum) {
+  tuft_indices_.clear();
   if (!terrain_ || !settings_.grass_tufts) return;
   const double seen_scale =
       2.0 * std::tan(0.5 * frame.camera.fov_rad) / frame.height / (2.0 * std::tan(0.48) / 720.0);
@@ -265,9 +276,11 @@ void GlRenderer::draw_tufts(const Frame& frame, const Frustum& frustum) {
   if (tuft_indices_.empty()) return;
   fill_vertices(gl_, tufts_, tuft_vertices_, GL_STREAM_DRAW);
   fill_indices(gl_, tufts_, tuft_indices_, GL_STREAM_DRAW);
-  const Program& grass = grid_on_ground_ ? grid_grass_ : grass_;
-  gl_.UseProgram(grass.id);
-  if (grid_on_ground_) grid_.set_place(grass.grid_rect, grass.grid_size);
+}
+
+void GlRenderer::draw_tufts(const Program& program) {
+  if (tuft_indices_.empty()) return;
+  gl_.UseProgram(program.id);
   gl_.Disable(GL_CULL_FACE);
   draw_mesh(tufts_);
 }
@@ -282,11 +295,21 @@ void GlRenderer::draw_ground(const Frame& frame, const Frustum& frustum) {
   }
   const Eigen::Matrix4f identity = Eigen::Matrix4f::Identity();
   gl_.UniformMatrix4fv(ground.world_from_model, 1, GL_FALSE, identity.data());
+  gl_.UseProgram(fine_ground_.id);
+  gl_.UniformMatrix4fv(fine_ground_.world_from_model, 1, GL_FALSE, identity.data());
   gl_.Disable(GL_CULL_FACE);
   for (const GpuMesh& chunk : chunks_) {
     if (settings_.cull && !frustum.may_see(chunk.bounds_M)) continue;
     const double seen = calc_seen_distance(frame.camera, frame.height, chunk.bounds_M);
-    const GpuMesh& indices = chunk_indices_[pick_terrain_level(seen, terrain_->cell_m)];
+    const int level = pick_terrain_level(seen, terrain_->cell_m);
+    const double cell_m = terrain_->cell_m * (1 << level);
+    if (!grid_on_ground_ && cell_m <= kFineGround_m) {
+      gl_.UseProgram(fine_ground_.id);
+      gl_.Uniform1f(fine_ground_.cell_octave, static_cast<float>(std::log2(cell_m)));
+    } else {
+      gl_.UseProgram(ground.id);
+    }
+    const GpuMesh& indices = chunk_indices_[level];
     gl_.BindVertexArray(chunk.vertex_array);
     gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices.index_buffer);
     gl_.DrawElements(GL_TRIANGLES, indices.index_count, GL_UNSIGNED_INT, nullptr);
@@ -313,7 +336,7 @@ void GlRenderer::prepare_grid(const Frame& frame) {
   if (grid_map_.id == 0) {
     grid_map_ = make_program("grid_map", shaders::grid_map());
     grid_ground_ = make_program("grid_ground", shaders::ground(true, has_land_));
-    grid_grass_ = make_program("grid_grass", shaders::grass(true));
+    grid_grass_ = make_program("grid_grass", shaders::grass_on_grid());
   }
   grid_.show(frame.grid);
   gl_.ActiveTexture(GL_TEXTURE0 + kUnitImage);
@@ -448,7 +471,6 @@ Image GlRenderer::draw(const Frame& frame) {
   if (pattern.staggered()) cover_unused(pattern);
   draw_objects(frame, frustum, vehicles);
   draw_hedges(frame.camera, frustum);
-  draw_tufts(frame, frustum);
   draw_ground(frame, frustum);
   draw_sky();
   mark_vehicles(vehicles, vehicle_of_link);

@@ -71,6 +71,7 @@ Program GlRenderer::make_program(const char* name, const shaders::Pair& sources)
   program.material = place("material");
   program.texture_mode = place("texture_mode");
   program.thicken = place("thicken");
+  program.cell_octave = place("cell_octave");
   program.grid_rect = place("grid_rect");
   program.grid_size = place("grid_size");
   return program;
@@ -80,6 +81,7 @@ void GlRenderer::make_programs(const Scenery& scenery) {
   sky_ = make_program("sky", shaders::sky());
   has_land_ = !scenery.empty() && terrain_;
   ground_ = make_program("ground", shaders::ground(false, has_land_));
+  fine_ground_ = make_program("fine_ground", shaders::ground(false, has_land_, true));
   country_ = make_program("country", shaders::country());
   surface_ = make_program("surface", shaders::surface());
   foliage_ = make_program("foliage", shaders::foliage());
@@ -96,6 +98,9 @@ void GlRenderer::make_textures() {
   upload_texture(gl_, imaging::mip_chain(noise_texture()), false);
   unit(kUnitGround);
   upload_texture(gl_, imaging::mip_chain(ground_texture()), false);
+  // Its levels are read where a texel is about as large as a drawn pixel: reading one instead of
+  // four saves 5 % of a picture, whose error against 64 samples grows from 4.9 to 5.0 levels.
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
   unit(kUnitMask);
   upload_texture(gl_, imaging::mip_chain(mask_.pixels), true);
   unit(kUnitLeaves);

@@ -13,6 +13,7 @@ namespace vinerow::render {
 namespace {
 
 struct Tuft {
+  double away_m;  ///< from the camera, level
   Eigen::Vector3d root_W;
   Eigen::Vector3d normal_W;
   double width_m;
@@ -86,6 +87,7 @@ void make_grass_tufts(const GrassGround& ground, const Camera& camera, const Fru
   constexpr double kHalfTrack_m = 1.6;
   const std::vector<SceneryTrack> tracks =
       tracks_near(ground.tracks, eye.head<2>(), range + kHalfTrack_m);
+  std::vector<Tuft> tufts;
   const int i0 = static_cast<int>(std::floor((eye.x() - range) / kCell_m));
   const int i1 = static_cast<int>(std::floor((eye.x() + range) / kCell_m));
   const int j0 = static_cast<int>(std::floor((eye.y() - range) / kCell_m));
@@ -125,6 +127,7 @@ void make_grass_tufts(const GrassGround& ground, const Camera& camera, const Fru
       const double fringe = std::clamp(1.0 - std::abs(row - 0.55) / 0.30, 0.0, 1.0);
       const double fade = std::clamp((range - away) / (0.3 * range), 0.0, 1.0);
       Tuft tuft{};
+      tuft.away_m = away;
       tuft.root_W = root;
       tuft.normal_W = field.normal_W(x, y);
       const double size = (0.6 + 0.7 * hash01(cx, cy, 5)) * (0.35 + 0.65 * fade);
@@ -134,9 +137,13 @@ void make_grass_tufts(const GrassGround& ground, const Camera& camera, const Fru
       tuft.brightness = 0.72f + 0.28f * hash01(cx, cy, 7);
       tuft.dryness = hash01(cx, cy, 9);
       tuft.layer = kGrassLayer + static_cast<int>(hash_cell(cx, cy, 10) % kGrassLayers);
-      add_tuft(tuft, vertices, indices);
+      tufts.push_back(tuft);
     }
   }
+  // Near ones first: what they hide need not be shaded.
+  std::stable_sort(tufts.begin(), tufts.end(),
+                   [](const Tuft& a, const Tuft& b) { return a.away_m < b.away_m; });
+  for (const Tuft& tuft : tufts) add_tuft(tuft, vertices, indices);
 }
 
 }  // namespace vinerow::render

@@ -17,29 +17,38 @@ struct Pair {
 
 Pair sky();
 /// Terrain, optionally with the occupancy grid and with the scenery's fields and tracks.
-Pair ground(bool with_grid = false, bool with_land = false);
-Pair country();                      ///< the land beyond the terrain
-Pair surface();                      ///< posts, trunks, vehicles, anything opaque
-Pair foliage();                      ///< albedo and normal of alpha-tested leaf cards
-Pair foliage_light();                ///< light on what foliage() has drawn
-Pair grass(bool with_grid = false);  ///< alpha-tested tufts near the camera
-Pair hedge();                        ///< rows of the scenery
-Pair stems();                        ///< stems below the rows
-Pair grid_map();                     ///< the occupancy grid over a view from above
-Pair ribbon();                       ///< lines in clip space
+/// @param fine  for triangles of a few metres: what changes slowly is computed at their corners
+Pair ground(bool with_grid = false, bool with_land = false, bool fine = false);
+Pair country();        ///< the land beyond the terrain
+Pair surface();        ///< posts, trunks, vehicles, anything opaque
+Pair foliage();        ///< albedo and normal of alpha-tested leaf cards
+Pair grass();          ///< the same of tufts near the camera
+Pair foliage_light();  ///< light on what foliage() and grass() have drawn
+Pair grass_on_grid();  ///< tufts with the occupancy grid, lit at once
+Pair hedge();          ///< rows of the scenery
+Pair stems();          ///< stems below the rows
+Pair grid_map();       ///< the occupancy grid over a view from above
+Pair ribbon();         ///< lines in clip space
 Pair shadow_solid();
 Pair shadow_cards();
 
 /// Declarations and functions shared by the shaders: frame block, light, haze, tone.
 const std::string& frame_block();
 const std::string& light_functions();
+/// The haze alone, also for vertex shaders.
+const std::string& haze_functions();
 const std::string& grass_colour();
 /// Non-repeating noises and textures of the ground: untiled(), value_noise(), grass_tone().
 const std::string& untiled_noise();
 /// float octave_of(vec2 q): resolution at which q is seen, for fragment shaders.
 const std::string& pixel_octave();
-/// vec3 leaf_light(albedo, n, p, lift): radiance of leaves.
+/// vec3 leaf_light(albedo, n, p, sun): radiance of leaves.
 const std::string& leaf_light();
+/// vec3 grass_light(albedo, n, p, sun, up): radiance of blades of grass.
+const std::string& grass_light();
+/// What the alpha of foliage()'s and grass()'s albedo says: 1 for leaves, for grass the share of
+/// its height times kMostGrass.
+inline constexpr char kFoliageMarks[] = "const float kMostGrass = 0.75;\n";
 /// Land land_at(...): fields and tracks at a position; include it after the ground's inputs.
 const std::string& land_use();
 /// vec4 grid_tint(vec2 place): colour and opacity of the occupancy grid.

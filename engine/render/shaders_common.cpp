@@ -34,8 +34,26 @@ layout(std140) uniform FrameBlock {
   return text;
 }
 
+const std::string& haze_functions() {
+  static const std::string text = R"(
+vec3 haze_colour(vec3 direction) {
+  float towards = 0.5 + 0.5 * dot(normalize(direction.xy + vec2(1e-5)), normalize(sun_direction.xy + vec2(1e-5)));
+  return mix(haze_from_sun.rgb, haze_to_sun.rgb, towards * towards);
+}
+
+// Haze between p and the eye: what it adds, and the share of the light from p that it leaves.
+vec4 haze_before(vec3 p) {
+  vec3 ray = p - eye.xyz;
+  float share = exp(-haze_to_sun.a * length(ray));
+  return vec4(haze_colour(ray) * (1.0 - share), share);
+}
+)";
+  return text;
+}
+
 const std::string& light_functions() {
-  static const std::string text = fmt::format("const vec3 kGammaRoots = vec3({}, {}, {});\n",
+  static const std::string text = haze_functions() +
+                                  fmt::format("const vec3 kGammaRoots = vec3({}, {}, {});\n",
                                               kGammaRoots[0], kGammaRoots[1], kGammaRoots[2]) +
                                   R"(
 uniform sampler2DArrayShadow shadow_maps;
@@ -77,11 +95,6 @@ vec3 view_direction(vec3 p) {
   return eye.w > 0.5 ? normalize(p - eye.xyz) : forward.xyz;
 }
 
-vec3 haze_colour(vec3 direction) {
-  float towards = 0.5 + 0.5 * dot(normalize(direction.xy + vec2(1e-5)), normalize(sun_direction.xy + vec2(1e-5)));
-  return mix(haze_from_sun.rgb, haze_to_sun.rgb, towards * towards);
-}
-
 vec3 display_gamma(vec3 x) {
   vec3 r2 = sqrt(x), r4 = sqrt(r2);
   return kGammaRoots.x * r2 + kGammaRoots.y * r4 + kGammaRoots.z * sqrt(r4);
@@ -94,11 +107,13 @@ vec3 to_screen(vec3 radiance) {
   return display_gamma(clamp(x, 0.0, 1.0));
 }
 
+vec3 finish_in(vec3 radiance, vec4 haze) {
+  return to_screen(radiance * haze.a + haze.rgb);
+}
+
 // Light from p at the eye, after the haze in between.
 vec3 finish(vec3 radiance, vec3 p) {
-  vec3 ray = p - eye.xyz;
-  float share = exp(-haze_to_sun.a * length(ray));
-  return to_screen(mix(haze_colour(ray), radiance, share));
+  return finish_in(radiance, haze_before(p));
 }
 )";
   return text;
@@ -225,13 +240,17 @@ vec4 meso_noise(vec2 q, float octave) {
   return untiled(noise_tile, mat2(0.8, 0.6, -0.6, 0.8) * q * 0.098 + 0.3, octave + kTileOctaves - 3.35, kNoiseMean);
 }
 
+// Lushness and dryness of the field over tens and hundreds of metres, about 0.
+vec2 broad_tone(vec2 q) {
+  return vec2(0.40, 0.34) * (vec2(value_noise(q * 0.021, 3u), value_noise(q * 0.0173 + 0.5, 4u)) * 0.5 +
+                             vec2(value_noise(q * 0.0067, 5u), value_noise(q * 0.0057 + 0.5, 6u)) * 0.5 - 0.5);
+}
+
 // Lushness and dryness of the field, 0..1 about 0.5: over metres, tens and hundreds of metres.
-vec2 grass_tone(vec2 q, float octave, vec4 macro, vec4 meso) {
+vec2 grass_tone(vec2 broad, float octave, vec4 macro, vec4 meso) {
   float shown = 1.0 - smoothstep(4.0, 6.0, octave);
-  vec2 broad = vec2(value_noise(q * 0.021, 3u), value_noise(q * 0.0173 + 0.5, 4u)) * 0.5 +
-               vec2(value_noise(q * 0.0067, 5u), value_noise(q * 0.0057 + 0.5, 6u)) * 0.5 - 0.5;
   vec2 tone = vec2(macro.r * 0.6 + meso.g * 0.4, macro.g * 0.65 + meso.r * 0.35);
-  return tone + shown * vec2(0.40, 0.34) * broad;
+  return tone + shown * broad;
 }
 )";
   return text;

@@ -60,9 +60,20 @@ layout(location = 1) in vec3 normal;
 uniform mat4 world_from_model;
 out vec3 p_W;
 out vec3 n_W;
+#ifdef SLOW_AT_VERTICES
+uniform float cell_octave;  // binary logarithm of the distance between vertices, in m
+out vec4 macro;
+out vec2 broad;
+out vec4 haze;
+#endif
 void main() {
   p_W = (world_from_model * vec4(position, 1.0)).xyz;
   n_W = mat3(world_from_model) * normal;
+#ifdef SLOW_AT_VERTICES
+  macro = macro_noise(p_W.xy, cell_octave);
+  broad = broad_tone(p_W.xy);
+  haze = haze_before(p_W);
+#endif
   gl_Position = clip_from_world * vec4(p_W, 1.0);
 }
 )";
@@ -74,6 +85,16 @@ out vec4 colour;
 uniform sampler2D ground_tile;  // R grass, G dryness, B soil, A height
 uniform sampler2D row_mask;     // distances / 2.55 m: R to a row, G to the middle of an alley; B in an alley
 
+// What changes slowly from place to place.
+#ifdef SLOW_AT_VERTICES
+in vec4 macro;
+in vec2 broad;
+in vec4 haze;
+#define SLOW(at_vertices, here) at_vertices
+#else
+#define SLOW(at_vertices, here) here
+#endif
+
 // Functions shared by terrain and country: noises, turf and soil at a point.
 struct Turf {
   vec4 macro, meso, detail;
@@ -84,13 +105,13 @@ struct Turf {
 Turf turf_at(vec2 q) {
   Turf t;
   float octave = octave_of(q);
-  t.macro = macro_noise(q, octave);
+  t.macro = SLOW(macro, macro_noise(q, octave));
   t.meso = meso_noise(q, octave);
   vec4 fine = untiled_sharp(ground_tile, q * 0.476, octave + kTileOctaves - 1.07, kGroundMean);
   vec4 wide = untiled_sharp(ground_tile, mat2(0.54, 0.84, -0.84, 0.54) * q * 0.171 + 0.7,
                       octave + kTileOctaves - 2.55, kGroundMean);
   t.detail = mix(fine, wide, 0.38);
-  t.grass = grass_albedo(t.detail.r * 1.15, t.detail.g + grass_look.y, grass_tone(q, octave, t.macro, t.meso)) * grass_look.x;
+  t.grass = grass_albedo(t.detail.r * 1.15, t.detail.g + grass_look.y, grass_tone(SLOW(broad, broad_tone(q)), octave, t.macro, t.meso)) * grass_look.x;
   t.soil = mix(vec3(0.098, 0.066, 0.043), vec3(0.335, 0.255, 0.176), t.detail.b * 0.9 + 0.25 * (t.meso.r - 0.5)) * soil_look.rgb;
   t.scar = 0.6 * smoothstep(0.70, 0.98, t.meso.r * 0.5 + t.macro.g * 0.40 + (0.5 - t.detail.a) * 0.7);
   // Partly covered soil is bare where the noise is low.
@@ -145,10 +166,11 @@ const char* const kApplyTrack = R"(
 
 }  // namespace
 
-Pair ground(bool with_grid, bool with_land) {
-  const std::string fragment = frame_block() + light_functions() + grass_colour() +
-                               untiled_noise() + pixel_octave() + kGroundInputs +
-                               (with_grid ? grid_tint() : "") + (with_land ? land_use() : "") + R"(
+Pair ground(bool with_grid, bool with_land, bool fine) {
+  const std::string begin = frame_block() + (fine ? "#define SLOW_AT_VERTICES\n" : "");
+  const std::string fragment = begin + light_functions() + grass_colour() + untiled_noise() +
+                               pixel_octave() + kGroundInputs + (with_grid ? grid_tint() : "") +
+                               (with_land ? land_use() : "") + R"(
 void main() {
   vec3 n = normalize(n_W);
   vec2 q = p_W.xy;
@@ -181,13 +203,13 @@ void main() {
   vec3 light = sun_irradiance.rgb * (max(dot(n, sun_direction.xyz), 0.0) * sun) + ambient(n) * turf_relief(t, bare);
   // The foot of the vines sees little sky.
   light *= 1.0 - 0.22 * (1.0 - smoothstep(0.0, 0.8, d.x));
-  vec3 seen = finish(albedo * light * kOneOverPi, p_W);
+  vec3 seen = finish_in(albedo * light * kOneOverPi, SLOW(haze, haze_before(p_W)));
 )" + (with_grid ? kApplyGrid : "") +
                                R"(
   colour = vec4(seen, 1.0);
 }
 )";
-  return {frame_block() + kGroundVertex, fragment};
+  return {begin + haze_functions() + untiled_noise() + kGroundVertex, fragment};
 }
 
 Pair country() {
@@ -210,14 +232,16 @@ void main() {
 
   float sun = sun_visibility(p_W, n, 0.0);
   vec3 light = sun_irradiance.rgb * (max(dot(n, sun_direction.xyz), 0.0) * sun) + ambient(n) * turf_relief(t, t.scar);
-  colour = vec4(finish(albedo * light * kOneOverPi, p_W), 1.0);
+  colour = vec4(finish_in(albedo * light * kOneOverPi, SLOW(haze, haze_before(p_W))), 1.0);
 }
 )";
-  return {frame_block() + kGroundVertex, fragment};
+  return {frame_block() + haze_functions() + untiled_noise() + kGroundVertex, fragment};
 }
 
-Pair grass(bool with_grid) {
-  const std::string vertex = frame_block() + untiled_noise() + R"(
+namespace {
+
+std::string grass_vertex() {
+  return frame_block() + untiled_noise() + R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
@@ -233,39 +257,57 @@ void main() {
   card = vec3(uv, floor(tint.a * 255.0 + 0.5));
   vec2 q = position.xy;
   const float octave = -20.0;  // the finest
-  tone = grass_tone(q, octave, macro_noise(q, octave), meso_noise(q, octave));
+  tone = grass_tone(broad_tone(q), octave, macro_noise(q, octave), meso_noise(q, octave));
   shade = tint.rg;
   gl_Position = clip_from_world * vec4(p_W, 1.0);
 }
 )";
-  const std::string fragment = frame_block() + light_functions() + grass_colour() +
-                               (with_grid ? grid_tint() : "") + R"(
+}
+
+const char* const kGrassInputs = R"(
 in vec3 p_W;
 in vec3 n_W;
 in vec3 card;
 in vec2 tone;
 in vec2 shade;
-out vec4 colour;
 uniform sampler2DArray leaf_cards;
+
+vec3 albedo_of(vec4 blade) {
+  float brightness = clamp(blade.r * shade.r * 1.25, 0.0, 1.0);
+  return grass_albedo(brightness, (blade.g - 0.2) / 0.6 * 0.7 + shade.g * 0.3 + grass_look.y, tone) * grass_look.x;
+}
+)";
+
+}  // namespace
+
+Pair grass() {
+  return {grass_vertex(), frame_block() + kFoliageMarks + grass_colour() + kGrassInputs + R"(
+layout(location = 0) out vec4 albedo;  // as foliage()'s
+layout(location = 1) out vec4 normal;
+
+void main() {
+  vec4 blade = texture(leaf_cards, card, sampling.x);
+  if (blade.a < 0.5) discard;
+  albedo = vec4(sqrt(albedo_of(blade)), kMostGrass * card.y);
+  normal = vec4(0.5 + 0.5 * normalize(n_W), 1.0);
+}
+)"};
+}
+
+Pair grass_on_grid() {
+  return {grass_vertex(), frame_block() + light_functions() + grass_colour() + grass_light() +
+                              grid_tint() + kGrassInputs + R"(
+out vec4 colour;
 
 void main() {
   vec4 blade = texture(leaf_cards, card, sampling.x);
   if (blade.a < 0.5) discard;
   vec3 n = normalize(n_W);
-  float brightness = clamp(blade.r * shade.r * 1.25, 0.0, 1.0);
-  vec3 albedo = grass_albedo(brightness, (blade.g - 0.2) / 0.6 * 0.7 + shade.g * 0.3 + grass_look.y, tone) * grass_look.x;
-  float sun = sun_visibility(p_W, n, 0.03);
-  vec3 view = view_direction(p_W);
-  float through = pow(clamp(dot(view, sun_direction.xyz), 0.0, 1.0), 3.0) * card.y;
-  float lit = max(dot(n, sun_direction.xyz), 0.0) * (0.75 + 0.35 * card.y) + 0.55 * through;
-  vec3 light = sun_irradiance.rgb * lit * sun + ambient(n) * (0.6 + 0.4 * card.y);
-  vec3 seen = finish(albedo * light * kOneOverPi, p_W);
-)" + (with_grid ? kApplyGrid : "") +
-                               R"(
+  vec3 seen = finish(grass_light(albedo_of(blade), n, p_W, sun_visibility(p_W, n, 0.03), card.y), p_W);
+)" + kApplyGrid + R"(
   colour = vec4(seen, 1.0);
 }
-)";
-  return {vertex, fragment};
+)"};
 }
 
 }  // namespace vinerow::render::shaders

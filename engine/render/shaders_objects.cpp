@@ -90,11 +90,10 @@ void main() {
 
 const std::string& leaf_light() {
   static const std::string text = R"(
-// Radiance of leaves at p; lift: by how much shadows start nearer to the sun, m.
-vec3 leaf_light(vec3 albedo, vec3 n, vec3 p, float lift) {
+// Radiance of leaves at p of whose sun they see a share.
+vec3 leaf_light(vec3 albedo, vec3 n, vec3 p, float sun) {
   vec3 v = -view_direction(p);
   float n_l = dot(n, sun_direction.xyz);
-  float sun = sun_visibility(p, n, lift);
   // Leaves transmit about a third of the light, yellower than the reflected light.
   float front = max((n_l + 0.25) / 1.25, 0.0);
   float toward = max(dot(-v, sun_direction.xyz), 0.0);
@@ -113,13 +112,26 @@ vec3 leaf_light(vec3 albedo, vec3 n, vec3 p, float lift) {
   return text;
 }
 
+const std::string& grass_light() {
+  static const std::string text = R"(
+// Radiance of a blade of grass at p, of whose sun it sees a share; up: share of its height.
+vec3 grass_light(vec3 albedo, vec3 n, vec3 p, float sun, float up) {
+  float through = pow(clamp(dot(view_direction(p), sun_direction.xyz), 0.0, 1.0), 3.0) * up;
+  float lit = max(dot(n, sun_direction.xyz), 0.0) * (0.75 + 0.35 * up) + 0.55 * through;
+  vec3 light = sun_irradiance.rgb * (lit * sun) + ambient(n) * (0.6 + 0.4 * up);
+  return albedo * light * kOneOverPi;
+}
+)";
+  return text;
+}
+
 Pair foliage() {
   return {frame_block() + kMeshVertex, frame_block() + R"(
 in vec3 n_W;
 in vec2 uv;
 flat in float layer;
 in vec3 vertex_colour;
-layout(location = 0) out vec4 albedo;  // square root, which keeps dark leaves apart
+layout(location = 0) out vec4 albedo;  // rgb: square root, which keeps dark leaves apart; a: kMostGrass
 layout(location = 1) out vec4 normal;
 uniform sampler2DArray leaf_cards;
 uniform vec4 material;
@@ -146,7 +158,8 @@ void main() {
   gl_Position = vec4(dot(sampling.yz, corner), sampling.w * corner.y, 1.0, 1.0);
 }
 )";
-  const std::string fragment = frame_block() + light_functions() + leaf_light() + R"(
+  const std::string fragment =
+      frame_block() + kFoliageMarks + light_functions() + leaf_light() + grass_light() + R"(
 out vec4 colour;
 uniform sampler2D frame_depth;
 uniform sampler2D frame_albedo;
@@ -154,13 +167,17 @@ uniform sampler2D frame_normal;
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  vec3 root = texelFetch(frame_albedo, pixel, 0).rgb;
+  vec4 seen = texelFetch(frame_albedo, pixel, 0);
   vec3 n = normalize(texelFetch(frame_normal, pixel, 0).xyz - 0.5);
   float depth = texelFetch(frame_depth, pixel, 0).r;
   vec2 place = gl_FragCoord.xy / vec2(textureSize(frame_depth, 0));
   vec4 p = world_from_clip * vec4(2.0 * vec3(place, depth) - 1.0, 1.0);
   vec3 p_W = p.xyz / p.w;
-  colour = vec4(finish(leaf_light(root * root, n, p_W, 0.10), p_W), 1.0);
+  bool is_grass = seen.a < 0.5 * (1.0 + kMostGrass);
+  float sun = sun_visibility(p_W, n, is_grass ? 0.03 : 0.10);
+  vec3 albedo = seen.rgb * seen.rgb;
+  vec3 radiance = is_grass ? grass_light(albedo, n, p_W, sun, seen.a / kMostGrass) : leaf_light(albedo, n, p_W, sun);
+  colour = vec4(finish(radiance, p_W), 1.0);
 }
 )";
   return {vertex, fragment};

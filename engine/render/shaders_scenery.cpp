@@ -28,7 +28,7 @@ Land land_at(vec2 q, Turf t, float octave, float ragged) {
   float inside = field > 0 ? smoothstep(0.03, 0.47, here.b + 0.8 * ragged) : 0.0;
   float planted = field > 0 && rows.w > 0.0 ? smoothstep(0.65, 0.85, here.b + 0.4 * ragged) : 0.0;
 
-  vec2 tone = grass_tone(q, octave, t.macro, t.meso) * 0.75 + 0.125 + (look.x - 0.5) * vec2(-0.55, 0.45);
+  vec2 tone = grass_tone(SLOW(broad, broad_tone(q)), octave, t.macro, t.meso) * 0.75 + 0.125 + (look.x - 0.5) * vec2(-0.55, 0.45);
   vec3 grass = grass_albedo(t.detail.r * 1.15, t.detail.g + grass_look.y, tone) * (look.w * grass_look.x);
   float furrow = 0.5 + 0.5 * sin((dot(q, rows.xy) - rows.z) * 2.1);
   float seen = exp2(octave);
@@ -117,7 +117,7 @@ void main() {
   float height = 1.0 - abs(uv.y);
   vec3 albedo = leaf_colour * (0.20 + 1.75 * leaf * leaf + 0.25 * leaves.b) * mix(0.45, 1.1, smoothstep(0.0, 0.9, height));
   albedo *= mix(vec3(0.88, 0.95, 1.0), vec3(1.15, 1.06, 0.95), smoothstep(0.35, 0.65, vigour.r));
-  colour = vec4(finish(leaf_light(albedo, n, p_W, 0.25), p_W), 1.0);
+  colour = vec4(finish(leaf_light(albedo, n, p_W, sun_visibility(p_W, n, 0.25)), p_W), 1.0);
 }
 )";
   return {frame_block() + kHedgeVertex, fragment};

@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
 #include "tests/engine/render/test_scenes.h"
 
 namespace vinerow::render::grid_overlay_test {
@@ -162,6 +166,42 @@ TEST(GridOverlay, AnotherGridReplacesTheFirst) {
   EXPECT_GT(box.min().x(), 160);
   frame.grid = left;
   EXPECT_EQ(image_digest(renderer->draw(frame)), first);
+}
+
+/// Mean and root mean square of the differences, in levels.
+std::pair<double, double> differences(const Image& a, const Image& b) {
+  double sum = 0.0, squares = 0.0;
+  for (std::size_t i = 0; i < a.rgb.size(); ++i) {
+    const double difference = double{1} * a.rgb[i] - b.rgb[i];
+    sum += difference;
+    squares += difference * difference;
+  }
+  const auto count = static_cast<double>(a.rgb.size());
+  return {sum / count, std::sqrt(squares / count)};
+}
+
+TEST(GridOverlay, WhereAllIsFreeTheGroundAndItsGrassLookAsWithoutIt) {
+  // With a grid the shaders compute all noise pixel by pixel, and light tufts at once; without it
+  // slow noise comes from the vertices, and tufts are lit with the leaves.
+  WorldModel world;
+  world.terrain = test::make_level_ground(30.0);
+  const auto renderer = test::renderer_of(world);
+  ASSERT_TRUE(renderer);
+  Frame frame = frame_from_above();
+  frame.camera = look_at({-6, 0, 0.7}, {2, 0, 0.2});
+  frame.samples = 4;
+  const Image plain = renderer->draw(frame);
+  frame.grid = make_free_grid();
+  const auto [mean, rms] = differences(renderer->draw(frame), plain);
+  std::printf("ground and grass by both ways: mean %.2f, rms %.2f levels\n", mean, rms);
+  EXPECT_LT(std::abs(mean), 0.3);
+  EXPECT_LT(rms, 1.0);
+  // The tufts are a part of both.
+  RendererSettings bare;
+  bare.grass_tufts = false;
+  const auto mown = make_renderer(world, bare);
+  ASSERT_TRUE(mown);
+  EXPECT_GT(differences((*mown)->draw(frame), plain).second, 2.0);
 }
 
 }  // namespace

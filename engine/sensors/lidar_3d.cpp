@@ -11,6 +11,7 @@
 #include "engine/api/messages/sensors.h"
 #include "engine/core/constants.h"
 #include "engine/core/error.h"
+#include "engine/core/parallel.h"
 #include "engine/math/angles.h"
 #include "engine/sensors/laser_optics.h"
 #include "engine/sensors/mounted_sensor.h"
@@ -167,11 +168,27 @@ class Lidar3d final : public MountedSensor<PointCloud> {
       add_rays(pulse, p_W, R_WS);
     }
     hits_.resize(rays_.size());
-    light_->cast_rays(rays_, hits_);
+    cast_rays(*light_, hits_);
     look_at_vehicles();
     for (std::size_t number = first; number < next_pulse_; ++number) {
       receive(pulses_[number], first_ray_[number - first]);
     }
+  }
+
+  /// Casts the rays of a slice, on all cores if there are many.
+  void cast_rays(const RayScene& scene, std::vector<std::optional<RayHit>>& hits) const {
+    constexpr std::size_t kAtOnce = 1024;
+    // Few captures, so that std::function needs no memory for them.
+    const struct {
+      const RayScene& scene;
+      std::span<std::optional<RayHit>> hits;
+    } wanted{scene, hits};
+    for_chunks(rays_.size(), kAtOnce,
+               [this, &wanted](std::size_t, std::size_t begin, std::size_t end) {
+                 const std::span<const SceneRay> rays(rays_);
+                 wanted.scene.cast_rays(rays.subspan(begin, end - begin),
+                                        wanted.hits.subspan(begin, end - begin));
+               });
   }
 
   /// Replaces hits by nearer ones on vehicles, which are where they are at the slice's end.
@@ -183,7 +200,7 @@ class Lidar3d final : public MountedSensor<PointCloud> {
       if (hits_[i]) rays_[i].max_distance_m = hits_[i]->distance_m;
     }
     vehicle_hits_.resize(rays_.size());
-    vehicles_->cast_rays(rays_, vehicle_hits_);
+    cast_rays(*vehicles_, vehicle_hits_);
     for (std::size_t i = 0; i < rays_.size(); ++i) {
       if (vehicle_hits_[i]) hits_[i] = vehicle_hits_[i];
     }

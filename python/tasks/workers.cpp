@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/core/parallel.h"
+
 namespace vinerow::tasks {
 
 Workers::Workers(int threads) {
@@ -42,6 +44,7 @@ void Workers::serve() {
 }
 
 void Workers::take_jobs() {
+  const ShareOfCores share(threads_.size() + 1);
   for (int i = next_++; i < count_; i = next_++) {
     try {
       (*job_)(i);

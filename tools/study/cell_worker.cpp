@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <csignal>
 #include <iostream>
+#include <thread>
 
 #include "engine/core/error.h"
+#include "engine/core/parallel.h"
 #include "engine/core/whole_file.h"
 #include "engine/io/files/output_folder.h"
 #include "tools/study/cost_meter.h"
@@ -90,6 +92,8 @@ CellResult result_of_end(const EndedCell& ended) {
 }
 
 void serve(const OpenStudy& open, const StudyFolder& folder) {
+  // The study's other workers have the other cores.
+  const ShareOfCores share(std::max(1u, std::thread::hardware_concurrency()));
   // Output of parts must not mix with the answers.
   const int answers = dup(STDOUT_FILENO);
   dup2(STDERR_FILENO, STDOUT_FILENO);

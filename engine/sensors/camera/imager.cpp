@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/api/parameter_table.h"
+#include "engine/core/parallel.h"
 #include "engine/math/angles.h"
 #include "engine/math/srgb.h"
 
@@ -100,7 +101,11 @@ std::uint32_t QuickNormals::draw() {
 }
 
 float QuickNormals::next() {
-  return quantiles()[draw()];
+  return quantile(draw());
+}
+
+float QuickNormals::quantile(std::uint32_t share) {
+  return quantiles()[share];
 }
 
 float QuickNormals::next_share() {
@@ -119,6 +124,7 @@ Imager::Imager(const ImagerParams& params, int width, int height, int channels,
   electrons_per_s_ = params.quantum_efficiency * params.pixel_um * params.pixel_um * kPi /
                      (4.0 * params.f_number * params.f_number) * kSun_lx * kPhotons_per_lx_s_um2;
   const std::size_t pixels = static_cast<std::size_t>(width) * height;
+  if (params.noise) draws_.resize(pixels * channels);
   QuickNormals draws(pattern);
   for (std::size_t i = 0; i < pixels; ++i) {
     const double x = 2.0 * (static_cast<double>(i % width) + 0.5) / width - 1.0;
@@ -183,21 +189,39 @@ void Imager::develop(std::size_t pixel, int channel, double share_of_range,
 void Imager::expose(std::span<const float> radiance, QuickNormals& noise, Picture& reading,
                     Picture& truth) {
   meter(radiance);
+  // The draws have an order, the pixels do not.
+  if (params_.noise) {
+    for (std::uint16_t& draw : draws_) draw = static_cast<std::uint16_t>(noise.draw());
+  }
+  const struct {
+    std::span<const float> radiance;
+    Picture& reading;
+    Picture& truth;
+  } pictures{radiance, reading, truth};
+  constexpr std::size_t kRowsAtOnce = 16;
+  for_chunks(static_cast<std::size_t>(height_), kRowsAtOnce,
+             [this, &pictures](std::size_t, std::size_t begin, std::size_t end) {
+               for (std::size_t pixel = begin * width_; pixel < end * width_; ++pixel) {
+                 expose_pixel(pixel, pictures.radiance, pictures.reading, pictures.truth);
+               }
+             });
+}
+
+void Imager::expose_pixel(std::size_t pixel, std::span<const float> radiance, Picture& reading,
+                          Picture& truth) const {
   const double scale = electrons_per_s_ * exposure_s_, to_share = gain_ / params_.full_well_e;
   const double read2_e2 = params_.read_noise_e * params_.read_noise_e;
-  const std::size_t pixels = light_.size();
-  for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
-    for (int c = 0; c < channels_; ++c) {
-      const double electrons = scale * light_[pixel] * radiance[pixel * channels_ + c];
-      const double full = std::min(electrons, params_.full_well_e);
-      develop(pixel, c, full * to_share, truth);
-      double read_e = electrons * gains_[pixel] + offsets_e_[pixel];
-      if (params_.noise) {
-        const double std_e = std::sqrt(std::max(read_e, 0.0) + read2_e2);
-        read_e += std_e * noise.next();
-      }
-      develop(pixel, c, std::min(read_e, params_.full_well_e) * to_share, reading);
+  for (int c = 0; c < channels_; ++c) {
+    const std::size_t i = pixel * channels_ + c;
+    const double electrons = scale * light_[pixel] * radiance[i];
+    const double full = std::min(electrons, params_.full_well_e);
+    develop(pixel, c, full * to_share, truth);
+    double read_e = electrons * gains_[pixel] + offsets_e_[pixel];
+    if (params_.noise) {
+      const double std_e = std::sqrt(std::max(read_e, 0.0) + read2_e2);
+      read_e += std_e * QuickNormals::quantile(draws_[i]);
     }
+    develop(pixel, c, std::min(read_e, params_.full_well_e) * to_share, reading);
   }
 }
 

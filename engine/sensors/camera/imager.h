@@ -54,10 +54,11 @@ class QuickNormals {
   float next();
   /// Uniform in [0, 1), in steps of 1/4096.
   float next_share();
+  /// Number of one of the shares; next() is its quantile().
+  std::uint32_t draw();
+  static float quantile(std::uint32_t share);
 
  private:
-  std::uint32_t draw();
-
   RandomStream random_;
   std::uint64_t bits_ = 0;
   int left_ = 0;
@@ -81,6 +82,8 @@ class Imager {
 
  private:
   void meter(std::span<const float> radiance);
+  void expose_pixel(std::size_t pixel, std::span<const float> radiance, Picture& reading,
+                    Picture& truth) const;
   void develop(std::size_t pixel, int channel, double share_of_range, Picture& picture) const;
 
   ImagerParams params_;
@@ -90,6 +93,7 @@ class Imager {
   double exposure_s_ = 0.0, gain_ = 1.0;
   std::vector<float> light_;              ///< share that the lens leaves at each pixel
   std::vector<float> offsets_e_, gains_;  ///< of each pixel
+  std::vector<std::uint16_t> draws_;      ///< for the noise of each value of a picture
   std::vector<std::uint8_t> curve_;       ///< sRGB of each number of the converter
 };
 

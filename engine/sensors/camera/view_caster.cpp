@@ -3,8 +3,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
 
 #include "engine/api/world_model.h"
+#include "engine/core/parallel.h"
 
 namespace vinerow::sensors {
 namespace {
@@ -19,6 +22,7 @@ constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
 // Rays side by side cost half as much: they go in blocks of four by two pixels.
 constexpr int kBlockColumns = 4, kBandRows = 2;
+constexpr std::size_t kBandsAtOnce = 4;  // by a thread, which takes some ms
 
 /// Places of samples about the middle, the first of which is the middle. The others fill the pixel
 /// and its exposure evenly: additive recurrence of the golden ratio and its relatives (Roberts
@@ -84,6 +88,29 @@ struct ViewCaster::Band {
   }
 };
 
+/// The rays of a band, and what they meet.
+struct ViewCaster::BandRays {
+  std::vector<SceneRay> rays, sun_rays;
+  std::vector<std::optional<RayHit>> hits, vehicle_hits;
+  std::vector<bool> on_vehicle;
+  std::vector<SeenSurface> surfaces;
+  std::vector<std::size_t> sun_ray;  ///< of each ray, or kNone
+  // Of the rays to the sun: whether plants, or vehicles, are in their way.
+  std::unique_ptr<bool[]> is_shaded, is_shaded_by_vehicle;
+
+  explicit BandRays(std::size_t most) {
+    rays.reserve(most);
+    hits.reserve(most);
+    vehicle_hits.reserve(most);
+    on_vehicle.reserve(most);
+    surfaces.reserve(most);
+    sun_rays.reserve(most);
+    sun_ray.reserve(most);
+    is_shaded = std::make_unique<bool[]>(most);
+    is_shaded_by_vehicle = std::make_unique<bool[]>(most);
+  }
+};
+
 ViewCaster::ViewCaster(const Lens& lens, const ViewSettings& settings, const WorldModel& world,
                        const RayScene& light, const SceneLook& look)
     : lens_(lens),
@@ -99,16 +126,18 @@ ViewCaster::ViewCaster(const Lens& lens, const ViewSettings& settings, const Wor
       direction_C_.push_back(lens.direction(x, y).value_or(Vector3d::UnitZ()).cast<float>());
     }
   }
-  const auto most = static_cast<std::size_t>(kBandRows * lens.width());
-  rays_.reserve(most);
-  hits_.reserve(most);
-  vehicle_hits_.reserve(most);
-  on_vehicle_.reserve(most);
-  surfaces_.reserve(most);
-  sun_rays_.reserve(most);
-  sun_ray_.reserve(most);
-  is_shaded_ = std::make_unique<bool[]>(most);
-  is_shaded_by_vehicle_ = std::make_unique<bool[]>(most);
+  make_band_rays();
+}
+
+ViewCaster::~ViewCaster() = default;
+
+void ViewCaster::make_band_rays() {
+  const int chunk_rows = kBandRows * static_cast<int>(kBandsAtOnce);
+  const auto chunks = static_cast<std::size_t>((lens_.height() + chunk_rows - 1) / chunk_rows);
+  while (band_rays_.size() < std::min(most_threads(), chunks)) {
+    const auto most = static_cast<std::size_t>(kBandRows * lens_.width());
+    band_rays_.push_back(std::make_unique<BandRays>(most));
+  }
 }
 
 void ViewCaster::cast(const CameraMotion& motion, double exposure_s, View& view) {
@@ -121,29 +150,42 @@ void ViewCaster::cast(const CameraMotion& motion, double exposure_s, View& view)
     view.thing.assign(pixels, ThingNumbers::kNothing);
   }
   if (vehicles_) vehicles_->update();
-  for (int y = 0; y < lens_.height(); y += kBandRows) {
-    const Band band{y, std::min(kBandRows, lens_.height() - y), lens_.width()};
-    for (int sample = 0; sample < settings_.samples; ++sample) {
-      cast_band(motion, exposure_s, sample, band, view);
-    }
-  }
+  make_band_rays();
+  // Few captures, so that std::function needs no memory for them.
+  const struct {
+    const CameraMotion& motion;
+    double exposure_s;
+    View& view;
+  } picture{motion, exposure_s, view};
+  const auto bands = static_cast<std::size_t>((lens_.height() + kBandRows - 1) / kBandRows);
+  for_chunks(bands, kBandsAtOnce,
+             [this, &picture](std::size_t, std::size_t begin, std::size_t end) {
+               BandRays& rays = *band_rays_[thread_in_loop()];
+               for (std::size_t i = begin; i < end; ++i) {
+                 const int y = static_cast<int>(i) * kBandRows;
+                 const Band band{y, std::min(kBandRows, lens_.height() - y), lens_.width()};
+                 for (int sample = 0; sample < settings_.samples; ++sample) {
+                   cast_band(picture.motion, picture.exposure_s, sample, band, rays, picture.view);
+                 }
+               }
+             });
   const auto share = 1.0f / static_cast<float>(settings_.samples);
   for (float& value : view.radiance) value *= share;
 }
 
 void ViewCaster::cast_band(const CameraMotion& motion, double exposure_s, int sample,
-                           const Band& band, View& view) {
-  add_rays(motion, exposure_s, sample, band);
-  hits_.resize(rays_.size());
-  light_.cast_rays(rays_, hits_);
-  look_at_vehicles();
+                           const Band& band, BandRays& r, View& view) const {
+  add_rays(motion, exposure_s, sample, band, r);
+  r.hits.resize(r.rays.size());
+  light_.cast_rays(r.rays, r.hits);
+  look_at_vehicles(r);
   if (sample == 0 && settings_.facts)
-    write_facts(band, motion.X_WS.q.toRotationMatrix() * R_SC(), view);
-  if (settings_.channels > 0) add_light(band, view);
+    write_facts(band, motion.X_WS.q.toRotationMatrix() * R_SC(), r, view);
+  if (settings_.channels > 0) add_light(band, r, view);
 }
 
 void ViewCaster::add_rays(const CameraMotion& motion, double exposure_s, int sample,
-                          const Band& band) {
+                          const Band& band, BandRays& r) const {
   const Vector3d& offset = offsets_[static_cast<std::size_t>(sample)];
   const auto right = static_cast<float>(offset.x()), down = static_cast<float>(offset.y());
   const double later_s = offset.z() * exposure_s;
@@ -163,7 +205,7 @@ void ViewCaster::add_rays(const CameraMotion& motion, double exposure_s, int sam
                       Eigen::AngleAxisd(angle, turn_S / angle).toRotationMatrix() * R_SC();
     }
   }
-  rays_.clear();
+  r.rays.clear();
   const int last_x = lens_.width() - 1, last_y = lens_.height() - 1;
   band.for_each([&](int row, int x) {
     const std::size_t pixel = band.pixel(row, x);
@@ -178,39 +220,40 @@ void ViewCaster::add_rays(const CameraMotion& motion, double exposure_s, int sam
                                   : Vector3f(dir_C - direction_C_[pixel - width]);
       dir_C += right * along + down * across;
     }
-    rays_.push_back({row_p_W[row], (row_R_WC[row] * dir_C.cast<double>()).normalized(), kFar_m});
+    r.rays.push_back({row_p_W[row], (row_R_WC[row] * dir_C.cast<double>()).normalized(), kFar_m});
   });
 }
 
 /// Replaces hits by nearer ones on vehicles.
-void ViewCaster::look_at_vehicles() {
-  on_vehicle_.assign(rays_.size(), false);
+void ViewCaster::look_at_vehicles(BandRays& r) const {
+  r.on_vehicle.assign(r.rays.size(), false);
   if (!vehicles_) return;
-  for (std::size_t i = 0; i < rays_.size(); ++i) {
-    if (hits_[i]) rays_[i].max_distance_m = hits_[i]->distance_m;
+  for (std::size_t i = 0; i < r.rays.size(); ++i) {
+    if (r.hits[i]) r.rays[i].max_distance_m = r.hits[i]->distance_m;
   }
-  vehicle_hits_.resize(rays_.size());
-  vehicles_->cast_rays(rays_, vehicle_hits_);
-  for (std::size_t i = 0; i < rays_.size(); ++i) {
-    if (!vehicle_hits_[i]) continue;
-    hits_[i] = vehicle_hits_[i];
-    on_vehicle_[i] = true;
+  r.vehicle_hits.resize(r.rays.size());
+  vehicles_->cast_rays(r.rays, r.vehicle_hits);
+  for (std::size_t i = 0; i < r.rays.size(); ++i) {
+    if (!r.vehicle_hits[i]) continue;
+    r.hits[i] = r.vehicle_hits[i];
+    r.on_vehicle[i] = true;
   }
 }
 
-void ViewCaster::write_facts(const Band& band, const Eigen::Matrix3d& R_WC, View& view) const {
+void ViewCaster::write_facts(const Band& band, const Eigen::Matrix3d& R_WC, const BandRays& r,
+                             View& view) const {
   std::size_t i = 0;
   band.for_each([&](int row, int x) {
     const std::size_t pixel = band.pixel(row, x), ray = i++;
-    if (!hits_[ray]) {
-      if (rays_[ray].dir_W.z() < 0.0) view.label[pixel] = Label::kGround;
+    if (!r.hits[ray]) {
+      if (r.rays[ray].dir_W.z() < 0.0) view.label[pixel] = Label::kGround;
       return;
     }
-    const RayHit& hit = *hits_[ray];
+    const RayHit& hit = *r.hits[ray];
     // Distance along the axis of the row's own camera: the pixel's direction has it.
     view.depth_m[pixel] = static_cast<float>(hit.distance_m * direction_C_[pixel].z());
     view.normal_C[pixel] = (R_WC.transpose() * hit.normal_W).cast<float>();
-    if (on_vehicle_[ray]) {
+    if (r.on_vehicle[ray]) {
       view.label[pixel] = Label::kVehicle;
       view.thing[pixel] = numbers_.of_vehicle(vehicles_->vehicle_of(hit.mesh));
       return;
@@ -220,48 +263,48 @@ void ViewCaster::write_facts(const Band& band, const Eigen::Matrix3d& R_WC, View
   });
 }
 
-SeenSurface ViewCaster::surface_of(std::size_t ray) const {
-  const RayHit& hit = *hits_[ray];
-  const double cosine = std::max(0.05, std::abs(hit.normal_W.dot(rays_[ray].dir_W)));
+SeenSurface ViewCaster::surface_of(const BandRays& r, std::size_t ray) const {
+  const RayHit& hit = *r.hits[ray];
+  const double cosine = std::max(0.05, std::abs(hit.normal_W.dot(r.rays[ray].dir_W)));
   const double footprint_m = hit.distance_m / (lens_.info().fx_px * cosine);
   return look_.surface(
-      rays_[ray], hit,
-      on_vehicle_[ray] ? vehicles_->links() : std::span<const MeshInstance>(world_.meshes),
+      r.rays[ray], hit,
+      r.on_vehicle[ray] ? vehicles_->links() : std::span<const MeshInstance>(world_.meshes),
       footprint_m);
 }
 
-void ViewCaster::add_light(const Band& band, View& view) {
+void ViewCaster::add_light(const Band& band, BandRays& r, View& view) const {
   // Rays to the sun from all surfaces that it could light.
   const Vector3d& sun_W = look_.sun_direction_W();
-  surfaces_.resize(rays_.size());
-  sun_rays_.clear();
-  sun_ray_.assign(rays_.size(), kNone);
-  for (std::size_t i = 0; i < rays_.size(); ++i) {
-    if (!hits_[i]) continue;
-    surfaces_[i] = surface_of(i);
-    const double facing = surfaces_[i].normal_W.cast<double>().dot(sun_W);
-    if (!settings_.shadows || (facing <= 0.0 && surfaces_[i].passed.isZero())) continue;
-    const Vector3d p_W = rays_[i].p_W + hits_[i]->distance_m * rays_[i].dir_W;
-    const double side = hits_[i]->normal_W.dot(sun_W) < 0.0 ? -kLift_m : kLift_m;
-    sun_ray_[i] = sun_rays_.size();
-    sun_rays_.push_back({p_W + side * hits_[i]->normal_W, sun_W, kShadow_m});
+  r.surfaces.resize(r.rays.size());
+  r.sun_rays.clear();
+  r.sun_ray.assign(r.rays.size(), kNone);
+  for (std::size_t i = 0; i < r.rays.size(); ++i) {
+    if (!r.hits[i]) continue;
+    r.surfaces[i] = surface_of(r, i);
+    const double facing = r.surfaces[i].normal_W.cast<double>().dot(sun_W);
+    if (!settings_.shadows || (facing <= 0.0 && r.surfaces[i].passed.isZero())) continue;
+    const Vector3d p_W = r.rays[i].p_W + r.hits[i]->distance_m * r.rays[i].dir_W;
+    const double side = r.hits[i]->normal_W.dot(sun_W) < 0.0 ? -kLift_m : kLift_m;
+    r.sun_ray[i] = r.sun_rays.size();
+    r.sun_rays.push_back({p_W + side * r.hits[i]->normal_W, sun_W, kShadow_m});
   }
   constexpr SurfaceMask kCasters = kAllSurfaces & ~mask_of(SurfaceClass::kTerrain);
-  light_.find_blocked(sun_rays_, {is_shaded_.get(), sun_rays_.size()}, kCasters);
+  light_.find_blocked(r.sun_rays, {r.is_shaded.get(), r.sun_rays.size()}, kCasters);
   if (vehicles_) {
-    vehicles_->find_blocked(sun_rays_, {is_shaded_by_vehicle_.get(), sun_rays_.size()});
+    vehicles_->find_blocked(r.sun_rays, {r.is_shaded_by_vehicle.get(), r.sun_rays.size()});
   }
   std::size_t i = 0;
   band.for_each([&](int row, int x) {
     const std::size_t ray = i++;
     Vector3f radiance;
-    if (hits_[ray]) {
-      const std::size_t to_sun = sun_ray_[ray];
+    if (r.hits[ray]) {
+      const std::size_t to_sun = r.sun_ray[ray];
       const bool is_shaded =
-          to_sun != kNone && (is_shaded_[to_sun] || (vehicles_ && is_shaded_by_vehicle_[to_sun]));
-      radiance = look_.radiance(surfaces_[ray], is_shaded ? 0.0f : 1.0f);
+          to_sun != kNone && (r.is_shaded[to_sun] || (vehicles_ && r.is_shaded_by_vehicle[to_sun]));
+      radiance = look_.radiance(r.surfaces[ray], is_shaded ? 0.0f : 1.0f);
     } else {
-      radiance = look_.far_radiance(rays_[ray].dir_W);
+      radiance = look_.far_radiance(r.rays[ray].dir_W);
     }
     float* values =
         &view.radiance[band.pixel(row, x) * static_cast<std::size_t>(settings_.channels)];

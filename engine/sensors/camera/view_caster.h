@@ -11,10 +11,12 @@
 /// (j / (h - 1) - 1/2) readout_s later (rolling shutter; 0: global). In between the camera moves
 /// with the velocities that it has at the stamp: for an acceleration a the outer rows are off by
 /// a readout_s^2 / 8.
+///
+/// Rows are cast on all cores (core/parallel.h); the picture does not depend on their number.
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -58,6 +60,7 @@ class ViewCaster {
   /// References outlive this object. @param vehicles  null: none
   ViewCaster(const Lens& lens, const ViewSettings& settings, const WorldModel& world,
              const RayScene& light, const SceneLook& look);
+  ~ViewCaster();
 
   /// Vehicles that it sees from now on.
   void set_vehicles(VehicleScene* vehicles) { vehicles_ = vehicles; }
@@ -70,13 +73,17 @@ class ViewCaster {
 
  private:
   struct Band;
+  struct BandRays;
+  void make_band_rays();
   void cast_band(const CameraMotion& motion, double exposure_s, int sample, const Band& band,
-                 View& view);
-  void add_rays(const CameraMotion& motion, double exposure_s, int sample, const Band& band);
-  void look_at_vehicles();
-  void write_facts(const Band& band, const Eigen::Matrix3d& R_WC, View& view) const;
-  void add_light(const Band& band, View& view);
-  SeenSurface surface_of(std::size_t ray) const;
+                 BandRays& r, View& view) const;
+  void add_rays(const CameraMotion& motion, double exposure_s, int sample, const Band& band,
+                BandRays& r) const;
+  void look_at_vehicles(BandRays& r) const;
+  void write_facts(const Band& band, const Eigen::Matrix3d& R_WC, const BandRays& r,
+                   View& view) const;
+  void add_light(const Band& band, BandRays& r, View& view) const;
+  SeenSurface surface_of(const BandRays& r, std::size_t ray) const;
 
   const Lens& lens_;
   ViewSettings settings_;
@@ -88,14 +95,7 @@ class ViewCaster {
   std::vector<Eigen::Vector3f> direction_C_;  ///< of each pixel, in the optical frame
   /// Of each sample: to the right and down, in pixels; later, as a share of the exposure.
   std::vector<Eigen::Vector3d> offsets_;
-  // Of the rays of a band.
-  std::vector<SceneRay> rays_, sun_rays_;
-  std::vector<std::optional<RayHit>> hits_, vehicle_hits_;
-  std::vector<bool> on_vehicle_;
-  std::vector<SeenSurface> surfaces_;
-  std::vector<std::size_t> sun_ray_;  ///< of each ray, or kNone
-  // Of the rays to the sun: whether plants, or vehicles, are in their way.
-  std::unique_ptr<bool[]> is_shaded_, is_shaded_by_vehicle_;
+  std::vector<std::unique_ptr<BandRays>> band_rays_;  ///< of each thread
 };
 
 }  // namespace vinerow::sensors

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <thread>
+#include <tuple>
 
 #include "engine/api/messages/sensors.h"
+#include "engine/core/parallel.h"
 #include "engine/math/angles.h"
 #include "tests/engine/sensors/scan_bench.h"
 #include "tests/support/no_alloc.h"
@@ -83,6 +86,30 @@ TEST(Lidar3d, AMovingScannerSkewsTheWallByItsTimes) {
     skew_m = std::max(skew_m, std::abs((way(bench.last().s()) * point(cloud, i)).x() - 30.0));
   }
   EXPECT_GT(skew_m, 1.0);
+}
+
+TEST(Lidar3d, FramesAreTheSameOnOneCoreAndOnAll) {
+  PlainScene room{test::GroundPlane{}};
+  room.panels.push_back({{8.0, 0, 0}, {-1, 0, 0}, SurfaceClass::kObstacle});
+  const auto frame = [&] {
+    // 14,400 rays a slice.
+    Bench bench = make(
+        ideal(
+            {{"slices", std::int64_t{10}}, {"divergence_deg", 0.2}, {"sub_rays", std::int64_t{5}}}),
+        room);
+    bench.move([](double time_s) {
+      Pose pose;
+      pose.p = {time_s, 0.0, 1.0};
+      return pose;
+    });
+    bench.step();
+    const PointCloud& cloud = bench.step();
+    return std::tuple(cloud.x, cloud.y, cloud.z, cloud.intensity, cloud.time_s);
+  };
+  const auto on_all = frame();
+  ASSERT_GT(std::get<0>(on_all).size(), 10'000u);
+  const ShareOfCores one(std::max(1u, std::thread::hardware_concurrency()));
+  EXPECT_EQ(frame(), on_all);
 }
 
 TEST(Lidar3d, ReportsTheStrongestAndTheLastEcho) {

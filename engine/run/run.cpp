@@ -101,14 +101,15 @@ std::map<std::string, std::map<std::string, double>> with_missing_numbers(
   return metrics;
 }
 
-/// Removes the files of an earlier run in the same folder, which could be mistaken for those of
-/// this run. Products stay until a job replaces them, because other runs may still use them.
-void clear_earlier_run(const std::filesystem::path& folder) {
+/// Removes the files of a run: of an earlier one in the same folder, because they could be mistaken
+/// for those of this run, or of one that is refused. Products stay until a job replaces them,
+/// because other runs may still use them.
+void clear_run(const std::filesystem::path& folder) {
   std::error_code ignored;
   std::vector<std::filesystem::path> earlier;
-  for (const char* name :
-       {"log.mcap", "report.html", "replay.html", "frames", "canopy", "robot_description",
-        "summary.json", "junit.xml", "profile.csv", "profile.json"}) {
+  for (const char* name : {"scenario.resolved.yaml", "events.jsonl", "log.mcap", "report.html",
+                           "replay.html", "frames", "canopy", "robot_description", "summary.json",
+                           "junit.xml", "profile.csv", "profile.json"}) {
     earlier.push_back(folder / name);
   }
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
@@ -263,10 +264,11 @@ std::vector<std::string> rehearse_run(const scenario::Scenario& scenario,
         "{}.autopilot: plans are not checked, because no firmware is started", vehicle.name));
     return notes;
   }
-  while (!session.over() && session.now() <= Time{kLongest.ns} &&
-         !without_plan(session.simulation()).empty()) {
+  // The first instant in any case: parts may find faults in it.
+  do {
     session.advance(session.now());
-  }
+  } while (!session.over() && session.now() <= Time{kLongest.ns} &&
+           !without_plan(session.simulation()).empty());
   for (const std::string& vehicle : without_plan(session.simulation())) {
     notes.push_back(
         fmt::format("{}.planner: not checked, because there is no estimate in the first {:g} s",
@@ -304,7 +306,7 @@ RunResult run_scenario(const scenario::Scenario& scenario, const Registry& regis
     return result;
   }
   std::optional<ProfileSpan> opening(std::in_place, "output files", "set-up");
-  io::make_folder(options.out);
+  const io::ResultFolder folder(options.out);
   result.lock = std::make_shared<FolderLock>(options.out);
   // Space for the verdict, in case the disk fills up during the run.
   constexpr std::size_t kVerdictBytes = 1 << 20;
@@ -314,7 +316,7 @@ RunResult run_scenario(const scenario::Scenario& scenario, const Registry& regis
   std::unique_ptr<LogObserver> log;
   std::unique_ptr<EventFile> events;
   for (bool runs = true; runs;) {
-    clear_earlier_run(options.out);
+    clear_run(options.out);
     write_whole_file(options.out / "scenario.resolved.yaml", session.scenario().resolved_yaml);
     Simulation& simulation = session.simulation();
     if (with_log) {
@@ -324,7 +326,16 @@ RunResult run_scenario(const scenario::Scenario& scenario, const Registry& regis
     events = std::make_unique<EventFile>(options.out / "events.jsonl");
     simulation.add_observer(events.get());
     opening.reset();
-    const auto seed = step_and_judge(session, options, log.get(), result);
+    std::optional<std::uint64_t> seed;
+    try {
+      seed = step_and_judge(session, options, log.get(), result);
+    } catch (const ConfigError&) {
+      // Bad input that a part has found at the start, as a planner that has no way.
+      log.reset();
+      events.reset();
+      clear_run(options.out);
+      throw;
+    }
     runs = seed.has_value();
     if (!runs) break;
     // The files are those of the last run; its observers must not outlive its signals.

@@ -60,11 +60,15 @@ std::function<void(Time)> guarded(const SignalBus& bus, const std::string& part,
   for (const auto& signal : bus.signals()) {
     if (signal->writer() == part) written.push_back(signal.get());
   }
-  return [culprit, written = std::move(written), step = std::move(step)](Time now) {
+  return [part, culprit, written = std::move(written), step = std::move(step)](Time now) {
     try {
       step(now);
     } catch (const SimulationError&) {
       throw;
+    } catch (const ConfigError& error) {
+      // What a part finds at the start is bad input, as what it has found before.
+      if (now == Time{0}) throw ConfigError(fmt::format("{}: {}", part, error.what()));
+      throw SimulationError(culprit, now, error.what());
     } catch (const std::exception& error) {
       throw SimulationError(culprit, now, fmt::format("threw an exception: {}", error.what()));
     } catch (...) {

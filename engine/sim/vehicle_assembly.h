@@ -143,8 +143,8 @@ std::unique_ptr<Vehicle> make_placed_vehicle(const scenario::VehicleConfig& conf
                                              const RunContext& run);
 
 /// Wraps a part's tick: turns exceptions that it throws, and NaN that it writes, into a
-/// SimulationError with the part's name. Call after the part has connected: only then the bus knows
-/// the signals that it writes.
+/// SimulationError with the part's name. A ConfigError at time 0 stays one: it is bad input. Call
+/// after the part has connected: only then the bus knows the signals that it writes.
 std::function<void(Time)> guarded(const SignalBus& bus, const std::string& part,
                                   const std::string& type, std::function<void(Time)> step);
 

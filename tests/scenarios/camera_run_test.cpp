@@ -83,12 +83,22 @@ TEST(CameraRun, SeesTheOtherVehicleWhereItIs) {
 TEST(CameraRun, RefusesACameraInsideOfItsVehicle) {
   const ScratchFolder folder("camera_inside");
   const std::string file = folder.file("scenario.yaml", two_rovers("position_m: [0, 0, 0.02]"));
-  const test::CommandResult result =
-      run_vinerow("run " + file + " --no-pictures --out " + (folder.path() / "out").string());
-  EXPECT_NE(result.status, 0);
-  EXPECT_NE(result.output.find("watcher.sensors.eye"), std::string::npos) << result.output;
-  EXPECT_NE(result.output.find("the camera is inside of watcher/"), std::string::npos)
-      << result.output;
+  const std::filesystem::path out = folder.path() / "out";
+  for (const std::string& command :
+       {"run " + file + " --out " + out.string(), "validate " + file}) {
+    const test::CommandResult result = run_vinerow(command);
+    EXPECT_EQ(result.status, 2) << command;
+    EXPECT_NE(result.output.find("watcher.sensors.eye: the camera is inside of watcher/"),
+              std::string::npos)
+        << result.output;
+    EXPECT_FALSE(std::filesystem::exists(out)) << "before its first step a run writes nothing";
+  }
+  // Nor does it leave what an earlier run has written in the folder, which would be taken for its
+  // own.
+  std::filesystem::create_directory(out);
+  folder.file("out/summary.json", "{}");
+  EXPECT_EQ(run_vinerow("run " + file + " --out " + out.string()).status, 2);
+  EXPECT_TRUE(std::filesystem::is_empty(out));
 }
 
 }  // namespace

@@ -97,7 +97,6 @@ class RowCamera final : public Estimator {
  public:
   RowCamera(const RowCameraParams& params, const EstimatorContext& context)
       : params_(params),
-        part_(context.part),
         period_s_(context.period.s()),
         wheel_speed_(*context.vehicle_description, context.part + " (row_camera)"),
         marks_(params.marks, camera_of(params.camera, context).X_BS,
@@ -106,7 +105,7 @@ class RowCamera final : public Estimator {
         ground_(*context.map),
         height_m_(context.vehicle_description->height_above_ground_m),
         random_(context.random("start")) {
-    if (params.has_net()) net_.emplace(params.net, part_ + " (row_camera)");
+    if (params.has_net()) net_.emplace(params.net, context.part + " (row_camera)");
   }
 
   void connect(Ports& ports) override {
@@ -155,7 +154,7 @@ class RowCamera final : public Estimator {
     if (!marks_.has_camera() && info_.has_value()) marks_.set_camera(info_.value());
     if (!marks_.has_camera() || !picture_.is_newer_than(seen_)) return;
     const PastState past = trace_.at(picture_.stamp());
-    const int used = filter_.correct(marks_.find(usable_picture(now)), past.x);
+    const int used = filter_.correct(marks_.find(usable_picture()), past.x);
     if (used >= kFew) {
       last_seen_ = now;
       is_lost_ = false;
@@ -167,21 +166,16 @@ class RowCamera final : public Estimator {
   }
 
   /// What the marks are found in.
-  const Picture& usable_picture(Time now) {
+  const Picture& usable_picture() {
     const Picture& seen = picture_.value();
     if (!params_.reads_labels() && seen.format != Picture::Format::kRgb8) {
-      throw SimulationError(part_, now,
-                            fmt::format("{} needs a camera with picture: colour, which '{}' is not",
-                                        net_ ? "model" : "marks: colours", params_.camera));
+      throw ConfigError(fmt::format("{} needs a camera with picture: colour, which '{}' is not",
+                                    net_ ? "model" : "marks: colours", params_.camera));
     }
     if (!net_) return seen;
-    try {
-      const Picture& labels = net_->find(seen);
-      labels_.write(picture_.stamp(), labels);
-      return labels;
-    } catch (const ConfigError& error) {
-      throw SimulationError(part_, now, error.what());
-    }
+    const Picture& labels = net_->find(seen);
+    labels_.write(picture_.stamp(), labels);
+    return labels;
   }
 
   void write(Time now) {
@@ -205,7 +199,6 @@ class RowCamera final : public Estimator {
   static constexpr Duration kLong{5'000'000'000};
 
   RowCameraParams params_;
-  std::string part_;
   double period_s_;
   WheelSpeed wheel_speed_;
   RowMarks marks_;

@@ -117,7 +117,6 @@ class Camera final : public MountedSensor<Picture> {
       : Camera(camera_table().read(parameters, context.part), parameters, context) {}
   Camera(const CameraParams& params, const ParameterSet& parameters, const SensorContext& context)
       : MountedSensor(parameters, context),
-        part_(context.part),
         is_depth_camera_(params.picture == Content::kDepth),
         lens_(make_lens(params.lens, context.part)),
         look_(*context.world, channel_of(params.picture)),
@@ -178,7 +177,7 @@ class Camera final : public MountedSensor<Picture> {
 
   void step(Time now) override {
     const CameraMotion motion{X_WS(), v_WS(), X_BS_.q.conjugate() * body().w_WB_B};
-    if (!has_looked_) begin(now, motion.X_WS);
+    if (!has_looked_) begin(motion.X_WS);
     caster_.cast(motion, imager_.exposure_s(), view_);
     if (is_depth_camera_) {
       for (std::size_t i = 0; i < view_.depth_m.size(); ++i) {
@@ -208,12 +207,12 @@ class Camera final : public MountedSensor<Picture> {
     return context;
   }
 
-  void begin(Time now, const Pose& X_WS_now) {
+  void begin(const Pose& X_WS_now) {
     has_looked_ = true;
     if (vehicles_) caster_.set_vehicles(&vehicles_());
     const std::string reason = caster_.blindness(X_WS_now);
     if (reason.empty()) return;
-    throw SimulationError(part_, now, fmt::format("the camera {}: change its position_m", reason));
+    throw ConfigError(fmt::format("the camera {}: change its position_m", reason));
   }
 
   void fill_depth(Picture& picture) {
@@ -247,7 +246,6 @@ class Camera final : public MountedSensor<Picture> {
     }
   }
 
-  std::string part_;
   bool is_depth_camera_;
   Lens lens_;
   SceneLook look_;

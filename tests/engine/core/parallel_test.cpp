@@ -125,11 +125,14 @@ TEST(ForChunks, WorksInAForkedProcess) {
 #endif
 
 TEST(ForChunks, InsideAChunkTakesNoFurtherThreads) {
-  const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
-  std::vector<std::size_t> inner(2 * cores);
-  for_chunks(inner.size(), 1,
-             [&](std::size_t i, std::size_t, std::size_t) { inner[i] = count_threads(); });
+  const std::size_t cores = most_threads();
+  std::vector<std::size_t> inner(2 * cores), most(2 * cores);
+  for_chunks(inner.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
+    inner[i] = count_threads();
+    most[i] = most_threads();
+  });
   EXPECT_EQ(inner, std::vector<std::size_t>(inner.size(), 1));
+  EXPECT_EQ(most, inner);
   // A loop of a single chunk leaves all of them.
   for_chunks(1, 1, [&](std::size_t, std::size_t, std::size_t) { inner[0] = count_threads(); });
   EXPECT_EQ(inner[0], cores);

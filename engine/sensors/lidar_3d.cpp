@@ -146,11 +146,6 @@ class Lidar3d final : public MountedSensor<PointCloud> {
   void cast_until(Time now, const Pose& X_WS_now) {
     const double from_s = (last_ - *begin_).s(), to_s = (now - *begin_).s();
     const std::size_t first = next_pulse_;
-    // Entries of the rotation matrix change evenly and directions are normalised: for a turn by a
-    // in a slice, directions are off by the order of a^3 / 100.
-    const Eigen::Matrix3d R_last_WS = last_X_WS_.q.toRotationMatrix();
-    const Eigen::Matrix3d R_now_WS = X_WS_now.q.toRotationMatrix();
-    rays_.clear();
     while (next_pulse_ < pulses_.size() && pulses_[next_pulse_].time_s < to_s) ++next_pulse_;
     order_.resize(next_pulse_ - first);
     std::iota(order_.begin(), order_.end(), first);
@@ -158,63 +153,82 @@ class Lidar3d final : public MountedSensor<PointCloud> {
     std::sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
       return std::pair(pulses_[a].ring, a) < std::pair(pulses_[b].ring, b);
     });
+    cast_slice({from_s, to_s, X_WS_now});
     first_ray_.resize(order_.size());
-    for (const std::size_t number : order_) {
-      const LaserPulse& pulse = pulses_[number];
-      const double share = (pulse.time_s - from_s) / (to_s - from_s);
-      const Eigen::Vector3d p_W = last_X_WS_.p + share * (X_WS_now.p - last_X_WS_.p);
-      const Eigen::Matrix3d R_WS = R_last_WS + share * (R_now_WS - R_last_WS);
-      first_ray_[number - first] = rays_.size();
-      add_rays(pulse, p_W, R_WS);
-    }
-    hits_.resize(rays_.size());
-    cast_rays(*light_, hits_);
-    look_at_vehicles();
+    const auto sub_rays = static_cast<std::size_t>(params_.sub_rays);
+    for (std::size_t i = 0; i < order_.size(); ++i) first_ray_[order_[i] - first] = i * sub_rays;
     for (std::size_t number = first; number < next_pulse_; ++number) {
       receive(pulses_[number], first_ray_[number - first]);
     }
   }
 
-  /// Casts the rays of a slice, on all cores if there are many.
-  void cast_rays(const RayScene& scene, std::vector<std::optional<RayHit>>& hits) const {
-    constexpr std::size_t kAtOnce = 1024;
-    // Few captures, so that std::function needs no memory for them.
-    const struct {
-      const RayScene& scene;
-      std::span<std::optional<RayHit>> hits;
-    } wanted{scene, hits};
-    for_chunks(rays_.size(), kAtOnce,
-               [this, &wanted](std::size_t, std::size_t begin, std::size_t end) {
-                 const std::span<const SceneRay> rays(rays_);
-                 wanted.scene.cast_rays(rays.subspan(begin, end - begin),
-                                        wanted.hits.subspan(begin, end - begin));
+  /// From the last sample to this one, in the time of the frame.
+  struct Slice {
+    double from_s, to_s;
+    const Pose& X_WS_end;
+  };
+
+  /// Casts the rays of the pulses in order_, on all cores if there are many.
+  void cast_slice(const Slice& slice) {
+    constexpr std::size_t kRaysAtOnce = 1024;
+    const auto sub_rays = static_cast<std::size_t>(params_.sub_rays);
+    rays_.resize(order_.size() * sub_rays);
+    hits_.resize(rays_.size());
+    vehicle_hits_.resize(rays_.size());
+    if (find_vehicles_) {
+      // Where they are at the slice's end.
+      if (!vehicles_) vehicles_ = &find_vehicles_();
+      vehicles_->update();
+    }
+    for_chunks(order_.size(), std::max<std::size_t>(1, kRaysAtOnce / sub_rays),
+               [this, &slice](std::size_t, std::size_t begin, std::size_t end) {
+                 cast_pulses(slice, begin, end);
                });
   }
 
-  /// Replaces hits by nearer ones on vehicles, which are where they are at the slice's end.
-  void look_at_vehicles() {
-    if (!find_vehicles_) return;
-    if (!vehicles_) vehicles_ = &find_vehicles_();
-    vehicles_->update();
-    for (std::size_t i = 0; i < rays_.size(); ++i) {
-      if (hits_[i]) rays_[i].max_distance_m = hits_[i]->distance_m;
+  /// Of the pulses [begin, end) in order_.
+  void cast_pulses(const Slice& slice, std::size_t begin, std::size_t end) {
+    // Entries of the rotation matrix change evenly and directions are normalised: for a turn by a
+    // in a slice, directions are off by the order of a^3 / 100.
+    const Eigen::Matrix3d R_last_WS = last_X_WS_.q.toRotationMatrix();
+    const Eigen::Matrix3d R_end_WS = slice.X_WS_end.q.toRotationMatrix();
+    const auto sub_rays = static_cast<std::size_t>(params_.sub_rays);
+    for (std::size_t i = begin; i < end; ++i) {
+      const LaserPulse& pulse = pulses_[order_[i]];
+      const double share = (pulse.time_s - slice.from_s) / (slice.to_s - slice.from_s);
+      const Eigen::Vector3d p_W = last_X_WS_.p + share * (slice.X_WS_end.p - last_X_WS_.p);
+      const Eigen::Matrix3d R_WS = R_last_WS + share * (R_end_WS - R_last_WS);
+      write_rays(pulse, p_W, R_WS, &rays_[i * sub_rays]);
     }
-    vehicle_hits_.resize(rays_.size());
-    cast_rays(*vehicles_, vehicle_hits_);
-    for (std::size_t i = 0; i < rays_.size(); ++i) {
-      if (vehicle_hits_[i]) hits_[i] = vehicle_hits_[i];
+    const std::size_t from = begin * sub_rays, count = (end - begin) * sub_rays;
+    const auto rays = std::span(rays_).subspan(from, count);
+    const auto hits = std::span(hits_).subspan(from, count);
+    light_->cast_rays(rays, hits);
+    if (vehicles_) look_at_vehicles(rays, hits, std::span(vehicle_hits_).subspan(from, count));
+  }
+
+  /// Replaces hits by nearer ones on vehicles.
+  void look_at_vehicles(std::span<SceneRay> rays, std::span<std::optional<RayHit>> hits,
+                        std::span<std::optional<RayHit>> vehicle_hits) const {
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      if (hits[i]) rays[i].max_distance_m = hits[i]->distance_m;
+    }
+    vehicles_->cast_rays(rays, vehicle_hits);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      if (vehicle_hits[i]) hits[i] = vehicle_hits[i];
     }
   }
 
-  /// The middle of a beam, and rays on a circle about it.
-  void add_rays(const LaserPulse& pulse, const Eigen::Vector3d& p_W, const Eigen::Matrix3d& R_WS) {
+  /// Writes the middle of a beam, and rays on a circle about it, to where `ray` points.
+  void write_rays(const LaserPulse& pulse, const Eigen::Vector3d& p_W, const Eigen::Matrix3d& R_WS,
+                  SceneRay* ray) const {
     const Eigen::Vector3d dir_W = (R_WS * pulse.dir_S).normalized();
-    rays_.push_back({p_W, dir_W, params_.ranging.max_range_m});
+    *ray++ = {p_W, dir_W, params_.ranging.max_range_m};
     if (asides_.empty()) return;
     const Eigen::Vector3d u_W = dir_W.unitOrthogonal(), v_W = dir_W.cross(u_W);
     for (const Eigen::Vector2d& aside : asides_) {
-      rays_.push_back({p_W, (dir_W + aside.x() * u_W + aside.y() * v_W) * aside_scale_,
-                       params_.ranging.max_range_m});
+      *ray++ = {p_W, (dir_W + aside.x() * u_W + aside.y() * v_W) * aside_scale_,
+                params_.ranging.max_range_m};
     }
   }
 

@@ -138,10 +138,17 @@ Imager::Imager(const ImagerParams& params, int width, int height, int channels,
     offsets_e_.push_back(static_cast<float>(offset_e));
     gains_.push_back(static_cast<float>(1.0 + gain));
   }
-  const int steps = 1 << params.bits;
-  for (int i = 0; i < steps; ++i) {
-    curve_.push_back(
-        static_cast<std::uint8_t>(std::lround(255.0 * srgb_from_linear(i / (steps - 1.0)))));
+  const double top = (1 << params.bits) - 1.0;
+  values_.resize(channels);
+  for (int c = 0; c < channels; ++c) {
+    for (double number = 0.0; number <= top; ++number) {
+      const double balanced = channels == 3 ? number * balance_[c] : number;
+      const double whole = std::min(top, std::floor(balanced + 0.5));
+      // A band stays linear; its range is stretched to 16 bits.
+      const double value =
+          channels == 3 ? 255.0 * srgb_from_linear(whole / top) : whole * 65535.0 / top;
+      values_[c].push_back(static_cast<std::uint16_t>(std::lround(value)));
+    }
   }
 }
 
@@ -172,18 +179,16 @@ void Imager::meter(std::span<const float> radiance) {
 
 void Imager::develop(std::size_t pixel, int channel, double share_of_range,
                      Picture& picture) const {
-  const int top = static_cast<int>(curve_.size()) - 1;
-  const double number = std::floor(std::clamp(share_of_range, 0.0, 1.0) * top + 0.5);
-  const double balanced = channels_ == 3 ? number * balance_[channel] : number;
-  const int index = static_cast<int>(std::min<double>(top, std::floor(balanced + 0.5)));
+  const std::vector<std::uint16_t>& values = values_[static_cast<std::size_t>(channel)];
+  const auto top = static_cast<double>(values.size() - 1);
+  const std::uint16_t value =
+      values[static_cast<std::size_t>(std::clamp(share_of_range, 0.0, 1.0) * top + 0.5)];
   if (channels_ == 3) {
-    picture.data[3 * pixel + channel] = curve_[static_cast<std::size_t>(index)];
+    picture.data[3 * pixel + channel] = static_cast<std::uint8_t>(value);
     return;
   }
-  // A band stays linear; its range is stretched to 16 bits.
-  const auto wide = static_cast<std::uint32_t>(index * 65535.0 / top + 0.5);
-  picture.data[2 * pixel] = static_cast<std::uint8_t>(wide & 0xffu);
-  picture.data[2 * pixel + 1] = static_cast<std::uint8_t>(wide >> 8);
+  picture.data[2 * pixel] = static_cast<std::uint8_t>(value & 0xffu);
+  picture.data[2 * pixel + 1] = static_cast<std::uint8_t>(value >> 8);
 }
 
 void Imager::expose(std::span<const float> radiance, QuickNormals& noise, Picture& reading,

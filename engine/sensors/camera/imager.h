@@ -94,7 +94,8 @@ class Imager {
   std::vector<float> light_;              ///< share that the lens leaves at each pixel
   std::vector<float> offsets_e_, gains_;  ///< of each pixel
   std::vector<std::uint16_t> draws_;      ///< for the noise of each value of a picture
-  std::vector<std::uint8_t> curve_;       ///< sRGB of each number of the converter
+  /// Of each channel: what the picture shows for each number of the converter.
+  std::vector<std::vector<std::uint16_t>> values_;
 };
 
 }  // namespace vinerow::sensors

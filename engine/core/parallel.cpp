@@ -7,6 +7,7 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 
 #include "engine/core/check.h"
@@ -82,8 +83,8 @@ class Team {
   bool work(Loop& loop) {
     const std::unique_lock only(busy_, std::try_to_lock);
     if (!only) return false;
-    const std::size_t helpers = loop.threads() - 1;
-    for (; threads_ < helpers; ++threads_) std::thread([this] { wait_for_loops(); }).detach();
+    grow(loop.threads() - 1);
+    const std::size_t helpers = std::min(loop.threads() - 1, threads_);
     {
       const std::lock_guard lock(mutex_);
       loop_ = &loop;
@@ -97,6 +98,14 @@ class Team {
   }
 
  private:
+  void grow(std::size_t threads) {
+    try {
+      for (; threads_ < threads; ++threads_) std::thread([this] { wait_for_loops(); }).detach();
+    } catch (const std::system_error&) {
+      // The system allows no more threads. The loop goes on with those that there are.
+    }
+  }
+
   void wait_for_loops() {
     std::unique_lock lock(mutex_);
     for (;;) {

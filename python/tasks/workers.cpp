@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "engine/core/parallel.h"
-
 namespace vinerow::tasks {
 
 Workers::Workers(int threads) {
@@ -44,7 +42,6 @@ void Workers::serve() {
 }
 
 void Workers::take_jobs() {
-  const ShareOfCores share(threads_.size() + 1);
   for (int i = next_++; i < count_; i = next_++) {
     try {
       (*job_)(i);

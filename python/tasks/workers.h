@@ -9,8 +9,8 @@
 
 namespace vinerow::tasks {
 
-/// for_chunks() of engine/core starts threads with each call, which costs as much as the steps of
-/// a few environments.
+/// for_chunks() of engine/core has one team of threads, on all cores, for the whole process. Here
+/// each VectorEnv has as many as its user asks for.
 class Workers {
  public:
   /// @param threads  the caller's included; >= 1

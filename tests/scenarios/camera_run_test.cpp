@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "engine/api/messages/camera.h"
+#include "engine/api/messages/sensors.h"
 #include "engine/api/surface.h"
 #include "engine/sim/vehicle_runtime.h"
 #include "tests/scenarios/session_support.h"
@@ -17,8 +19,8 @@ namespace {
 using test::run_vinerow;
 using test::ScratchFolder;
 
-/// Two rovers one behind the other, 4 m apart, on level ground; the last has a camera.
-std::string two_rovers(const std::string& camera) {
+/// Two rovers one behind the other, 4 m apart, on level ground; the last has a sensor `eye`.
+std::string two_rovers_with(const std::string& eye) {
   return R"(
 vinerow: 1
 name: two_rovers
@@ -28,12 +30,34 @@ vehicles:
   watcher:
     type: diff_drive_rover
     spawn: {alley: 0, offset_m: 9}
-    sensors: {eye: {type: camera, rate_Hz: 5, width_px: 160, height_px: 120, horizontal_fov_deg: 60, )" +
-         camera + R"(}}
+    sensors: {eye: {rate_Hz: 5, )" +
+         eye + R"(}}
   other:
     type: diff_drive_rover
     spawn: {alley: 0, offset_m: 5}
 )";
+}
+
+std::string two_rovers(const std::string& camera) {
+  return two_rovers_with("type: camera, width_px: 160, height_px: 120, horizontal_fov_deg: 60, " +
+                         camera);
+}
+
+/// How far a sensor at x_m on the last rover is behind the nearest corner of the other one, which
+/// is straight ahead.
+double calc_gap_m(const Session& session, double x_m) {
+  const Vehicle& other = session.simulation().vehicles()[1]->vehicle();
+  const Pose X_WB = session.simulation().vehicles()[0]->truth().X_WB;
+  std::vector<Pose> X_WL(other.links().size());
+  other.read_links(X_WL);
+  double gap_m = 1e9;
+  for (std::size_t i = 0; i < X_WL.size(); ++i) {
+    for (const Eigen::Vector3f& corner : other.links()[i].mesh->vertices) {
+      const Eigen::Vector3d p_B = X_WB.inverse() * (X_WL[i] * corner.cast<double>());
+      gap_m = std::min(gap_m, p_B.x() - x_m);
+    }
+  }
+  return gap_m;
 }
 
 const char* const kLabelled =
@@ -65,19 +89,32 @@ TEST(CameraRun, SeesTheOtherVehicleWhereItIs) {
   // One vehicle, in the middle of the picture.
   EXPECT_EQ(numbers.size(), 1u);
   EXPECT_NEAR(0.5 * (first + last), 79.5, 4.0);
-  // Its corner that is nearest along the camera's axis.
-  const Vehicle& other = session.simulation().vehicles()[1]->vehicle();
+  EXPECT_NEAR(nearest_mm / 1000.0, calc_gap_m(session, 0.6), 0.02);
+}
+
+TEST(CameraRun, AScannerSeesTheOtherVehicleToo) {
+  auto registry = std::make_shared<Registry>();
+  register_all(*registry);
+  // Beams every half degree, 2 cm apart where the other rover is.
+  std::string elevations_deg = "-20";
+  for (double e = -19.5; e <= 4.0; e += 0.5) elevations_deg += ", " + std::to_string(e);
+  const std::string scanner =
+      "type: lidar_3d, position_m: [0.6, 0, 0.5], noise_std_m: 0, elevations_deg: [" +
+      elevations_deg + "]";
+  Session session(scenario::parse_scenario(two_rovers_with(scanner), ".", *registry), registry);
+  session.advance(Time{500'000'000});
+  const auto& cloud =
+      static_cast<const Signal<PointCloud>&>(*session.simulation().bus().find("watcher/eye"))
+          .value();
   const Pose X_WB = session.simulation().vehicles()[0]->truth().X_WB;
-  std::vector<Pose> X_WL(other.links().size());
-  other.read_links(X_WL);
-  double expected_m = 1e9;
-  for (std::size_t i = 0; i < X_WL.size(); ++i) {
-    for (const Eigen::Vector3f& corner : other.links()[i].mesh->vertices) {
-      const Eigen::Vector3d p_B = X_WB.inverse() * (X_WL[i] * corner.cast<double>());
-      expected_m = std::min(expected_m, p_B.x() - 0.6);
-    }
+  double nearest_m = 1e9;
+  for (std::size_t i = 0; i < cloud.x.size(); ++i) {
+    // Ahead, between the rows and above the ground, which is level.
+    const Eigen::Vector3d p_B(cloud.x[i] + 0.6, cloud.y[i], cloud.z[i] + 0.5);
+    if (cloud.x[i] < 0.5F || std::abs(cloud.y[i]) > 0.6F || (X_WB * p_B).z() < 0.04) continue;
+    nearest_m = std::min(nearest_m, double{1} * cloud.x[i]);
   }
-  EXPECT_NEAR(nearest_mm / 1000.0, expected_m, 0.02);
+  EXPECT_NEAR(nearest_m, calc_gap_m(session, 0.6), 0.03);
 }
 
 TEST(CameraRun, RefusesACameraInsideOfItsVehicle) {

@@ -90,6 +90,29 @@ TEST(Imager, ElectronsAreThoseOfThePhotometry) {
   EXPECT_NEAR(electrons, 0.5 * 1.5529e8 * 5e-5, 5.0);
 }
 
+TEST(Imager, ColoursShowTheNumbersOfTheConverter) {
+  // With 8 bits a number more or less is a level of the picture, or several in the dark.
+  ImagerParams params;
+  params.noise = false;
+  params.bits = 8;
+  params.exposure_s = 5e-5;
+  params.quantum_efficiency = 0.5;
+  Imager imager(params, kSide, kSide, 3, Eigen::Vector3f::Ones(), RandomStream(1, "", "pattern"));
+  QuickNormals noise(RandomStream(2, "", "noise"));
+  Picture reading = picture_of(Picture::Format::kRgb8), truth = reading;
+  // As above: radiance 100 / 128 / pi gives 0.5 x 1.5529e8 electrons a second.
+  const double electrons = 0.5 * 1.5529e8 * 5e-5 * 128.0 / 100.0 * 3.14159265;
+  for (const int number : {0, 1, 7, 60, 128, 255}) {
+    const double radiance = number / 255.0 * params.full_well_e / electrons;
+    const std::vector<float> light(3 * kPixels, static_cast<float>(radiance));
+    imager.expose(light, noise, reading, truth);
+    for (std::size_t c = 0; c < 3; ++c) {
+      EXPECT_EQ(truth.data[c], std::lround(255.0 * srgb_from_linear(number / 255.0))) << number;
+      EXPECT_EQ(reading.data[3 * kPixels - 1 - c], truth.data[c]) << number;
+    }
+  }
+}
+
 TEST(Imager, PixelsDifferByDsnuAndPrnu) {
   ImagerParams params = sixteen_bits();
   params.read_noise_e = 0.0;

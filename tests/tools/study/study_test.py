@@ -87,6 +87,15 @@ class Study(study_case.StudyCase):
         # Nothing is computed twice.
         self.assertIn("run      0 cells", self.study("run", file, out="two"))
 
+    def test_a_worker_keeps_to_its_core(self):
+        # A camera's pictures are cast on all cores, but the other workers of a study have the other ones.
+        camera = ROOT / "assets" / "scenarios" / "vineyard_row_camera.yaml"
+        file = self.write("seeds: 1\nset: {duration_s: 10, criteria: []}\n")
+        file.write_text(file.read_text().replace(str(SCENARIO), str(camera)))
+        self.study("run", file, "--jobs", 1)
+        (cost,) = self.rows(table="costs.csv")
+        self.assertLess(float(cost["cpu_s"]), 1.1 * float(cost["wall_s"]))
+
     def test_two_drivers(self):
         file = self.write(self.TWO.replace("seeds: 3", "seeds: 40"), duration_s=60)
         first = subprocess.Popen([VINEROW, "study", "run", file, "--out", self.folder / "a", "--cells", self.folder / "shared", "--jobs", "1"],

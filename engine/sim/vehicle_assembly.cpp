@@ -54,20 +54,22 @@ Context make_part_context(const std::string& vehicle, const RunContext& run,
 }  // namespace
 
 std::function<void(Time)> guarded(const SignalBus& bus, const std::string& part,
-                                  const std::string& type, std::function<void(Time)> step) {
-  const std::string culprit = fmt::format("{} ({})", part, type);
+                                  const scenario::PartConfig& config,
+                                  std::function<void(Time)> step) {
+  const std::string culprit = fmt::format("{} ({})", part, config.type);
+  const std::string place = config.where.text();
   std::vector<SignalBase*> written;
   for (const auto& signal : bus.signals()) {
     if (signal->writer() == part) written.push_back(signal.get());
   }
-  return [part, culprit, written = std::move(written), step = std::move(step)](Time now) {
+  return [part, place, culprit, written = std::move(written), step = std::move(step)](Time now) {
     try {
       step(now);
     } catch (const SimulationError&) {
       throw;
     } catch (const ConfigError& error) {
       // What a part finds at the start is bad input, as what it has found before.
-      if (now == Time{0}) throw ConfigError(fmt::format("{}: {}", part, error.what()));
+      if (now == Time{0}) throw ConfigError(fmt::format("{}: {}: {}", place, part, error.what()));
       throw SimulationError(culprit, now, error.what());
     } catch (const std::exception& error) {
       throw SimulationError(culprit, now, fmt::format("threw an exception: {}", error.what()));
@@ -152,13 +154,14 @@ double VehicleAssembly::rate_of(const scenario::PartConfig& part) const {
   return part.rate_Hz > 0.0 ? part.rate_Hz : control_rate_Hz();
 }
 
-void VehicleAssembly::add_stepped(Stage stage, const std::string& part, const std::string& type,
-                                  double rate_Hz, SteppedPart& stepped,
+void VehicleAssembly::add_stepped(Stage stage, const std::string& part,
+                                  const scenario::PartConfig& config, double rate_Hz,
+                                  SteppedPart& stepped,
                                   std::map<std::string, std::string> written_as) {
   Ports ports(run_.bus, config_.name, part, std::move(written_as));
   stepped.connect(ports);
   schedule(stage, part, period_of_rate(rate_Hz), {},
-           guarded(run_.bus, part, type, [&stepped](Time now) { stepped.step(now); }));
+           guarded(run_.bus, part, config, [&stepped](Time now) { stepped.step(now); }));
 }
 
 void VehicleAssembly::schedule(Stage stage, const std::string& part, Duration period,
@@ -184,20 +187,18 @@ void VehicleAssembly::add_sensors() {
     }));
     Sensor& built = *parts_.sensors.back();
     if (built.sampling().ns > 0) {
-      schedule(
-          Stage::kSense, part + ".sampling", built.sampling(), Duration{},
-          guarded(run_.bus, part, sensor.part.type, [&built](Time now) { built.sample(now); }));
+      schedule(Stage::kSense, part + ".sampling", built.sampling(), Duration{},
+               guarded(run_.bus, part, sensor.part, [&built](Time now) { built.sample(now); }));
     }
-    add_stepped(Stage::kSense, part, sensor.part.type, sensor.part.rate_Hz, built);
+    add_stepped(Stage::kSense, part, sensor.part, sensor.part.rate_Hz, built);
     // The error-free reading follows from the truth.
     parts_.diagnostics.push_back(fmt::format("{}/{}_truth", config_.name, sensor.name));
     if (const auto X_BS = built.mounting_X_BS()) {
       parts_.mountings.push_back({sensor.name, sensor.part.type, *X_BS});
     }
     if (built.delay().ns > 0) {
-      schedule(
-          Stage::kSense, part + ".delivery", sensor_context.period, built.delay(),
-          guarded(run_.bus, part, sensor.part.type, [&built](Time now) { built.deliver(now); }));
+      schedule(Stage::kSense, part + ".delivery", sensor_context.period, built.delay(),
+               guarded(run_.bus, part, sensor.part, [&built](Time now) { built.deliver(now); }));
     }
   }
 }
@@ -208,17 +209,18 @@ void VehicleAssembly::add_estimator() {
   if (estimate != nullptr && !estimate->writer().empty()) return;
   const std::string part = config_.name + ".estimator";
   const bool given = config_.estimator.has_value();
-  const std::string type = given ? config_.estimator->type : "truth";
+  const scenario::PartConfig config =
+      given ? *config_.estimator : scenario::PartConfig{"truth", 0.0, {}, config_.vehicle.where};
   const double rate = given ? rate_of(*config_.estimator) : control_rate_Hz();
   if (given) {
     parts_.estimator = with_place(config_.estimator->where, config_.name, [&] {
-      return run_.registry.make_estimator(type, config_.estimator->parameters,
+      return run_.registry.make_estimator(config.type, config.parameters,
                                           estimator_context(part, rate));
     });
   } else {
     parts_.estimator = std::make_unique<TruthEstimator>();
   }
-  add_stepped(Stage::kEstimate, part, type, rate, *parts_.estimator);
+  add_stepped(Stage::kEstimate, part, config, rate, *parts_.estimator);
 }
 
 EstimatorContext VehicleAssembly::estimator_context(const std::string& part, double rate_Hz) const {
@@ -238,7 +240,7 @@ void VehicleAssembly::add_observers() {
       return run_.registry.make_estimator(observer.part.type, observer.part.parameters,
                                           estimator_context(part, rate));
     }));
-    add_stepped(Stage::kEstimate, part, observer.part.type, rate, *parts_.observers.back(),
+    add_stepped(Stage::kEstimate, part, observer.part, rate, *parts_.observers.back(),
                 observer_signals(observer.name));
   }
 }
@@ -293,7 +295,7 @@ void VehicleAssembly::add_guidance() {
     return run_.registry.make_guidance(config_.guidance->type, config_.guidance->parameters,
                                        controller_context(part, rate));
   });
-  add_stepped(Stage::kGuide, part, config_.guidance->type, rate, *parts_.guidance);
+  add_stepped(Stage::kGuide, part, *config_.guidance, rate, *parts_.guidance);
   note_if_it_may_fail(parts_.guidance.get());
   if (auto* looks = dynamic_cast<SeesGround*>(parts_.guidance.get())) {
     looks->see_ground(*planner_context().scene);
@@ -324,11 +326,10 @@ void VehicleAssembly::add_autopilot() {
   Autopilot& firmware = *autopilot;
   parts_.controller = std::move(autopilot);
   note_if_it_may_fail(parts_.controller.get());
-  add_stepped(Stage::kControl, part, config.type, config.rate_Hz, *parts_.controller);
+  add_stepped(Stage::kControl, part, config, config.rate_Hz, *parts_.controller);
   const std::string answer = part + ".answer";
-  schedule(
-      Stage::kActuate, answer, period_of_rate(config.rate_Hz), {},
-      guarded(run_.bus, part, config.type, [&firmware](Time now) { firmware.finish_step(now); }));
+  schedule(Stage::kActuate, answer, period_of_rate(config.rate_Hz), {},
+           guarded(run_.bus, part, config, [&firmware](Time now) { firmware.finish_step(now); }));
   schedule_actuators(config.rate_Hz);
 }
 
@@ -340,8 +341,7 @@ void VehicleAssembly::add_controller(bool has_plan) {
                                            controller_context(part, control_rate_Hz()));
     });
     note_if_it_may_fail(parts_.controller.get());
-    add_stepped(Stage::kControl, part, config_.controller->type, control_rate_Hz(),
-                *parts_.controller);
+    add_stepped(Stage::kControl, part, *config_.controller, control_rate_Hz(), *parts_.controller);
     if (!parts_.planner && !has_plan) refuse_a_missing_plan();
     return schedule_actuators(control_rate_Hz());
   }
@@ -386,7 +386,7 @@ void VehicleAssembly::add_payloads() {
                                    return run_.registry.make_payload(
                                        payload.part.type, payload.part.parameters, payload_context);
                                  }));
-    add_stepped(Stage::kPayload, part, payload.part.type, rate, *parts_.payloads.back().second);
+    add_stepped(Stage::kPayload, part, payload.part, rate, *parts_.payloads.back().second);
   }
 }
 
@@ -406,7 +406,7 @@ void VehicleAssembly::add_metrics() {
     }
     parts_.metrics.push_back(
         run_.registry.make_metric(metric.part.type, parameters_of(metric), metric_context));
-    add_stepped(Stage::kJudge, part, metric.part.type, rate, *parts_.metrics.back());
+    add_stepped(Stage::kJudge, part, metric.part, rate, *parts_.metrics.back());
   }
 }
 

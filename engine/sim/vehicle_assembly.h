@@ -107,8 +107,9 @@ class VehicleAssembly {
   double control_rate_Hz() const;
   /// The part's own rate; without one the controller's. Hz
   double rate_of(const scenario::PartConfig& part) const;
-  void add_stepped(Stage stage, const std::string& part, const std::string& type, double rate_Hz,
-                   SteppedPart& stepped, std::map<std::string, std::string> written_as = {});
+  void add_stepped(Stage stage, const std::string& part, const scenario::PartConfig& config,
+                   double rate_Hz, SteppedPart& stepped,
+                   std::map<std::string, std::string> written_as = {});
   void schedule(Stage stage, const std::string& part, Duration period, Duration offset,
                 std::function<void(Time)> run);
   void take_map(std::shared_ptr<const RowMap> map);
@@ -143,9 +144,11 @@ std::unique_ptr<Vehicle> make_placed_vehicle(const scenario::VehicleConfig& conf
                                              const RunContext& run);
 
 /// Wraps a part's tick: turns exceptions that it throws, and NaN that it writes, into a
-/// SimulationError with the part's name. A ConfigError at time 0 stays one: it is bad input. Call
-/// after the part has connected: only then the bus knows the signals that it writes.
+/// SimulationError with the part's name. A ConfigError at time 0 stays one, with the part's place
+/// in the scenario: it is bad input. Call after the part has connected: only then the bus knows the
+/// signals that it writes.
 std::function<void(Time)> guarded(const SignalBus& bus, const std::string& part,
-                                  const std::string& type, std::function<void(Time)> step);
+                                  const scenario::PartConfig& config,
+                                  std::function<void(Time)> step);
 
 }  // namespace vinerow

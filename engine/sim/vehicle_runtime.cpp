@@ -181,7 +181,7 @@ void VehicleRuntime::try_to_plan(Time now) {
   if (given_plan_) {
     plan = *given_plan_;
   } else {
-    guarded(run_.bus, config_.name + ".planner", config_.planner->type,
+    guarded(run_.bus, config_.name + ".planner", *config_.planner,
             [&](Time) { plan = parts_->planner->plan(parts_->estimate.value().X_WB); })(now);
   }
   if (!plan) {

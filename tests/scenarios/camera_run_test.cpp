@@ -125,7 +125,8 @@ TEST(CameraRun, RefusesACameraInsideOfItsVehicle) {
        {"run " + file + " --out " + out.string(), "validate " + file}) {
     const test::CommandResult result = run_vinerow(command);
     EXPECT_EQ(result.status, 2) << command;
-    EXPECT_NE(result.output.find("watcher.sensors.eye: the camera is inside of watcher/"),
+    EXPECT_NE(result.output.find(
+                  "scenario.yaml:10: watcher.sensors.eye: the camera is inside of watcher/"),
               std::string::npos)
         << result.output;
     EXPECT_FALSE(std::filesystem::exists(out)) << "before its first step a run writes nothing";

@@ -19,10 +19,10 @@ struct TriangleBlock {
   std::uint32_t count;
 };
 
-/// Groups the triangles in the order of the mesh where the common box is not larger than the boxes
-/// together: the chance that a ray meets a box grows with its surface. Meshes list the triangles of
-/// a leaf, a post or a hull one after the other; a search for nearer ones takes longer than its
-/// better groups save.
+/// Groups the triangles in the order of the mesh, with the least cost of all blocks: the surface of
+/// a block's box, to which the chance that a ray meets it is proportional, and something for the
+/// block itself. Meshes list the triangles of a leaf, a post or a hull one after the other; a
+/// search for nearer ones takes longer than its better groups save.
 std::vector<TriangleBlock> make_triangle_blocks(const TriangleMesh& mesh);
 
 }  // namespace vinerow::physics

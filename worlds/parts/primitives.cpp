@@ -79,10 +79,13 @@ void append_sphere(TriangleMesh& mesh, const Eigen::Vector3d& centre, double rad
       Eigen::Vector3d(1, -kPhi, 0),  Eigen::Vector3d(0, -1, kPhi),  Eigen::Vector3d(0, 1, kPhi),
       Eigen::Vector3d(0, -1, -kPhi), Eigen::Vector3d(0, 1, -kPhi),  Eigen::Vector3d(kPhi, 0, -1),
       Eigen::Vector3d(kPhi, 0, 1),   Eigen::Vector3d(-kPhi, 0, -1), Eigen::Vector3d(-kPhi, 0, 1)};
+  // By fours that lie close together, in whose boxes rays search for them.
   static constexpr std::uint8_t kFaces[20][3] = {
-      {0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-      {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-      {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
+      {0, 11, 5},  {0, 5, 1},  {0, 1, 7},   {0, 7, 10},  //
+      {0, 10, 11}, {5, 11, 4}, {11, 10, 2}, {2, 4, 11},  //
+      {1, 5, 9},   {7, 1, 8},  {4, 9, 5},   {9, 8, 1},   //
+      {10, 7, 6},  {3, 2, 6},  {6, 2, 10},  {8, 6, 7},   //
+      {3, 9, 4},   {3, 4, 2},  {3, 6, 8},   {3, 8, 9}};
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   for (const Eigen::Vector3d& corner : kCorners) {
     const Eigen::Vector3d out = corner.normalized();

@@ -20,9 +20,11 @@ constexpr double kShadow_m = 60.0;  // tall enough a plant for a sun of 2 degree
 constexpr double kLift_m = 1e-3;    // of shadow rays from their surface
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-// Rays side by side cost half as much: they go in blocks of four by two pixels.
-constexpr int kBlockColumns = 4, kBandRows = 2;
-constexpr std::size_t kBandsAtOnce = 4;  // by a thread, which takes some ms
+// Rays side by side cost half as much: they go in blocks of four by two pixels. Those of a tile
+// meet the same triangles, which stay in the cache.
+constexpr int kBlockColumns = 4, kBlockRows = 2;
+constexpr int kTileColumns = 32, kTileRows = 32;
+constexpr std::size_t kTilesAtOnce = 2;  // by a thread, which takes a ms
 
 /// Places of samples about the middle, the first of which is the middle. The others fill the pixel
 /// and its exposure evenly: additive recurrence of the golden ratio and its relatives (Roberts
@@ -68,17 +70,34 @@ const Eigen::Matrix3d& R_SC() {
   return matrix;
 }
 
-/// Neighbouring rows that are cast together.
-struct ViewCaster::Band {
+/// Pixels that are cast together.
+struct ViewCaster::Tile {
   int first_row, rows;
-  int width;
+  int first_column, columns;
+  int width;  ///< of the picture
 
-  /// Calls use(row of the band, column) in the order of the rays.
+  /// Tile number `index`, row by row.
+  static Tile of(const Lens& lens, std::size_t index) {
+    const auto across = static_cast<std::size_t>(calc_tiles(lens.width(), kTileColumns));
+    const int row = static_cast<int>(index / across) * kTileRows;
+    const int column = static_cast<int>(index % across) * kTileColumns;
+    return {row, std::min(kTileRows, lens.height() - row), column,
+            std::min(kTileColumns, lens.width() - column), lens.width()};
+  }
+  static std::size_t count(const Lens& lens) {
+    return static_cast<std::size_t>(calc_tiles(lens.width(), kTileColumns)) *
+           static_cast<std::size_t>(calc_tiles(lens.height(), kTileRows));
+  }
+
+  /// Calls use(row of the tile, column of the picture) in the order of the rays.
   template <class F>
   void for_each(F&& use) const {
-    for (int block = 0; block < width; block += kBlockColumns) {
-      for (int row = 0; row < rows; ++row) {
-        for (int x = block; x < std::min(block + kBlockColumns, width); ++x) use(row, x);
+    const int end = first_column + columns;
+    for (int block_row = 0; block_row < rows; block_row += kBlockRows) {
+      for (int block = first_column; block < end; block += kBlockColumns) {
+        for (int row = block_row; row < std::min(block_row + kBlockRows, rows); ++row) {
+          for (int x = block; x < std::min(block + kBlockColumns, end); ++x) use(row, x);
+        }
       }
     }
   }
@@ -86,10 +105,13 @@ struct ViewCaster::Band {
     return static_cast<std::size_t>(first_row + row) * static_cast<std::size_t>(width) +
            static_cast<std::size_t>(x);
   }
+
+ private:
+  static int calc_tiles(int pixels, int of_tile) { return (pixels + of_tile - 1) / of_tile; }
 };
 
-/// The rays of a band, and what they meet.
-struct ViewCaster::BandRays {
+/// The rays of a tile, and what they meet.
+struct ViewCaster::TileRays {
   std::vector<SceneRay> rays, sun_rays;
   std::vector<std::optional<RayHit>> hits, vehicle_hits;
   std::vector<bool> on_vehicle;
@@ -98,16 +120,17 @@ struct ViewCaster::BandRays {
   // Of the rays to the sun: whether plants, or vehicles, are in their way.
   std::unique_ptr<bool[]> is_shaded, is_shaded_by_vehicle;
 
-  explicit BandRays(std::size_t most) {
-    rays.reserve(most);
-    hits.reserve(most);
-    vehicle_hits.reserve(most);
-    on_vehicle.reserve(most);
-    surfaces.reserve(most);
-    sun_rays.reserve(most);
-    sun_ray.reserve(most);
-    is_shaded = std::make_unique<bool[]>(most);
-    is_shaded_by_vehicle = std::make_unique<bool[]>(most);
+  TileRays() {
+    constexpr std::size_t kMost = kTileColumns * kTileRows;
+    rays.reserve(kMost);
+    hits.reserve(kMost);
+    vehicle_hits.reserve(kMost);
+    on_vehicle.reserve(kMost);
+    surfaces.reserve(kMost);
+    sun_rays.reserve(kMost);
+    sun_ray.reserve(kMost);
+    is_shaded = std::make_unique<bool[]>(kMost);
+    is_shaded_by_vehicle = std::make_unique<bool[]>(kMost);
   }
 };
 
@@ -126,17 +149,15 @@ ViewCaster::ViewCaster(const Lens& lens, const ViewSettings& settings, const Wor
       direction_C_.push_back(lens.direction(x, y).value_or(Vector3d::UnitZ()).cast<float>());
     }
   }
-  make_band_rays();
+  make_tile_rays();
 }
 
 ViewCaster::~ViewCaster() = default;
 
-void ViewCaster::make_band_rays() {
-  const int chunk_rows = kBandRows * static_cast<int>(kBandsAtOnce);
-  const auto chunks = static_cast<std::size_t>((lens_.height() + chunk_rows - 1) / chunk_rows);
-  while (band_rays_.size() < std::min(most_threads(), chunks)) {
-    const auto most = static_cast<std::size_t>(kBandRows * lens_.width());
-    band_rays_.push_back(std::make_unique<BandRays>(most));
+void ViewCaster::make_tile_rays() {
+  const std::size_t chunks = (Tile::count(lens_) + kTilesAtOnce - 1) / kTilesAtOnce;
+  while (tile_rays_.size() < std::min(most_threads(), chunks)) {
+    tile_rays_.push_back(std::make_unique<TileRays>());
   }
 }
 
@@ -150,22 +171,20 @@ void ViewCaster::cast(const CameraMotion& motion, double exposure_s, View& view)
     view.thing.assign(pixels, ThingNumbers::kNothing);
   }
   if (vehicles_) vehicles_->update();
-  make_band_rays();
+  make_tile_rays();
   // Few captures, so that std::function needs no memory for them.
   const struct {
     const CameraMotion& motion;
     double exposure_s;
     View& view;
   } picture{motion, exposure_s, view};
-  const auto bands = static_cast<std::size_t>((lens_.height() + kBandRows - 1) / kBandRows);
-  for_chunks(bands, kBandsAtOnce,
+  for_chunks(Tile::count(lens_), kTilesAtOnce,
              [this, &picture](std::size_t, std::size_t begin, std::size_t end) {
-               BandRays& rays = *band_rays_[thread_in_loop()];
+               TileRays& rays = *tile_rays_[thread_in_loop()];
                for (std::size_t i = begin; i < end; ++i) {
-                 const int y = static_cast<int>(i) * kBandRows;
-                 const Band band{y, std::min(kBandRows, lens_.height() - y), lens_.width()};
+                 const Tile tile = Tile::of(lens_, i);
                  for (int sample = 0; sample < settings_.samples; ++sample) {
-                   cast_band(picture.motion, picture.exposure_s, sample, band, rays, picture.view);
+                   cast_tile(picture.motion, picture.exposure_s, sample, tile, rays, picture.view);
                  }
                }
              });
@@ -173,28 +192,28 @@ void ViewCaster::cast(const CameraMotion& motion, double exposure_s, View& view)
   for (float& value : view.radiance) value *= share;
 }
 
-void ViewCaster::cast_band(const CameraMotion& motion, double exposure_s, int sample,
-                           const Band& band, BandRays& r, View& view) const {
-  add_rays(motion, exposure_s, sample, band, r);
+void ViewCaster::cast_tile(const CameraMotion& motion, double exposure_s, int sample,
+                           const Tile& tile, TileRays& r, View& view) const {
+  add_rays(motion, exposure_s, sample, tile, r);
   r.hits.resize(r.rays.size());
   light_.cast_rays(r.rays, r.hits);
   look_at_vehicles(r);
   if (sample == 0 && settings_.facts)
-    write_facts(band, motion.X_WS.q.toRotationMatrix() * R_SC(), r, view);
-  if (settings_.channels > 0) add_light(band, r, view);
+    write_facts(tile, motion.X_WS.q.toRotationMatrix() * R_SC(), r, view);
+  if (settings_.channels > 0) add_light(tile, r, view);
 }
 
 void ViewCaster::add_rays(const CameraMotion& motion, double exposure_s, int sample,
-                          const Band& band, BandRays& r) const {
+                          const Tile& tile, TileRays& r) const {
   const Vector3d& offset = offsets_[static_cast<std::size_t>(sample)];
   const auto right = static_cast<float>(offset.x()), down = static_cast<float>(offset.y());
   const double later_s = offset.z() * exposure_s;
   const Eigen::Matrix3d R_WC = motion.X_WS.q.toRotationMatrix() * R_SC();
-  Eigen::Matrix3d row_R_WC[kBandRows];
-  Vector3d row_p_W[kBandRows];
-  for (int row = 0; row < band.rows; ++row) {
+  Eigen::Matrix3d row_R_WC[kTileRows];
+  Vector3d row_p_W[kTileRows];
+  for (int row = 0; row < tile.rows; ++row) {
     const double share =
-        lens_.height() > 1 ? (band.first_row + row) / (lens_.height() - 1.0) - 0.5 : 0.0;
+        lens_.height() > 1 ? (tile.first_row + row) / (lens_.height() - 1.0) - 0.5 : 0.0;
     const double time_s = share * settings_.readout_s + later_s;
     row_p_W[row] = motion.X_WS.p + time_s * motion.v_W;
     row_R_WC[row] = R_WC;
@@ -207,15 +226,15 @@ void ViewCaster::add_rays(const CameraMotion& motion, double exposure_s, int sam
   }
   r.rays.clear();
   const int last_x = lens_.width() - 1, last_y = lens_.height() - 1;
-  band.for_each([&](int row, int x) {
-    const std::size_t pixel = band.pixel(row, x);
+  tile.for_each([&](int row, int x) {
+    const std::size_t pixel = tile.pixel(row, x);
     Vector3f dir_C = direction_C_[pixel];
     if (sample > 0) {
       // Towards the neighbours: the lens is smooth over a pixel.
       const std::size_t width = static_cast<std::size_t>(lens_.width());
       const Vector3f along = x < last_x ? Vector3f(direction_C_[pixel + 1] - dir_C)
                                         : Vector3f(dir_C - direction_C_[pixel - 1]);
-      const Vector3f across = band.first_row + row < last_y
+      const Vector3f across = tile.first_row + row < last_y
                                   ? Vector3f(direction_C_[pixel + width] - dir_C)
                                   : Vector3f(dir_C - direction_C_[pixel - width]);
       dir_C += right * along + down * across;
@@ -225,7 +244,7 @@ void ViewCaster::add_rays(const CameraMotion& motion, double exposure_s, int sam
 }
 
 /// Replaces hits by nearer ones on vehicles.
-void ViewCaster::look_at_vehicles(BandRays& r) const {
+void ViewCaster::look_at_vehicles(TileRays& r) const {
   r.on_vehicle.assign(r.rays.size(), false);
   if (!vehicles_) return;
   for (std::size_t i = 0; i < r.rays.size(); ++i) {
@@ -240,11 +259,11 @@ void ViewCaster::look_at_vehicles(BandRays& r) const {
   }
 }
 
-void ViewCaster::write_facts(const Band& band, const Eigen::Matrix3d& R_WC, const BandRays& r,
+void ViewCaster::write_facts(const Tile& tile, const Eigen::Matrix3d& R_WC, const TileRays& r,
                              View& view) const {
   std::size_t i = 0;
-  band.for_each([&](int row, int x) {
-    const std::size_t pixel = band.pixel(row, x), ray = i++;
+  tile.for_each([&](int row, int x) {
+    const std::size_t pixel = tile.pixel(row, x), ray = i++;
     if (!r.hits[ray]) {
       if (r.rays[ray].dir_W.z() < 0.0) view.label[pixel] = Label::kGround;
       return;
@@ -263,7 +282,7 @@ void ViewCaster::write_facts(const Band& band, const Eigen::Matrix3d& R_WC, cons
   });
 }
 
-SeenSurface ViewCaster::surface_of(const BandRays& r, std::size_t ray) const {
+SeenSurface ViewCaster::surface_of(const TileRays& r, std::size_t ray) const {
   const RayHit& hit = *r.hits[ray];
   const double cosine = std::max(0.05, std::abs(hit.normal_W.dot(r.rays[ray].dir_W)));
   const double footprint_m = hit.distance_m / (lens_.info().fx_px * cosine);
@@ -273,7 +292,7 @@ SeenSurface ViewCaster::surface_of(const BandRays& r, std::size_t ray) const {
       footprint_m);
 }
 
-void ViewCaster::add_light(const Band& band, BandRays& r, View& view) const {
+void ViewCaster::add_light(const Tile& tile, TileRays& r, View& view) const {
   // Rays to the sun from all surfaces that it could light.
   const Vector3d& sun_W = look_.sun_direction_W();
   r.surfaces.resize(r.rays.size());
@@ -295,7 +314,7 @@ void ViewCaster::add_light(const Band& band, BandRays& r, View& view) const {
     vehicles_->find_blocked(r.sun_rays, {r.is_shaded_by_vehicle.get(), r.sun_rays.size()});
   }
   std::size_t i = 0;
-  band.for_each([&](int row, int x) {
+  tile.for_each([&](int row, int x) {
     const std::size_t ray = i++;
     Vector3f radiance;
     if (r.hits[ray]) {
@@ -307,7 +326,7 @@ void ViewCaster::add_light(const Band& band, BandRays& r, View& view) const {
       radiance = look_.far_radiance(r.rays[ray].dir_W);
     }
     float* values =
-        &view.radiance[band.pixel(row, x) * static_cast<std::size_t>(settings_.channels)];
+        &view.radiance[tile.pixel(row, x) * static_cast<std::size_t>(settings_.channels)];
     for (int c = 0; c < settings_.channels; ++c) values[c] += radiance[c];
   });
 }

@@ -12,7 +12,7 @@
 /// with the velocities that it has at the stamp: for an acceleration a the outer rows are off by
 /// a readout_s^2 / 8.
 ///
-/// Rows are cast on all cores (core/parallel.h); the picture does not depend on their number.
+/// Tiles are cast on all cores (core/parallel.h); the picture does not depend on their number.
 
 #include <cstddef>
 #include <cstdint>
@@ -72,18 +72,18 @@ class ViewCaster {
   std::string blindness(const Pose& X_WS);
 
  private:
-  struct Band;
-  struct BandRays;
-  void make_band_rays();
-  void cast_band(const CameraMotion& motion, double exposure_s, int sample, const Band& band,
-                 BandRays& r, View& view) const;
-  void add_rays(const CameraMotion& motion, double exposure_s, int sample, const Band& band,
-                BandRays& r) const;
-  void look_at_vehicles(BandRays& r) const;
-  void write_facts(const Band& band, const Eigen::Matrix3d& R_WC, const BandRays& r,
+  struct Tile;
+  struct TileRays;
+  void make_tile_rays();
+  void cast_tile(const CameraMotion& motion, double exposure_s, int sample, const Tile& tile,
+                 TileRays& r, View& view) const;
+  void add_rays(const CameraMotion& motion, double exposure_s, int sample, const Tile& tile,
+                TileRays& r) const;
+  void look_at_vehicles(TileRays& r) const;
+  void write_facts(const Tile& tile, const Eigen::Matrix3d& R_WC, const TileRays& r,
                    View& view) const;
-  void add_light(const Band& band, BandRays& r, View& view) const;
-  SeenSurface surface_of(const BandRays& r, std::size_t ray) const;
+  void add_light(const Tile& tile, TileRays& r, View& view) const;
+  SeenSurface surface_of(const TileRays& r, std::size_t ray) const;
 
   const Lens& lens_;
   ViewSettings settings_;
@@ -95,7 +95,7 @@ class ViewCaster {
   std::vector<Eigen::Vector3f> direction_C_;  ///< of each pixel, in the optical frame
   /// Of each sample: to the right and down, in pixels; later, as a share of the exposure.
   std::vector<Eigen::Vector3d> offsets_;
-  std::vector<std::unique_ptr<BandRays>> band_rays_;  ///< of each thread
+  std::vector<std::unique_ptr<TileRays>> tile_rays_;  ///< of each thread
 };
 
 }  // namespace vinerow::sensors

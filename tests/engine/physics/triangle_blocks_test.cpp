@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -64,6 +65,54 @@ TEST(TriangleBlocks, TheFacesOfAStripFillThem) {
   }
   EXPECT_EQ(strip.triangles.size(), 39u);
   EXPECT_LE(make_triangle_blocks(strip).size(), 11u);
+}
+
+/// Against all ways to cut a short mesh into blocks.
+TEST(TriangleBlocks, TheyCostTheLeastOfAllCuts) {
+  RandomStream random(3, "", "cuts");
+  for (int trial = 0; trial < 20; ++trial) {
+    TriangleMesh mesh;
+    constexpr std::uint32_t kCount = 9;
+    Eigen::Vector3f middle = Eigen::Vector3f::Zero();
+    std::vector<Eigen::AlignedBox3f> boxes;
+    for (std::uint32_t i = 0; i < kCount; ++i) {
+      middle.x() += static_cast<float>(random.uniform(0.0, 1.5));
+      boxes.emplace_back();
+      for (int k = 0; k < 3; ++k) {
+        const Eigen::Vector3f away(static_cast<float>(random.uniform(-1.0, 1.0)),
+                                   static_cast<float>(random.uniform(-1.0, 1.0)),
+                                   static_cast<float>(random.uniform(-1.0, 1.0)));
+        mesh.vertices.push_back(middle + away);
+        boxes.back().extend(mesh.vertices.back());
+      }
+      mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    const auto surface = [](const Eigen::AlignedBox3f& box) {
+      const Eigen::Vector3d s = box.sizes().cast<double>();
+      return s.x() * s.y() + s.y() * s.z() + s.z() * s.x();
+    };
+    double mean = 0.0;
+    for (const Eigen::AlignedBox3f& box : boxes) mean += surface(box) / kCount;
+    // Bit i of a cut: a block begins at triangle i + 1. A block costs as much as a mean triangle.
+    const auto cost_of = [&](unsigned cut) {
+      double cost = 0.0;
+      for (std::uint32_t first = 0; first < kCount;) {
+        Eigen::AlignedBox3f box = boxes[first];
+        std::uint32_t end = first + 1;
+        for (; end < kCount && (cut >> (end - 1) & 1) == 0; ++end) box.extend(boxes[end]);
+        cost += end - first <= TriangleBlock::kSize ? surface(box) + mean : 1e9;
+        first = end;
+      }
+      return cost;
+    };
+    double least = 1e9;
+    for (unsigned cut = 0; cut < 1u << (kCount - 1); ++cut) least = std::min(least, cost_of(cut));
+    unsigned chosen = 0;
+    for (const TriangleBlock& block : make_triangle_blocks(mesh)) {
+      if (block.first > 0) chosen |= 1u << (block.first - 1);
+    }
+    EXPECT_NEAR(cost_of(chosen), least, 1e-5 * least);
+  }
 }
 
 /// Rays through corners, edges and the inside of triangles, beside them and in their planes.

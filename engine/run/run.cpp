@@ -17,6 +17,7 @@
 #include "engine/io/files/output_folder.h"
 #include "engine/playback/canopy_file.h"
 #include "engine/playback/run_frames.h"
+#include "engine/run/earlier_run.h"
 #include "engine/run/junit.h"
 #include "engine/run/log_observer.h"
 #include "engine/run/run_profile.h"
@@ -40,10 +41,20 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+/// Names of the vehicles whose planner has not planned yet.
+std::vector<std::string> without_plan(const Simulation& simulation) {
+  std::vector<std::string> names;
+  for (const auto& vehicle : simulation.vehicles()) {
+    if (vehicle->awaits_plan()) names.push_back(vehicle->name());
+  }
+  return names;
+}
+
 /// Steps to the end in slices of simulated time, to report progress. Slices change no result.
+/// @param earlier  may be null; removed once nothing can be refused any more
 /// @returns the seed of the next run if the driver wants to start again
 std::optional<std::uint64_t> step_to_end(Session& session, const RunOptions& options,
-                                         Clock::time_point start) {
+                                         Clock::time_point start, EarlierRun* earlier) {
   const double duration_s = session.scenario().duration_s;
   constexpr Duration kSlice{250'000'000};
   double stated_s = -1.0;
@@ -54,6 +65,7 @@ std::optional<std::uint64_t> step_to_end(Session& session, const RunOptions& opt
     if (options.profile) options.profile->begin_slice(session.now());
     session.advance(next.until);
     if (options.profile) options.profile->end_slice(session.now());
+    if (earlier && without_plan(session.simulation()).empty()) earlier->remove();
     if (options.interrupted && options.interrupted()) {
       const SimulationError error("run", session.now(), "interrupted by the user");
       session.simulation().emit(Event::Level::kError, error.culprit(), error.what());
@@ -101,29 +113,6 @@ std::map<std::string, std::map<std::string, double>> with_missing_numbers(
   return metrics;
 }
 
-/// Removes the files of a run: of an earlier one in the same folder, because they could be mistaken
-/// for those of this run, or of one that is refused. Products stay until a job replaces them,
-/// because other runs may still use them.
-void clear_run(const std::filesystem::path& folder) {
-  std::error_code ignored;
-  std::vector<std::filesystem::path> earlier;
-  for (const char* name : {"scenario.resolved.yaml", "events.jsonl", "log.mcap", "report.html",
-                           "replay.html", "frames", "canopy", "robot_description", "summary.json",
-                           "junit.xml", "profile.csv", "profile.json"}) {
-    earlier.push_back(folder / name);
-  }
-  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
-    const std::filesystem::path& file = entry.path();
-    const std::string stem = file.stem().string();
-    if (file.extension() == temporary_name("x").extension()) earlier.push_back(file);
-    const bool of_coverage = stem == "coverage" || stem.starts_with("coverage_");
-    if (of_coverage && (file.extension() == ".png" || file.extension() == ".json")) {
-      earlier.push_back(file);
-    }
-  }
-  for (const std::filesystem::path& path : earlier) std::filesystem::remove_all(path, ignored);
-}
-
 std::vector<std::filesystem::path> write_canopy(const Simulation& simulation,
                                                 const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
@@ -155,15 +144,6 @@ Session open_run(const scenario::Scenario& scenario, const Registry& registry,
     return find_declared_result(scenario, registry, metric);
   });
   return session;
-}
-
-/// Names of the vehicles whose planner has not planned yet.
-std::vector<std::string> without_plan(const Simulation& simulation) {
-  std::vector<std::string> names;
-  for (const auto& vehicle : simulation.vehicles()) {
-    if (vehicle->awaits_plan()) names.push_back(vehicle->name());
-  }
-  return names;
 }
 
 /// Fills in the results of a run: numbers, verdicts, status.
@@ -214,10 +194,11 @@ void draw_pictures(const std::filesystem::path& log, const Registry& registry,
   }
 }
 
-/// Steps to the end and judges. @param log  may be null
+/// Steps to the end and judges. @param log  may be null  @param earlier  as of step_to_end()
 /// @returns the seed of the next run if the driver wants to start again; nothing is judged then
 std::optional<std::uint64_t> step_and_judge(Session& session, const RunOptions& options,
-                                            LogObserver* log, RunResult& result) {
+                                            LogObserver* log, EarlierRun* earlier,
+                                            RunResult& result) {
   Simulation& simulation = session.simulation();
   const scenario::Scenario& scenario = session.scenario();
   const auto break_off = [&](const SimulationError& error) {
@@ -229,7 +210,7 @@ std::optional<std::uint64_t> step_and_judge(Session& session, const RunOptions& 
   if (scenario.phases.empty()) set_profile_phase("", "run");
   try {
     if (options.driver) options.driver->begin(session);
-    const auto restart_seed = step_to_end(session, options, start);
+    const auto restart_seed = step_to_end(session, options, start, earlier);
     if (restart_seed) return restart_seed;
   } catch (const SimulationError& error) {
     break_off(error);
@@ -299,7 +280,7 @@ RunResult run_scenario(const scenario::Scenario& scenario, const Registry& regis
 
   RunResult result;
   if (!writes) {
-    while (const auto seed = step_and_judge(session, options, nullptr, result)) {
+    while (const auto seed = step_and_judge(session, options, nullptr, nullptr, result)) {
       session.reset(*seed);
       measure_cost();
     }
@@ -315,8 +296,9 @@ RunResult run_scenario(const scenario::Scenario& scenario, const Registry& regis
   const bool with_log = options.log && scenario.record.enabled;
   std::unique_ptr<LogObserver> log;
   std::unique_ptr<EventFile> events;
+  EarlierRun earlier(options.out);
   for (bool runs = true; runs;) {
-    clear_run(options.out);
+    remove_run(options.out);
     write_whole_file(options.out / "scenario.resolved.yaml", session.scenario().resolved_yaml);
     Simulation& simulation = session.simulation();
     if (with_log) {
@@ -328,14 +310,15 @@ RunResult run_scenario(const scenario::Scenario& scenario, const Registry& regis
     opening.reset();
     std::optional<std::uint64_t> seed;
     try {
-      seed = step_and_judge(session, options, log.get(), result);
+      seed = step_and_judge(session, options, log.get(), &earlier, result);
     } catch (const ConfigError&) {
       // Bad input that a part has found at the start, as a planner that has no way.
       log.reset();
       events.reset();
-      clear_run(options.out);
+      earlier.put_back();
       throw;
     }
+    earlier.remove();
     runs = seed.has_value();
     if (!runs) break;
     // The files are those of the last run; its observers must not outlive its signals.

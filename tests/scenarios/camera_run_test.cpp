@@ -131,12 +131,18 @@ TEST(CameraRun, RefusesACameraInsideOfItsVehicle) {
         << result.output;
     EXPECT_FALSE(std::filesystem::exists(out)) << "before its first step a run writes nothing";
   }
-  // Nor does it leave what an earlier run has written in the folder, which would be taken for its
-  // own.
-  std::filesystem::create_directory(out);
-  folder.file("out/summary.json", "{}");
+  // What an earlier run has written in the folder stays as it was.
+  std::filesystem::create_directories(out / "frames");
+  const std::string names[] = {"scenario.resolved.yaml", "summary.json", "log.mcap",
+                               "frames/chase_000000500.png", "notes.txt"};
+  for (const std::string& name : names) folder.file("out/" + name, "earlier " + name);
   EXPECT_EQ(run_vinerow("run " + file + " --out " + out.string()).status, 2);
-  EXPECT_TRUE(std::filesystem::is_empty(out));
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(out)) {
+    files += entry.is_regular_file();
+  }
+  EXPECT_EQ(files, std::size(names));
+  for (const std::string& name : names) EXPECT_EQ(test::read_text(out / name), "earlier " + name);
 }
 
 }  // namespace

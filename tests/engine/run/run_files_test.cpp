@@ -103,15 +103,51 @@ TEST_F(RunFiles, AnInterruptWhileDrawingKeepsTheVerdict) {
 }
 
 TEST_F(RunFiles, WhatAnEarlierRunLeftIsNotTakenForThisOnes) {
-  for (const char* name : {"summary.json", "junit.xml", "report.html", "log.mcap.part"}) {
-    std::ofstream(folder_ / name) << "earlier";
+  for (const char* sub : {"frames", "canopy", "robot_description/rover"}) {
+    std::filesystem::create_directories(folder_ / sub);
+  }
+  const std::vector<std::string> of_run = {"scenario.resolved.yaml",
+                                           "summary.json",
+                                           "junit.xml",
+                                           "report.html",
+                                           "log.mcap.part",
+                                           "frames/chase_000000500.png",
+                                           "canopy/rover.json",
+                                           "coverage_plane.png",
+                                           "robot_description/rover.urdf",
+                                           "robot_description/rover/body.dae"};
+  const std::vector<std::string> of_others = {"frames/holiday.jpg", "canopy/field_notes.txt",
+                                              "photo.png", "film.part"};
+  for (const auto& names : {of_run, of_others}) {
+    for (const std::string& name : names) std::ofstream(folder_ / name) << "earlier";
   }
   options_.judged = [&](const RunResult&) {
-    EXPECT_FALSE(std::filesystem::exists(folder_ / "report.html"));
-    EXPECT_FALSE(std::filesystem::exists(folder_ / "log.mcap.part"));
+    for (const std::string& name : of_run) {
+      const bool is_written_now =
+          name == "scenario.resolved.yaml" || name == "summary.json" || name == "junit.xml";
+      EXPECT_EQ(std::filesystem::exists(folder_ / name), is_written_now) << name;
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "robot_description"));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / ".earlier_run"));
   };
   run();
   EXPECT_EQ(summary()["scenario"], "small");
+  for (const std::string& name : of_others) {
+    EXPECT_TRUE(std::filesystem::exists(folder_ / name)) << name;
+  }
+}
+
+TEST_F(RunFiles, AFolderWithoutARunKeepsItsFiles) {
+  const std::vector<std::string> names = {"frames/a.png", "canopy/a.json", "coverage_plan.png",
+                                          "report.html", "profile.json"};
+  for (const std::string& name : names) {
+    std::filesystem::create_directories((folder_ / name).parent_path());
+    std::ofstream(folder_ / name) << "mine";
+  }
+  run();
+  for (const std::string& name : names) {
+    EXPECT_TRUE(std::filesystem::exists(folder_ / name)) << name;
+  }
 }
 
 TEST_F(RunFiles, SensorsStandInTheTreeOfFrames) {

@@ -55,7 +55,7 @@ class ScenarioReader {
     scenario_.pictures = read_pictures(root_.find_entry("pictures"), vehicle_names_, pictures);
     scenario_.pictures.moments = read_moments(scenario_.pictures.moment_texts,
                                               mark_of("pictures", "moments"), scenario_.phases);
-    check_shot_cameras(scenario_.pictures, scenario_.vehicles);
+    check_shot_cameras(scenario_.pictures, scenario_.vehicles, context_.registry);
     check_picture_count();
     resolved_.put("pictures", std::move(pictures));
     scenario_.resolved_yaml =

@@ -36,7 +36,8 @@ PicturesConfig read_pictures(const io::YamlEntry* entry, const std::vector<std::
                              io::YamlNode& resolved);
 
 /// @throws ConfigError if a camera of kind shots names a sensor that its vehicle does not have
-void check_shot_cameras(const PicturesConfig& pictures, const std::vector<VehicleConfig>& vehicles);
+void check_shot_cameras(const PicturesConfig& pictures, const std::vector<VehicleConfig>& vehicles,
+                        const Registry& registry);
 
 /// @throws ConfigError "unknown vehicle 'rovr'; did you mean 'rover'? (known: rover)"
 void check_vehicle(const std::string& vehicle, const std::vector<std::string>& vehicles,

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/api/parameter_table.h"
+#include "engine/api/registry.h"
 #include "engine/core/suggest.h"
 #include "engine/scenario/scenario_keys.h"
 #include "engine/scenario/scenario_part.h"
@@ -84,18 +85,21 @@ io::YamlNode default_cameras(const std::vector<std::string>& vehicles) {
 
 }  // namespace
 
-void check_shot_cameras(const PicturesConfig& pictures,
-                        const std::vector<VehicleConfig>& vehicles) {
+void check_shot_cameras(const PicturesConfig& pictures, const std::vector<VehicleConfig>& vehicles,
+                        const Registry& registry) {
   for (const CameraConfig& camera : pictures.cameras) {
     if (camera.kind != CameraKind::kShots) continue;
     for (const VehicleConfig& vehicle : vehicles) {
       if (vehicle.name != camera.vehicle) continue;
       std::vector<std::string> known;
-      for (const NamedPart& sensor : vehicle.sensors) known.push_back(sensor.name);
+      for (const NamedPart& sensor : vehicle.sensors) {
+        const PartSpec& spec = registry.spec(PartKind::kSensor, sensor.part.type);
+        if (spec.gives == ProductKind::kPictures) known.push_back(sensor.name);
+      }
       if (std::find(known.begin(), known.end(), camera.sensor) != known.end()) continue;
       io::fail_at(
           camera.where,
-          fmt::format("pictures.cameras.{}.sensor = '{}', must be a sensor of {}{} "
+          fmt::format("pictures.cameras.{}.sensor = '{}', must be a camera_trigger of {}{} "
                       "(known: {})",
                       camera.name, camera.sensor, vehicle.name, did_you_mean(camera.sensor, known),
                       known.empty() ? "none" : join(known)));

@@ -59,6 +59,9 @@ inline Registry fake_registry() {
       fake_spec("gps", {number_parameter("noise_m", "m", 0.02, 0.0, 100.0, "1 sigma")}, 5.0),
       nullptr);
   registry.add_sensor(fake_spec("imu", {}, 0.0), nullptr);
+  PartSpec survey_camera = fake_spec("survey_camera", {}, 0.0);
+  survey_camera.gives = ProductKind::kPictures;
+  registry.add_sensor(survey_camera, nullptr);
   registry.add_estimator(
       fake_spec("filter", {positive_parameter("gain", "", 0.5, "of updates")}, 20.0), nullptr);
   registry.add_estimator(

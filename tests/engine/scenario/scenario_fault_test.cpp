@@ -223,9 +223,9 @@ TEST(ScenarioFault, CriteriaAndCamerasNameVehicles) {
             "scenario:4: pictures.cameras.c.kind = 'chasse', must be one of: fixed, chase, top, "
             "on_board, shots; did you mean 'chase'?");
   EXPECT_EQ(
-      fault_of(with_line(2, pictures + "{kind: shots, sensor: gpss}")),
-      "scenario:4: pictures.cameras.c.sensor = 'gpss', must be a sensor of rover; did you mean "
-      "'gps'? (known: gps)");
+      fault_of(with_line(2, pictures + "{kind: shots, sensor: gps}")),
+      "scenario:4: pictures.cameras.c.sensor = 'gps', must be a camera_trigger of rover (known: "
+      "none)");
   EXPECT_EQ(
       fault_of(with_line(2, pictures + "{kind: fixed, look_at_m: [0, 0, 0]}")),
       "scenario:4: pictures.cameras.c.position_m must be given: a list of 3 numbers in m (x, y and "

@@ -46,6 +46,7 @@ vehicles:
     type: cart
     wheel_radius_m: 1
     spawn: {point: gate}
+    sensors: {eye: {type: survey_camera}}
 metrics:
   deviation: {type: deviation, rate_Hz: 20}
 criteria:
@@ -65,7 +66,7 @@ pictures:
     map: {kind: top, height_m: 80, show_plan: false}
     bonnet: {kind: on_board, offset_m: [1, 0, 0.5], pitch_deg: 45, show_sensor_rays: true}
     turn: {kind: top, centre_m: [12.5, -3], height_m: 15, show_grid: true, show_tree: true, show_estimate: true, show_map: true}
-    down: {kind: shots, sensor: gps, every: 5}
+    down: {kind: shots, vehicle: tail, sensor: eye, every: 5}
 )");
   EXPECT_EQ(s.name, "all");
   EXPECT_EQ(s.description, "every key once");
@@ -166,8 +167,8 @@ pictures:
   EXPECT_EQ(p.cameras[4].centre_W, Eigen::Vector2d(12.5, -3));
   EXPECT_EQ(p.cameras[4].height_m, 15.0);
   EXPECT_EQ(p.cameras[5].kind, CameraKind::kShots);
-  EXPECT_EQ(p.cameras[5].vehicle, "rover");
-  EXPECT_EQ(p.cameras[5].sensor, "gps");
+  EXPECT_EQ(p.cameras[5].vehicle, "tail");
+  EXPECT_EQ(p.cameras[5].sensor, "eye");
   EXPECT_EQ(p.cameras[5].every, 5);
   EXPECT_FALSE(p.cameras[5].show_trail);
   EXPECT_FALSE(p.cameras[5].show_plan);

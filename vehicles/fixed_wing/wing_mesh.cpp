@@ -65,7 +65,7 @@ void append_half_wing(const FixedWingParams& p, double side, MeshBuilder& b) {
   const double hinge = 1.0 - p.shape.elevon_chord - kHingeGap;
   b.place(0, 0, 0).colour(colour_from_srgb(kPaintWhite));
   LoftOptions options;
-  options.mirrored = side > 0.0;
+  options.mirrored = side < 0.0;  // points go forward over the top, rows go out
   append_loft(sections(p, side, 0.0, from, 6, 0.0, 1.0), options, b);
   append_loft(sections(p, side, to, 1.0, 8, 0.0, 1.0), options, b);
   // Bands of paint over the middle piece.
@@ -108,7 +108,7 @@ void append_elevon(const FixedWingParams& p, double side, const Pose& X_BE, Mesh
   }
   b.place(0, 0, 0).colour(colour_from_srgb(kPaintOrange));
   LoftOptions options;
-  options.mirrored = side > 0.0;
+  options.mirrored = side < 0.0;  // points go forward over the top, rows go out
   append_loft(rows, options, b);
   append_lid(rows.front(), {0, -side, 0}, b);
   append_lid(rows.back(), {0, side, 0}, b);
@@ -142,6 +142,7 @@ void append_fin(const FixedWingParams& p, double side, MeshBuilder& b) {
     }
     rows.push_back(std::move(row));
   }
+  options.mirrored = true;  // points go forward on the left, rows go up
   options.colour = [](std::size_t i, std::size_t) {
     return colour_from_srgb(i >= 8 ? kPaintOrange : kPaintWhite);
   };

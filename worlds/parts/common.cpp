@@ -28,7 +28,7 @@ const ParameterTable<Surroundings>& surroundings_table() {
           .degrees("sun_azimuth_deg", inside(&P::daylight, &Daylight::sun_azimuth_rad),
                    between(-360.0, 360.0), "direction of the sun, from north clockwise")
           .degrees("sun_elevation_deg", inside(&P::daylight, &Daylight::sun_elevation_rad),
-                   between(1.0, 90.0), "height of the sun above the horizon")
+                   between(2.1, 90.0), "height of the sun above the horizon")
           .number("cloud_cover", "", inside(&P::daylight, &Daylight::cloud_cover),
                   between(0.0, 1.0), "share of the sky: 0 clear, 1 overcast, without shadows")
           .group("wind", &P::wind, wind_table(), "wind on all vehicles; absent: calm");

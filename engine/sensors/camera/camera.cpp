@@ -111,6 +111,17 @@ void set_mm(Picture& picture, std::size_t pixel, std::uint16_t mm) {
   picture.data[2 * pixel + 1] = static_cast<std::uint8_t>(mm >> 8);
 }
 
+/// An exposure that the camera chooses itself ends before the next picture begins.
+ImagerParams within_period(const CameraParams& params, double period_s) {
+  ImagerParams imager = params.imager;
+  const double longest_s = period_s - params.view.readout_s;
+  if (longest_s > 0.0) {
+    imager.exposure_max_s = std::min(imager.exposure_max_s, longest_s);
+    imager.exposure_min_s = std::min(imager.exposure_min_s, longest_s);
+  }
+  return imager;
+}
+
 class Camera final : public MountedSensor<Picture> {
  public:
   Camera(const ParameterSet& parameters, const SensorContext& context)
@@ -121,7 +132,7 @@ class Camera final : public MountedSensor<Picture> {
         lens_(make_lens(params.lens, context.part)),
         look_(*context.world, channel_of(params.picture)),
         caster_(lens_, view_settings(params), *context.world, context.light(), look_),
-        imager_(params.imager, lens_.width(), lens_.height(),
+        imager_(within_period(params, context.period.s()), lens_.width(), lens_.height(),
                 std::max(1, view_settings(params).channels), look_.white(),
                 context.random("pattern")),
         depth_reading_(params.depth_reading, lens_.info().fx_px),

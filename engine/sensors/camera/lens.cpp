@@ -28,11 +28,20 @@ std::string fault_of(const LensParams& p) {
                        p.height_px, kMostPixels);
   }
   constexpr double kWidest_rad = 2.8;
-  if (!is_fisheye && p.horizontal_fov_rad > kWidest_rad) {
+  if (is_fisheye) return "";
+  if (!p.fx_px && p.horizontal_fov_rad > kWidest_rad) {
     return fmt::format(
         "horizontal_fov_deg = {:g}, must be at most {:.0f} for lens brown_conrady; lens fisheye is "
         "wider",
         deg_from_rad(p.horizontal_fov_rad), deg_from_rad(kWidest_rad));
+  }
+  const double shortest_px = 0.5 * p.width_px / std::tan(0.5 * kWidest_rad);
+  for (const auto& [key, f_px] : {std::pair("fx_px", p.fx_px), {"fy_px", p.fy_px}}) {
+    if (!f_px || *f_px >= shortest_px) continue;
+    return fmt::format(
+        "{} = {:g}, must be at least {:.3g} for lens brown_conrady with {} pixels in a row, which "
+        "is a view of {:.0f} deg; lens fisheye is wider",
+        key, *f_px, shortest_px, p.width_px, deg_from_rad(kWidest_rad));
   }
   return "";
 }

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -62,6 +63,49 @@ Vector3d outward_W(const MeshInstance& instance, int triangle) {
   return instance.X_WM.q * ab.cross(ac);
 }
 
+/// Mesh that shuts in a camera at p_W: ahead and in most other directions a ray leaves it more
+/// often than it enters it, or the other way about where its triangles are turned inside out.
+/// Bodies have seams and slots, so that not all directions need to agree; a board is not in the
+/// most of them.
+std::optional<int> find_mesh_around(const Vector3d& p_W, const Vector3d& forward_W,
+                                    const RayScene& scene, std::span<const MeshInstance> meshes,
+                                    SurfaceMask mask) {
+  // All around, along no axis.
+  const Vector3d directions[] = {
+      forward_W,
+      {0.613, 0.271, 0.742},
+      {-0.587, 0.423, 0.691},
+      {0.127, -0.811, 0.571},
+      {0.839, -0.293, -0.459},
+      {-0.719, -0.541, -0.437},
+      {-0.239, 0.857, -0.457},
+      {0.353, 0.149, -0.924},
+  };
+  constexpr std::size_t kMost = 6;
+  constexpr double kPast_m = 1e-6;           // a hit
+  std::map<int, std::size_t> directions_of;  // of the meshes ahead
+  for (const Vector3d& direction : directions) {
+    const Vector3d dir_W = direction.normalized();
+    std::map<int, int> leaves;
+    double from_m = 0.0;
+    while (const auto hit = scene.cast_ray(p_W + from_m * dir_W, dir_W, kFar_m - from_m, mask)) {
+      from_m += hit->distance_m + kPast_m;
+      if (from_m >= kFar_m) break;
+      if (hit->mesh < 0) continue;
+      const MeshInstance& instance = meshes[static_cast<std::size_t>(hit->mesh)];
+      leaves[hit->mesh] += outward_W(instance, hit->triangle).dot(dir_W) > 0.0 ? 1 : -1;
+    }
+    const bool is_ahead = &direction == &directions[0];
+    for (const auto& [mesh, times] : leaves) {
+      if (times != 0 && (is_ahead || directions_of.contains(mesh))) ++directions_of[mesh];
+    }
+  }
+  for (const auto& [mesh, count] : directions_of) {
+    if (count >= kMost) return mesh;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 const Eigen::Matrix3d& R_SC() {
@@ -112,6 +156,7 @@ struct ViewCaster::Tile {
 
 /// The rays of a tile, and what they meet.
 struct ViewCaster::TileRays {
+  Eigen::Matrix3d row_R_WC[kTileRows];  ///< of the camera at each row's exposure
   std::vector<SceneRay> rays, sun_rays;
   std::vector<std::optional<RayHit>> hits, vehicle_hits;
   std::vector<bool> on_vehicle;
@@ -198,8 +243,7 @@ void ViewCaster::cast_tile(const CameraMotion& motion, double exposure_s, int sa
   r.hits.resize(r.rays.size());
   light_.cast_rays(r.rays, r.hits);
   look_at_vehicles(r);
-  if (sample == 0 && settings_.facts)
-    write_facts(tile, motion.X_WS.q.toRotationMatrix() * R_SC(), r, view);
+  if (sample == 0 && settings_.facts) write_facts(tile, r, view);
   if (settings_.channels > 0) add_light(tile, r, view);
 }
 
@@ -209,19 +253,18 @@ void ViewCaster::add_rays(const CameraMotion& motion, double exposure_s, int sam
   const auto right = static_cast<float>(offset.x()), down = static_cast<float>(offset.y());
   const double later_s = offset.z() * exposure_s;
   const Eigen::Matrix3d R_WC = motion.X_WS.q.toRotationMatrix() * R_SC();
-  Eigen::Matrix3d row_R_WC[kTileRows];
   Vector3d row_p_W[kTileRows];
   for (int row = 0; row < tile.rows; ++row) {
     const double share =
         lens_.height() > 1 ? (tile.first_row + row) / (lens_.height() - 1.0) - 0.5 : 0.0;
     const double time_s = share * settings_.readout_s + later_s;
     row_p_W[row] = motion.X_WS.p + time_s * motion.v_W;
-    row_R_WC[row] = R_WC;
+    r.row_R_WC[row] = R_WC;
     const Vector3d turn_S = time_s * motion.w_WS_S;
     const double angle = turn_S.norm();
     if (angle > 0.0) {
-      row_R_WC[row] = motion.X_WS.q.toRotationMatrix() *
-                      Eigen::AngleAxisd(angle, turn_S / angle).toRotationMatrix() * R_SC();
+      r.row_R_WC[row] = motion.X_WS.q.toRotationMatrix() *
+                        Eigen::AngleAxisd(angle, turn_S / angle).toRotationMatrix() * R_SC();
     }
   }
   r.rays.clear();
@@ -239,7 +282,7 @@ void ViewCaster::add_rays(const CameraMotion& motion, double exposure_s, int sam
                                   : Vector3f(dir_C - direction_C_[pixel - width]);
       dir_C += right * along + down * across;
     }
-    r.rays.push_back({row_p_W[row], (row_R_WC[row] * dir_C.cast<double>()).normalized(), kFar_m});
+    r.rays.push_back({row_p_W[row], (r.row_R_WC[row] * dir_C.cast<double>()).normalized(), kFar_m});
   });
 }
 
@@ -259,8 +302,7 @@ void ViewCaster::look_at_vehicles(TileRays& r) const {
   }
 }
 
-void ViewCaster::write_facts(const Tile& tile, const Eigen::Matrix3d& R_WC, const TileRays& r,
-                             View& view) const {
+void ViewCaster::write_facts(const Tile& tile, const TileRays& r, View& view) const {
   std::size_t i = 0;
   tile.for_each([&](int row, int x) {
     const std::size_t pixel = tile.pixel(row, x), ray = i++;
@@ -269,9 +311,9 @@ void ViewCaster::write_facts(const Tile& tile, const Eigen::Matrix3d& R_WC, cons
       return;
     }
     const RayHit& hit = *r.hits[ray];
-    // Distance along the axis of the row's own camera: the pixel's direction has it.
+    // Along the axes of the row's own camera: the pixel's direction has them.
     view.depth_m[pixel] = static_cast<float>(hit.distance_m * direction_C_[pixel].z());
-    view.normal_C[pixel] = (R_WC.transpose() * hit.normal_W).cast<float>();
+    view.normal_C[pixel] = (r.row_R_WC[row].transpose() * hit.normal_W).cast<float>();
     if (r.on_vehicle[ray]) {
       view.label[pixel] = Label::kVehicle;
       view.thing[pixel] = numbers_.of_vehicle(vehicles_->vehicle_of(hit.mesh));
@@ -337,19 +379,18 @@ std::string ViewCaster::blindness(const Pose& X_WS) {
   const auto above =
       light_.cast_ray(p_W, Vector3d::UnitZ(), kFar_m, mask_of(SurfaceClass::kTerrain));
   if (above && above->mesh < 0) return "is below the ground";
-  // The inside of a closed body shows the backs of its triangles.
   constexpr SurfaceMask kClosed =
       kAllSurfaces & ~mask_of(SurfaceClass::kTerrain) & ~mask_of(SurfaceClass::kCanopy);
-  const auto inside = [&](const std::optional<RayHit>& hit, std::span<const MeshInstance> meshes) {
-    if (!hit || hit->mesh < 0) return std::string();
-    const MeshInstance& instance = meshes[static_cast<std::size_t>(hit->mesh)];
-    const bool is_back = outward_W(instance, hit->triangle).dot(forward_W) > 0.0;
-    return is_back ? "is inside of " + instance.name : std::string();
-  };
-  std::string reason = inside(light_.cast_ray(p_W, forward_W, kFar_m, kClosed), world_.meshes);
-  if (!reason.empty() || !vehicles_) return reason;
+  if (const auto mesh = find_mesh_around(p_W, forward_W, light_, world_.meshes, kClosed)) {
+    return "is inside of " + world_.meshes[static_cast<std::size_t>(*mesh)].name;
+  }
+  if (!vehicles_) return "";
   vehicles_->update();
-  return inside(vehicles_->cast_ray(p_W, forward_W, kFar_m), vehicles_->links());
+  if (const auto link =
+          find_mesh_around(p_W, forward_W, *vehicles_, vehicles_->links(), kAllSurfaces)) {
+    return "is inside of " + vehicles_->links()[static_cast<std::size_t>(*link)].name;
+  }
+  return "";
 }
 
 }  // namespace vinerow::sensors

@@ -40,9 +40,10 @@ struct CameraMotion {
 
 /// Values of all pixels, row by row. Empty: not wanted.
 struct View {
-  std::vector<float> radiance;            ///< relative, by channel
-  std::vector<float> depth_m;             ///< along the axis; 0: nothing is seen
-  std::vector<Eigen::Vector3f> normal_C;  ///< in the optical frame; zero: nothing is seen
+  std::vector<float> radiance;  ///< relative, by channel
+  std::vector<float> depth_m;   ///< along the axis; 0: nothing is seen
+  /// In the optical frame at the row's exposure, as the depth; zero: nothing is seen.
+  std::vector<Eigen::Vector3f> normal_C;
   std::vector<Label> label;
   std::vector<std::uint32_t> thing;
 };
@@ -80,8 +81,7 @@ class ViewCaster {
   void add_rays(const CameraMotion& motion, double exposure_s, int sample, const Tile& tile,
                 TileRays& r) const;
   void look_at_vehicles(TileRays& r) const;
-  void write_facts(const Tile& tile, const Eigen::Matrix3d& R_WC, const TileRays& r,
-                   View& view) const;
+  void write_facts(const Tile& tile, const TileRays& r, View& view) const;
   void add_light(const Tile& tile, TileRays& r, View& view) const;
   SeenSurface surface_of(const TileRays& r, std::size_t ray) const;
 

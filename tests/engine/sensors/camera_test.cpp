@@ -258,6 +258,32 @@ TEST(Camera, RollingShutterLeansWhatItPasses) {
               turn_px, 1.2);
 }
 
+TEST(Camera, NormalsAndDepthOfARowAreInTheRowsOwnFrame) {
+  const auto world = flat_world();
+  world->meshes = {box("wall", {5.0, 0.0, 0.0}, {0.1f, 30.0f, 20.0f}, SurfaceClass::kObstacle)};
+  CameraBench bench(world, with(kSmall, {{"readout_s", 0.09}, {"normals", true}, {"depth", true}}));
+  Odometry state;
+  state.X_WB = at(0.0, 0.0, 10.0);
+  state.w_WB_B = {0.0, 0.0, 1.0};
+  bench.step(state);
+  const auto& info = bench.value<CameraInfo>("rover/s_info");
+  for (const int row : {0, 20, 45, 89}) {
+    // Turned to the left, the camera sees the wall's normal turned to the right: towards -x of the
+    // optical frame.
+    const double angle = (row / 89.0 - 0.5) * 0.09;
+    const Vector3d normal_C(-std::sin(angle), 0.0, -std::cos(angle));
+    for (const int column : {10, 60, 110}) {
+      for (int k = 0; k < 3; ++k) {
+        const std::size_t at = 3 * (static_cast<std::size_t>(row) * info.width + column) + k;
+        EXPECT_EQ(bench.picture("_normals").data[at], std::lround(127.5 * (normal_C[k] + 1.0)));
+      }
+      // The plane at 4.9 m along the same normal.
+      const Vector3d ray_C((column - info.cx_px) / info.fx_px, (row - info.cy_px) / info.fy_px, 1);
+      EXPECT_NEAR(number(bench.picture("_depth"), column, row), 4900.0 / -normal_C.dot(ray_C), 1.0);
+    }
+  }
+}
+
 TEST(Camera, MotionBlurIsAsWideAsTheWayInTheExposure) {
   const auto world = flat_world();
   world->meshes = {box("wall", {4.0, 10.0, 10.0}, {0.1f, 10.0f, 20.0f}, SurfaceClass::kObstacle,
@@ -513,6 +539,22 @@ TEST(Camera, RefusesPicturesThatTakeLongerThanThePeriod) {
             "rover.sensors.s: readout_s + exposure_s = 0.11 s, must be <= its period of 0.1 s");
 }
 
+TEST(Camera, AnExposureOfItsOwnEndsBeforeTheNextPicture) {
+  const auto picture_with = [](double longest_s) {
+    const auto world = flat_world();
+    world->daylight = {0.0, rad_from_deg(5.0)};
+    CameraBench bench(world, with(kSmall, {{"picture", std::string("mono")},
+                                           {"readout_s", 0.04},
+                                           {"f_number", 32.0},
+                                           {"full_well_e", 1e5},
+                                           {"exposure_max_s", longest_s}}));
+    for (int k = 0; k < 4; ++k) bench.step(at(0.0, 0.0, 1.0));
+    return bench.picture().data;
+  };
+  EXPECT_EQ(picture_with(5.0), picture_with(0.06));
+  EXPECT_NE(picture_with(0.03), picture_with(0.06)) << "it is dark enough for the longest";
+}
+
 TEST(Camera, SaysWhyItWouldSeeNothing) {
   const auto world = flat_world();
   world->meshes = {box("tank", {3.0, 0.0, 1.0}, {1.0f, 1.0f, 1.0f}, SurfaceClass::kObstacle)};
@@ -524,6 +566,29 @@ TEST(Camera, SaysWhyItWouldSeeNothing) {
             "the camera is inside of tank: change its position_m");
   CameraBench fine(world, kSmall);
   fine.step(at(0.0, 0.0, 1.0));
+  // Of a body whose triangles are turned inside out, too.
+  auto inverted = std::make_shared<TriangleMesh>(*world->meshes[0].mesh);
+  for (auto& triangle : inverted->triangles) std::swap(triangle[1], triangle[2]);
+  world->meshes[0].mesh = inverted;
+  CameraBench in_inverted(world, kSmall);
+  EXPECT_EQ(test::refusal_of([&] { in_inverted.step(at(3.0, 0.0, 1.0)); }),
+            "the camera is inside of tank: change its position_m");
+  CameraBench outside(world, kSmall);
+  outside.step(at(0.0, 0.0, 1.0));
+}
+
+TEST(Camera, ABoardHasNoInside) {
+  const auto world = flat_world();
+  auto board = std::make_shared<TriangleMesh>();
+  board->vertices = {{0, -2, -2}, {0, 2, -2}, {0, 2, 2}, {0, -2, 2}};
+  for (const auto& triangles : {std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {0, 2, 3}},
+                                std::vector<std::array<std::uint32_t, 3>>{{0, 2, 1}, {0, 3, 2}}}) {
+    board->triangles = triangles;
+    world->meshes = {small::make_instance("board", std::make_shared<TriangleMesh>(*board),
+                                          {3.0, 0.0, 1.0}, SurfaceClass::kObstacle)};
+    CameraBench bench(world, kSmall);
+    bench.step(at(0.0, 0.0, 1.0));
+  }
 }
 
 }  // namespace

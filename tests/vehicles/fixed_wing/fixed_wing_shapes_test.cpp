@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/core/random.h"
 #include "engine/math/polygon.h"
 #include "engine/physics/world_scene.h"
+#include "tests/vehicles/fixed_wing/rig.h"
 #include "tests/worlds/mapping/photogrammetry/cloud_scene.h"
 
 namespace vinerow::vehicles::fixed_wing_shapes_test {
@@ -128,6 +130,52 @@ TEST(FixedWingShapes, LeavesAreMetByEveryPartOfTheWing) {
     EXPECT_FALSE(touches_leaf(p, tip.leading_B + Vector3d(0.075, 0, 0)));
   }
   EXPECT_TRUE(touches_leaf(p, {p.shape.leading_edge_m + 0.19 * p.shape.root_chord_m, 0, 0}));
+}
+
+/// Orientation of the first triangle of a mesh on a ray: 1 towards its start, -1 away, 0 none.
+int first_side(const TriangleMesh& mesh, const Vector3d& from, const Vector3d& dir) {
+  double nearest_m = 1e9;
+  int side = 0;
+  for (const auto& [i, j, k] : mesh.triangles) {
+    const Vector3d a = mesh.vertices[i].cast<double>();
+    const Vector3d ab = mesh.vertices[j].cast<double>() - a;
+    const Vector3d ac = mesh.vertices[k].cast<double>() - a;
+    const Vector3d normal = ab.cross(ac);
+    const double along = normal.dot(dir);
+    if (along == 0.0) continue;
+    const double t = normal.dot(a - from) / along;
+    if (t < 0.0 || t > nearest_m) continue;
+    const Vector3d p = from + t * dir - a;
+    const double area2 = normal.squaredNorm();
+    const double v = p.cross(ac).dot(normal) / area2, w = ab.cross(p).dot(normal) / area2;
+    if (v < 0.0 || w < 0.0 || v + w > 1.0) continue;
+    nearest_m = t;
+    side = along < 0.0 ? 1 : -1;
+  }
+  return side;
+}
+
+TEST(FixedWingShapes, TrianglesAreTurnedOutwards) {
+  test::WingRig rig;
+  RandomStream random(5, "test", "rays");
+  for (const VehicleLink& link : rig.vehicle.links()) {
+    if (!link.mesh || link.name.find("propeller") != std::string::npos) continue;
+    const Eigen::AlignedBox3d box = link.mesh->bounds();
+    int front = 0, back = 0;
+    for (int n = 0; n < 400; ++n) {
+      const auto number = [&] { return random.uniform(-1.0, 1.0); };
+      const Vector3d from =
+          box.center() + 3.0 * Vector3d(number(), number(), number()).normalized();
+      const Vector3d half = 0.5 * box.sizes();
+      const Vector3d to = box.center() + half.cwiseProduct(Vector3d(number(), number(), number()));
+      const int side = first_side(*link.mesh, from, (to - from).normalized());
+      front += side > 0;
+      back += side < 0;
+    }
+    // A few rays pass through slots of a lid.
+    EXPECT_LE(back, 0.02 * front) << link.name;
+    EXPECT_GT(front, 20) << link.name;
+  }
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "engine/api/height_field.h"
 #include "engine/api/world_model.h"
 #include "engine/core/parallel.h"
 
@@ -17,8 +18,7 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 
 constexpr double kFar_m = 1000.0;
-constexpr double kShadow_m = 60.0;  // tall enough a plant for a sun of 2 degrees
-constexpr double kLift_m = 1e-3;    // of shadow rays from their surface
+constexpr double kLift_m = 1e-3;  // of shadow rays from their surface
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
 // Rays side by side cost half as much: they go in blocks of four by two pixels. Those of a tile
@@ -194,10 +194,46 @@ ViewCaster::ViewCaster(const Lens& lens, const ViewSettings& settings, const Wor
       direction_C_.push_back(lens.direction(x, y).value_or(Vector3d::UnitZ()).cast<float>());
     }
   }
+  std::map<const TriangleMesh*, Eigen::AlignedBox3d> boxes_M;  // meshes stand many times
+  for (const MeshInstance& instance : world.meshes) {
+    const auto [box, is_new] = boxes_M.try_emplace(instance.mesh.get());
+    if (is_new) box->second = instance.mesh->bounds();
+    const Eigen::AlignedBox3d& box_M = box->second;
+    if (box_M.isEmpty()) continue;
+    for (int i = 0; i < 8; ++i) {
+      const auto corner = static_cast<Eigen::AlignedBox3d::CornerType>(i);
+      world_top_m_ = std::max(world_top_m_, (instance.X_WM * box_M.corner(corner)).z());
+    }
+  }
+  if (world.terrain) {
+    for (const float height_m : world.terrain->heights_m) {
+      world_top_m_ = std::max(world_top_m_, double{1} * height_m);
+    }
+  }
   make_tile_rays();
 }
 
 ViewCaster::~ViewCaster() = default;
+
+void ViewCaster::set_vehicles(VehicleScene* vehicles) {
+  vehicles_ = vehicles;
+  link_reach_m_.clear();
+  if (!vehicles) return;
+  for (const MeshInstance& link : vehicles->links()) {
+    double reach_m = 0.0;
+    for (const Vector3f& p_M : link.mesh->vertices) {
+      reach_m = std::max(reach_m, double{1} * p_M.norm());
+    }
+    link_reach_m_.push_back(reach_m);
+  }
+}
+
+void ViewCaster::find_top() {
+  top_m_ = world_top_m_;
+  for (std::size_t i = 0; i < link_reach_m_.size(); ++i) {
+    top_m_ = std::max(top_m_, vehicles_->links()[i].X_WM.p.z() + link_reach_m_[i]);
+  }
+}
 
 void ViewCaster::make_tile_rays() {
   const std::size_t chunks = (Tile::count(lens_) + kTilesAtOnce - 1) / kTilesAtOnce;
@@ -216,6 +252,7 @@ void ViewCaster::cast(const CameraMotion& motion, double exposure_s, View& view)
     view.thing.assign(pixels, ThingNumbers::kNothing);
   }
   if (vehicles_) vehicles_->update();
+  find_top();
   make_tile_rays();
   // Few captures, so that std::function needs no memory for them.
   const struct {
@@ -348,10 +385,12 @@ void ViewCaster::add_light(const Tile& tile, TileRays& r, View& view) const {
     const Vector3d p_W = r.rays[i].p_W + r.hits[i]->distance_m * r.rays[i].dir_W;
     const double side = r.hits[i]->normal_W.dot(sun_W) < 0.0 ? -kLift_m : kLift_m;
     r.sun_ray[i] = r.sun_rays.size();
-    r.sun_rays.push_back({p_W + side * r.hits[i]->normal_W, sun_W, kShadow_m});
+    // Nothing is above the top. The sun is never lower than 2 degrees.
+    const double up_m = std::max(0.0, top_m_ - p_W.z());
+    const double far_m = std::min(kFar_m, up_m / sun_W.z() + 2.0 * kLift_m);
+    r.sun_rays.push_back({p_W + side * r.hits[i]->normal_W, sun_W, far_m});
   }
-  constexpr SurfaceMask kCasters = kAllSurfaces & ~mask_of(SurfaceClass::kTerrain);
-  light_.find_blocked(r.sun_rays, {r.is_shaded.get(), r.sun_rays.size()}, kCasters);
+  light_.find_blocked(r.sun_rays, {r.is_shaded.get(), r.sun_rays.size()});
   if (vehicles_) {
     vehicles_->find_blocked(r.sun_rays, {r.is_shaded_by_vehicle.get(), r.sun_rays.size()});
   }

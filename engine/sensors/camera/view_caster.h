@@ -16,6 +16,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -64,7 +65,7 @@ class ViewCaster {
   ~ViewCaster();
 
   /// Vehicles that it sees from now on.
-  void set_vehicles(VehicleScene* vehicles) { vehicles_ = vehicles; }
+  void set_vehicles(VehicleScene* vehicles);
 
   /// @param exposure_s  for motion blur
   void cast(const CameraMotion& motion, double exposure_s, View& view);
@@ -76,6 +77,7 @@ class ViewCaster {
   struct Tile;
   struct TileRays;
   void make_tile_rays();
+  void find_top();
   void cast_tile(const CameraMotion& motion, double exposure_s, int sample, const Tile& tile,
                  TileRays& r, View& view) const;
   void add_rays(const CameraMotion& motion, double exposure_s, int sample, const Tile& tile,
@@ -90,7 +92,10 @@ class ViewCaster {
   const WorldModel& world_;
   const RayScene& light_;
   const SceneLook& look_;
+  /// Height that no surface exceeds: of the world, and of the vehicles too at this picture.
+  double world_top_m_ = -std::numeric_limits<double>::infinity(), top_m_ = 0.0;
   VehicleScene* vehicles_ = nullptr;
+  std::vector<double> link_reach_m_;  ///< of each link's mesh from its origin
   ThingNumbers numbers_;
   std::vector<Eigen::Vector3f> direction_C_;  ///< of each pixel, in the optical frame
   /// Of each sample: to the right and down, in pixels; later, as a share of the exposure.

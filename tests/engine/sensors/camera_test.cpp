@@ -341,6 +341,47 @@ TEST(Camera, ShadowsLieWhereTheSunDoesNotReach) {
   EXPECT_GT(shaded, 0.05 * lit);
 }
 
+/// Grey of the ground 1 m around (0, y) seen from 30 m above it, the sun in the south.
+double grey_of_ground(const std::shared_ptr<WorldModel>& world, double sun_deg, double y) {
+  world->daylight = {rad_from_deg(180.0), rad_from_deg(sun_deg)};
+  CameraBench bench(world, with(kSmall, {{"picture", std::string("mono")},
+                                         {"exposure_s", 1e-4},
+                                         {"rotation_deg", std::vector<double>{0.0, 90.0, 0.0}}}));
+  bench.step(at(0.0, y, 30.0));
+  double sum = 0.0;
+  for (int k = -1; k <= 1; ++k) sum += number(bench.picture(), 60 + k, 45);
+  return sum;
+}
+
+/// Share of the light in the open that reaches the ground around (0, y).
+double share_of_light(const std::shared_ptr<WorldModel>& world, double sun_deg, double y) {
+  auto open = std::make_shared<WorldModel>();
+  open->terrain = small::make_flat(0.0, 401, 1.0);
+  return grey_of_ground(world, sun_deg, y) / grey_of_ground(open, sun_deg, y);
+}
+
+TEST(Camera, ATallThingsShadowEndsWhereTheSunPassesItsTop) {
+  auto world = std::make_shared<WorldModel>();
+  world->terrain = small::make_flat(0.0, 401, 1.0);
+  world->meshes = {box("tower", {0.0, 0.0, 15.0}, {4.0f, 4.0f, 15.0f}, SurfaceClass::kObstacle)};
+  const double end_m = 4.0 + 30.0 / std::tan(rad_from_deg(15.0));
+  EXPECT_GT(end_m, 115.0);
+  EXPECT_LT(share_of_light(world, 15.0, 30.0), 0.6);
+  EXPECT_LT(share_of_light(world, 15.0, end_m - 1.5), 0.6);
+  EXPECT_NEAR(share_of_light(world, 15.0, end_m + 1.5), 1.0, 1e-9);
+}
+
+TEST(Camera, AHillCastsAShadow) {
+  auto world = std::make_shared<WorldModel>();
+  // A dam of 8 m, 2 m wide on top.
+  world->terrain = small::make_terrain(
+      401, 401, 1.0, [](double, double y) { return std::clamp(9.0 - std::abs(y), 0.0, 8.0); });
+  const double end_m = 1.0 + 8.0 / std::tan(rad_from_deg(20.0));
+  EXPECT_LT(share_of_light(world, 20.0, 0.5 * end_m), 0.6);
+  EXPECT_LT(share_of_light(world, 20.0, end_m - 1.5), 0.6);
+  EXPECT_NEAR(share_of_light(world, 20.0, end_m + 1.5), 1.0, 1e-9);
+}
+
 /// Mean number of a window of a band's picture, 5 x 5 pixels.
 double level(const Picture& picture, int x, int y) {
   double sum = 0.0;

@@ -2,6 +2,8 @@
 
 #include <pybind11/pybind11.h>
 
+#include <string>
+
 #include "engine/core/error.h"
 #include "engine/io/files/placed_error.h"
 #include "python/core/elementary.h"
@@ -49,11 +51,25 @@ void translate(std::exception_ptr pointer) {
   }
 }
 
+/// Older pybind11 reads array types of NumPy 2 wrongly, without an error: every number of a column
+/// would be the first one.
+void check_numpy() {
+#if PYBIND11_VERSION_HEX < 0x020C0000
+  const std::string version =
+      py::str(py::module_::import("numpy").attr("__version__").cast<py::object>());
+  if (version.starts_with("0.") || version.starts_with("1.")) return;
+  throw py::import_error("this build of vinerow needs NumPy 1, but this is NumPy " + version +
+                         ": install 'numpy<2', or build vinerow with pybind11 2.12 or later, as "
+                         "'pip install .' does");
+#endif
+}
+
 }  // namespace
 }  // namespace vinerow::python
 
 PYBIND11_MODULE(_core, module) {
   module.doc() = "C++ part of vinerow.";
+  vinerow::python::check_numpy();
   py::register_exception_translator(&vinerow::python::translate);
   module.attr("__version__") = VINEROW_VERSION_STRING;
   vinerow::python::bind_scenario(module);

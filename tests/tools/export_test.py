@@ -328,6 +328,27 @@ class Export(unittest.TestCase):
         self.assertIn("export: --from 500 s is after the end of", late)
         turned = self.run_export("--topic", "/rover/kinds", "--from", "2", "--to", "1.5", status=2).stderr
         self.assertIn("export: --from 2 s is after --to 1.5 s", turned)
+        none = self.run_export("--topic", "/rover/kinds", "--from", "nan", status=2).stderr
+        self.assertIn("export: --from and --to must be times in s", none)
+
+    def test_a_file_of_another_format_is_refused(self):
+        self.write_kinds()
+        out = self.folder / "cloud.pcd"
+        refused = self.run_export("--topic", "/rover/kinds", "-o", str(out), status=2).stderr
+        self.assertEqual(refused, f"vinerow: export: -o '{out}' must be a file .csv or .npz, - for the terminal, or a folder\n")
+        self.assertFalse(out.exists())
+        out.mkdir()
+        self.run_export("--topic", "/rover/kinds", "-o", str(out))
+        self.assertEqual([file.name for file in out.iterdir()], ["rover_kinds.csv"])
+
+    def test_a_log_that_is_cut_off_says_so(self):
+        scenario = pathlib.Path(__file__).parents[2] / "assets" / "scenarios" / "vineyard_rover.yaml"
+        subprocess.run([VINEROW, "run", scenario, "--out", self.folder, "--quiet", "--no-pictures", "--no-report",
+                        "--set", "duration_s=0.2", "--set", "criteria=[]"], check=True)
+        self.assertEqual(self.run_export("--topic", "/rover/truth", "-o", "-").stderr, "")
+        self.log.write_bytes(self.log.read_bytes()[:-40])
+        cut = self.run_export("--topic", "/rover/truth", "-o", "-")
+        self.assertEqual(cut.stderr, f"vinerow: '{self.log}' is cut off: what was written before is exported\n")
 
     def test_patterns_give_a_file_for_each_topic_in_the_folder_alone(self):
         log = Log()

@@ -93,6 +93,13 @@ Database::Database(const std::filesystem::path& file, Mode mode) : file_(file) {
   database_.reset(opened);
   if (status != SQLITE_OK) fail(status);
   sqlite3_busy_timeout(opened, 10'000);
+  // A run that was killed while it wrote leaves a journal. Who only reads cannot undo what it had
+  // begun, who may write does it by reading.
+  const char* const look = "SELECT count(*) FROM sqlite_master";
+  if (mode == Mode::kRead &&
+      sqlite3_exec(opened, look, nullptr, nullptr, nullptr) == SQLITE_READONLY) {
+    Database(file, Mode::kWrite).run(look);
+  }
 }
 
 void Database::run(const std::string& sql) {

@@ -2,6 +2,7 @@
 #include <fnmatch.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 
@@ -179,6 +180,15 @@ bool read_out(ExportArguments& arguments) {
     throw ConfigError(
         "export: --npz cannot be printed to the terminal, -o must be a file or a folder");
   }
+  // A folder of such a name is hardly what is meant.
+  static const std::set<std::string> kOthers = {".h5",  ".jpg", ".json",    ".las",  ".laz",
+                                                ".mat", ".npy", ".parquet", ".pcd",  ".ply",
+                                                ".png", ".tsv", ".txt",     ".xlsx", ".xyz"};
+  if (kOthers.contains(ending) && !std::filesystem::is_directory(arguments.out)) {
+    throw ConfigError(
+        fmt::format("export: -o '{}' must be a file .csv or .npz, - for the terminal, or a folder",
+                    arguments.out.string()));
+  }
   if (ending == ".npz") arguments.npz = true;
   if (!arguments.npz) arguments.csv = true;
   return one_file;
@@ -193,6 +203,9 @@ void write_table(const MessageTable& table, const std::filesystem::path& file,
 
 /// @throws ConfigError if no message can be between --from and --to
 void check_span(const record::McapReader& log, const ExportArguments& arguments) {
+  if (std::isnan(arguments.from_s) || std::isnan(arguments.to_s)) {
+    throw ConfigError("export: --from and --to must be times in s");
+  }
   if (arguments.from_s > arguments.to_s) {
     throw ConfigError(
         fmt::format("export: --from {} s is after --to {} s", arguments.from_s, arguments.to_s));
@@ -248,6 +261,10 @@ void export_topics(ExportArguments arguments) {
       if (!topic.by_pattern) throw;
       fmt::print(stderr, "vinerow: left out {}\n", error.what());
     }
+  }
+  if (!log.complete()) {
+    fmt::print(stderr, "vinerow: '{}' is cut off: what was written before is exported\n",
+               arguments.log.string());
   }
   for (const std::string& warning : log.warnings()) {
     fmt::print(stderr, "vinerow: {}\n", warning);

@@ -15,6 +15,7 @@ import sqlite3
 import subprocess
 import sys
 import tempfile
+import textwrap
 import time
 import unittest
 
@@ -370,6 +371,27 @@ echo 8""", squeue="true", scancel="true", sacct="echo COMPLETED", scontrol="echo
         told = self.study("run", file, "--runner", "slurm", "--chunk", 1, environment=environment)
         self.assertTrue(refused.exists())
         self.assertRegex(told, r"met +4\n")
+
+    def test_a_study_that_was_killed_while_it_wrote_can_be_read(self):
+        file = self.write("seeds: 2\n", name="broken.yaml")
+        self.study("run", file, out="broken")
+        database = self.folder / "broken" / "study.sqlite"
+        before = self.rows("broken")
+        # A writer that is killed within a transaction, after pages of it have reached the file.
+        writer = textwrap.dedent(f"""
+            import os, signal, sqlite3
+            base = sqlite3.connect({str(database)!r}, isolation_level=None)
+            base.execute("PRAGMA cache_size = 1")
+            base.execute("BEGIN")
+            base.execute("CREATE TABLE big (x)")
+            base.executemany("INSERT INTO big VALUES (?)", [("x" * 900,)] * 500)
+            os.kill(os.getpid(), signal.SIGKILL)
+        """)
+        subprocess.run([sys.executable, "-c", writer])
+        self.assertTrue(database.with_name("study.sqlite-journal").exists())
+        told = self.study("status", file, out="broken")
+        self.assertRegex(told, r"\b2 cells|2 of 2|finished +2")
+        self.assertEqual(self.rows("broken"), before)
 
     def test_what_killed_runs_left_is_removed(self):
         file = self.write("keep: summary\n")

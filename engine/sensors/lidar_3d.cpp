@@ -21,12 +21,13 @@ namespace vinerow::sensors {
 namespace {
 
 constexpr int kMaxSubRays3d = 19;
+constexpr int kSlices = 20;
 
 enum class Returns { kStrongest, kLast, kDual };
 
 struct Lidar3dParams {
   ScanPatternParams pattern;
-  int slices = 20;
+  std::optional<int> slices;  ///< default: as many as divide the period, up to kSlices
   LaserRanging ranging{
       .min_range_m = 0.5, .max_range_m = 100.0, .noise_std_m = 0.02, .dark_range_m = 40.0};
   double divergence_rad = 0.0;
@@ -41,7 +42,10 @@ const ParameterTable<Lidar3dParams>& lidar_3d_table() {
       ParameterTable<P>()
           .include(&P::pattern, scan_pattern_table())
           .integer("slices", &P::slices, between(1, 1000),
-                   "times in a period at which its pose is taken; in between it moves evenly")
+                   fmt::format("times in a period at which its pose is taken; in between it moves "
+                               "evenly; default: the largest number up to {} that cuts the period "
+                               "into whole physics steps",
+                               kSlices))
           .include(&P::ranging, laser_ranging_table())
           .degrees("divergence_deg", &P::divergence_rad, between(0.0, 5.0), "full width of a beam")
           .integer("sub_rays", &P::sub_rays, between(1, kMaxSubRays3d),
@@ -54,6 +58,20 @@ const ParameterTable<Lidar3dParams>& lidar_3d_table() {
                    {"dual", Returns::kDual}},
                   "echoes of a pulse that are reported");
   return table;
+}
+
+/// Time between two poses. @throws ConfigError if the period has no such slices
+Duration sampling_of(const Lidar3dParams& params, const SensorContext& context) {
+  const std::int64_t step = std::max<std::int64_t>(context.physics_step.ns, 1);
+  const auto is_cut_by = [&](int slices) { return context.period.ns % (slices * step) == 0; };
+  int slices = params.slices.value_or(kSlices);
+  while (!params.slices && slices > 1 && !is_cut_by(slices)) --slices;
+  if (is_cut_by(slices)) return {context.period.ns / slices};
+  throw ConfigError(fmt::format(
+      "{}: slices = {} cut its period of {:g} s into {:g} s, must be a multiple of the physics "
+      "step of {:g} s",
+      context.part, slices, context.period.s(), context.period.s() / slices,
+      context.physics_step.s()));
 }
 
 struct Echo3d {
@@ -71,20 +89,10 @@ class Lidar3d final : public MountedSensor<PointCloud> {
         light_(&context.light()),
         find_vehicles_(context.vehicles),
         period_(context.period),
-        sampling_{context.period.ns / params.slices},
-        pattern_(make_scan_pattern(params.pattern, context.period.s())),
+        sampling_(sampling_of(params, context)),
+        pattern_(make_scan_pattern(params.pattern, context.period.s(), context.part)),
         optics_(params.ranging, draw_offset_m(params.ranging, context)),
         random_(context.random()) {
-    const bool divides = sampling_.ns * params.slices == period_.ns;
-    const bool fits = context.physics_step.ns <= 0 ||
-                      (sampling_.ns > 0 && sampling_.ns % context.physics_step.ns == 0);
-    if (!divides || !fits) {
-      throw ConfigError(fmt::format(
-          "{}: slices = {} cut its period of {:g} s into {:g} s, must be a multiple of the physics "
-          "step of {:g} s",
-          context.part, params.slices, period_.s(), period_.s() / params.slices,
-          context.physics_step.s()));
-    }
     for (int ray = 1; ray < params.sub_rays; ++ray) {
       // Half of the beam's area lies inside of this circle.
       constexpr double kHalfArea = 0.7;
@@ -94,7 +102,7 @@ class Lidar3d final : public MountedSensor<PointCloud> {
       aside_scale_ = 1.0 / std::sqrt(1.0 + width * width);
     }
     // As large as a frame can be, so that none allocates memory.
-    const std::size_t pulses = pattern_->pulses(0).size();
+    const std::size_t pulses = pattern_->most_pulses();
     rays_.reserve(pulses * static_cast<std::size_t>(params.sub_rays));
     hits_.reserve(rays_.capacity());
     vehicle_hits_.reserve(rays_.capacity());

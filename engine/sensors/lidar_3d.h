@@ -2,9 +2,10 @@
 /// 3D laser scanner: a cloud of points for each frame.
 ///
 /// A frame takes a whole period. The scanner moves meanwhile: it is sampled `slices` times in a
-/// period, and within a slice its pose goes evenly from the one to the other (position linearly,
-/// rotation by its matrix). Each point is in S at its own instant, as drivers deliver it, with its
-/// time before the stamp, which is the end of the frame.
+/// period (by default as many as divide it, up to 20), and within a slice its pose
+/// goes evenly from the one to the other (position linearly, rotation by its matrix). Each point is
+/// in S at its own instant, as drivers deliver it, with its time before the stamp, which is the end
+/// of the frame.
 ///
 /// A beam is `sub_rays` rays: one in its middle and the others on a circle of 0.7 of its half
 /// width, where half of the area is inside. What they meet within one pulse length makes one echo:
@@ -24,7 +25,8 @@
 namespace vinerow::sensors {
 
 PartSpec lidar_3d_spec();
-/// @throws ConfigError if there is no laser, or too many pulses, or the range is empty
+/// @throws ConfigError if there is no laser, or too many pulses, or the range is empty, or a
+/// column takes longer than the time to the next
 std::unique_ptr<Sensor> make_lidar_3d(const ParameterSet& parameters, const SensorContext& context);
 
 }  // namespace vinerow::sensors

@@ -6,16 +6,36 @@
 #include <cmath>
 
 #include "engine/core/constants.h"
+#include "engine/core/error.h"
 #include "engine/math/angles.h"
 
 namespace vinerow::sensors {
 namespace {
 
-constexpr int kMaxPulses = 2'000'000;
+constexpr double kMaxPulses = 2e6;
+
+/// A pulse that is nearer than this to the edge between two frames, in periods of its laser, stands
+/// on it: rounding must not move it to the frame before.
+constexpr double kEdge = 1e-6;
 
 Eigen::Vector3d direction(double azimuth_rad, double elevation_rad) {
   return {std::cos(elevation_rad) * std::cos(azimuth_rad),
           std::cos(elevation_rad) * std::sin(azimuth_rad), std::sin(elevation_rad)};
+}
+
+/// Whole number of the first of a train of pulses in a frame.
+/// @param begin  of the frame, in periods of the train from its pulse 0
+std::int64_t first_pulse(double begin) {
+  return static_cast<std::int64_t>(std::ceil(begin - kEdge));
+}
+
+/// Time in a frame of a pulse that belongs to it.
+double within_frame(double time_s, double period_s) {
+  return std::clamp(time_s, 0.0, std::nextafter(period_s, 0.0));
+}
+
+int columns_of(const ScanPatternParams& p) {
+  return p.columns.value_or(kColumns);
 }
 
 std::string find_fault_in_lasers(const ScanPatternParams& p) {
@@ -25,10 +45,11 @@ std::string find_fault_in_lasers(const ScanPatternParams& p) {
     return fmt::format("azimuth_offsets_deg has {} numbers, elevations_deg {}: one for each laser",
                        p.azimuth_offsets_deg.size(), p.elevations_deg.size());
   }
-  const double pulses = static_cast<double>(p.elevations_deg.size()) * p.columns;
-  if (pulses <= kMaxPulses) return "";
-  return fmt::format("{} lasers and columns = {} make {:.0f} pulses a turn, must be at most {}",
-                     p.elevations_deg.size(), p.columns, pulses, kMaxPulses);
+  if (p.column_s <= 0.0 || !p.columns) return "";
+  return fmt::format(
+      "columns = {} and column_s = {:g} s are both given, must be one of them; column_s = 0 is "
+      "none",
+      *p.columns, p.column_s);
 }
 
 std::string find_fault_in_rosette(const ScanPatternParams& p) {
@@ -37,57 +58,117 @@ std::string find_fault_in_rosette(const ScanPatternParams& p) {
                      p.highest_deg);
 }
 
+std::string find_fault_in_turn(const ScanPatternParams& p, double period_s) {
+  const bool has_clock = p.column_s > 0.0;
+  if (has_clock && p.column_s > period_s) {
+    return fmt::format("column_s = {:g} s, must be at most the time of a turn, {:g} s", p.column_s,
+                       period_s);
+  }
+  const double column_s = has_clock ? p.column_s : period_s / columns_of(p);
+  const double pulses = static_cast<double>(p.elevations_deg.size()) * period_s / column_s;
+  if (pulses > kMaxPulses * (1.0 + 1e-9)) {
+    const std::string what = has_clock ? fmt::format("column_s = {:g} s", p.column_s)
+                                       : fmt::format("columns = {}", columns_of(p));
+    return fmt::format("{} lasers and {} make {:.0f} pulses a turn, must be at most {:.0f}",
+                       p.elevations_deg.size(), what, pulses, kMaxPulses);
+  }
+  if (p.firing_s <= column_s * (1.0 + 1e-9)) return "";
+  return fmt::format(
+      "firing_s = {:g} s, must be at most the time from a column to the next, {:g} s", p.firing_s,
+      column_s);
+}
+
+std::string find_fault_in_frame(const ScanPatternParams& p, double period_s) {
+  const double pulses = p.pulses_per_s * period_s;
+  if (pulses >= 1.0 - 1e-9 && pulses <= kMaxPulses * (1.0 + 1e-9)) return "";
+  return fmt::format("pulses_per_s = {:g} make {:g} pulses a period of {:g} s, must be 1 to {:.0f}",
+                     p.pulses_per_s, pulses, period_s, kMaxPulses);
+}
+
 class Spinning final : public ScanPattern {
  public:
-  Spinning(const ScanPatternParams& params, double period_s) {
+  Spinning(const ScanPatternParams& params, double period_s)
+      : period_s_(period_s),
+        has_clock_(params.column_s > 0.0),
+        column_s_(has_clock_ ? params.column_s : period_s / columns_of(params)),
+        columns_(has_clock_ ? period_s / params.column_s : columns_of(params)),
+        half_view_rad_(rad_from_deg(0.5 * params.field_of_view_deg)) {
     const std::size_t lasers = params.elevations_deg.size();
-    const auto ring_of = [&](std::size_t laser) {
-      return static_cast<std::uint16_t>(
-          std::count_if(params.elevations_deg.begin(), params.elevations_deg.end(),
-                        [&](double other) { return other < params.elevations_deg[laser]; }));
-    };
-    constexpr double kRounding_rad = 1e-9;  // pulses at both edges belong to the view
-    const double half_view_rad = rad_from_deg(0.5 * params.field_of_view_deg);
-    const double column_s = period_s / params.columns;
-    for (int column = 0; column < params.columns; ++column) {
-      for (std::size_t laser = 0; laser < lasers; ++laser) {
-        LaserPulse pulse;
-        pulse.time_s = column * column_s +
-                       params.firing_s * static_cast<double>(laser) / static_cast<double>(lasers);
-        if (pulse.time_s >= period_s) continue;
-        const double offset_rad = params.azimuth_offsets_deg.empty()
-                                      ? 0.0
-                                      : rad_from_deg(params.azimuth_offsets_deg[laser]);
-        const double azimuth_rad =
-            wrap_angle(kPi - 2.0 * kPi * pulse.time_s / period_s + offset_rad);
-        if (std::abs(azimuth_rad) > half_view_rad + kRounding_rad) continue;
-        pulse.dir_S = direction(azimuth_rad, rad_from_deg(params.elevations_deg[laser]));
-        pulse.ring = ring_of(laser);
-        pulses_.push_back(pulse);
-      }
+    for (std::size_t laser = 0; laser < lasers; ++laser) {
+      const double elevation_deg = params.elevations_deg[laser];
+      const auto ring = std::count_if(params.elevations_deg.begin(), params.elevations_deg.end(),
+                                      [&](double other) { return other < elevation_deg; });
+      lasers_.push_back(
+          {.delay_s = params.firing_s * static_cast<double>(laser) / static_cast<double>(lasers),
+           .elevation_rad = rad_from_deg(elevation_deg),
+           .azimuth_offset_rad = params.azimuth_offsets_deg.empty()
+                                     ? 0.0
+                                     : rad_from_deg(params.azimuth_offsets_deg[laser]),
+           .ring = static_cast<std::uint16_t>(ring)});
     }
-    std::stable_sort(pulses_.begin(), pulses_.end(),
-                     [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
+    pulses_.reserve(most_pulses());
+    fill(0);
   }
 
-  std::span<const LaserPulse> pulses(std::uint64_t /*frame*/) override { return pulses_; }
+  std::span<const LaserPulse> pulses(std::uint64_t frame) override {
+    if (has_clock_) fill(frame);
+    return pulses_;
+  }
+
+  std::size_t most_pulses() const override {
+    return lasers_.size() * (static_cast<std::size_t>(columns_) + 1);
+  }
 
  private:
+  struct Laser {
+    double delay_s;  ///< from the column's first laser
+    double elevation_rad, azimuth_offset_rad;
+    std::uint16_t ring;
+  };
+
+  void fill(std::uint64_t frame) {
+    constexpr double kRounding_rad = 1e-9;  // pulses at both edges belong to the view
+    pulses_.clear();
+    // In the train of columns. One that has begun in the frame before may end in this one.
+    const double begin = static_cast<double>(frame) * columns_;
+    const double end = static_cast<double>(frame + 1) * columns_;
+    for (std::int64_t column = first_pulse(begin) - 1; column < first_pulse(end); ++column) {
+      for (const Laser& laser : lasers_) {
+        const double delay = laser.delay_s / column_s_;
+        if (column < first_pulse(begin - delay)) continue;
+        if (column >= first_pulse(end - delay)) break;
+        const double time_s = within_frame(
+            (static_cast<double>(column) - begin) * column_s_ + laser.delay_s, period_s_);
+        const double azimuth_rad =
+            wrap_angle(kPi - 2.0 * kPi * time_s / period_s_ + laser.azimuth_offset_rad);
+        if (std::abs(azimuth_rad) > half_view_rad_ + kRounding_rad) continue;
+        pulses_.push_back({time_s, direction(azimuth_rad, laser.elevation_rad), laser.ring});
+      }
+    }
+  }
+
+  double period_s_;
+  bool has_clock_;   ///< that fires the columns
+  double column_s_;  ///< from a column to the next
+  double columns_;   ///< of a turn, not a whole number with a clock
+  double half_view_rad_;
+  std::vector<Laser> lasers_;
   std::vector<LaserPulse> pulses_;
 };
 
 class Rosette final : public ScanPattern {
  public:
   Rosette(const ScanPatternParams& params, double period_s)
-      : params_(params),
-        per_frame_(static_cast<std::uint64_t>(std::llround(params.pulses_per_s * period_s))) {
-    pulses_.resize(per_frame_);
+      : params_(params), period_s_(period_s), per_frame_(params.pulses_per_s * period_s) {
+    pulses_.reserve(most_pulses());
   }
 
   std::span<const LaserPulse> pulses(std::uint64_t frame) override {
-    for (std::uint64_t i = 0; i < per_frame_; ++i) {
-      const std::uint64_t number = frame * per_frame_ + i;
-      const auto laser = static_cast<int>(number % static_cast<std::uint64_t>(params_.lasers));
+    pulses_.clear();
+    const double begin = static_cast<double>(frame) * per_frame_;
+    const std::int64_t last = first_pulse(static_cast<double>(frame + 1) * per_frame_);
+    for (std::int64_t number = first_pulse(begin); number < last; ++number) {
+      const auto laser = static_cast<int>(number % params_.lasers);
       const double time_s = static_cast<double>(number) / params_.pulses_per_s;
       const double turn = fraction(params_.turns_per_s * time_s);
       // Up and down evenly: 0 to 1 and back.
@@ -96,18 +177,22 @@ class Rosette final : public ScanPattern {
       const double height = 1.0 - std::abs(2.0 * wave - 1.0);
       const double elevation_deg =
           params_.lowest_deg + height * (params_.highest_deg - params_.lowest_deg);
-      pulses_[i] = {static_cast<double>(i) / params_.pulses_per_s,
-                    direction(kPi - 2.0 * kPi * turn, rad_from_deg(elevation_deg)),
-                    static_cast<std::uint16_t>(laser)};
+      const double in_frame_s = (static_cast<double>(number) - begin) / params_.pulses_per_s;
+      pulses_.push_back({within_frame(in_frame_s, period_s_),
+                         direction(kPi - 2.0 * kPi * turn, rad_from_deg(elevation_deg)),
+                         static_cast<std::uint16_t>(laser)});
     }
     return pulses_;
   }
+
+  std::size_t most_pulses() const override { return static_cast<std::size_t>(per_frame_) + 1; }
 
  private:
   static double fraction(double value) { return value - std::floor(value); }
 
   ScanPatternParams params_;
-  std::uint64_t per_frame_;
+  double period_s_;
+  double per_frame_;  ///< not always a whole number
   std::vector<LaserPulse> pulses_;
 };
 
@@ -125,7 +210,12 @@ const ParameterTable<ScanPatternParams>& scan_pattern_table() {
           .numbers("azimuth_offsets_deg", "deg", &P::azimuth_offsets_deg, between(-180.0, 180.0),
                    "spinning: azimuth of each laser in its column, to the left; default: none")
           .integer("columns", &P::columns, between(1, 100'000),
-                   "spinning: firings of each laser in a turn")
+                   fmt::format("spinning: firings of each laser in a turn; default: {}, unless "
+                               "there is column_s",
+                               kColumns))
+          .number("column_s", "s", &P::column_s, between(0.0, 1.0),
+                  "spinning: time from a firing of a laser to its next, at any rate of turns; 0: "
+                  "columns count")
           .number("firing_s", "s", &P::firing_s, between(0.0, 1.0),
                   "spinning: time in which the lasers of a column fire one after the other")
           .number("field_of_view_deg", "deg", &P::field_of_view_deg, above(0.0, 360.0),
@@ -145,7 +235,11 @@ const ParameterTable<ScanPatternParams>& scan_pattern_table() {
   return table;
 }
 
-std::unique_ptr<ScanPattern> make_scan_pattern(const ScanPatternParams& params, double period_s) {
+std::unique_ptr<ScanPattern> make_scan_pattern(const ScanPatternParams& params, double period_s,
+                                               const std::string& who) {
+  const std::string fault = params.is_rosette ? find_fault_in_frame(params, period_s)
+                                              : find_fault_in_turn(params, period_s);
+  if (!fault.empty()) throw ConfigError(fmt::format("{}: {}", who, fault));
   if (params.is_rosette) return std::make_unique<Rosette>(params, period_s);
   return std::make_unique<Spinning>(params, period_s);
 }

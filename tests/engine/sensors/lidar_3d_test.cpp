@@ -232,6 +232,18 @@ TEST(Lidar3d, AFrameAllocatesNothing) {
   EXPECT_EQ(counter.count(), 0u);
 }
 
+TEST(Lidar3d, RunsAtTheRatesOfItsDataSheet) {
+  // 200, 100 and 50 ms in whole steps of 1 ms.
+  const PlainScene scene;
+  const auto sampling_ms = [&](double rate_Hz) {
+    const Bench bench("lidar_3d", test::sensor_parameters("lidar_3d"), scene, rate_Hz);
+    return bench.sampling().s() * 1e3;
+  };
+  EXPECT_NEAR(sampling_ms(5.0), 10.0, 1e-9);
+  EXPECT_NEAR(sampling_ms(10.0), 5.0, 1e-9);
+  EXPECT_NEAR(sampling_ms(20.0), 5.0, 1e-9);
+}
+
 TEST(Lidar3d, RefusesBadInputInOneSentence) {
   const PlainScene scene;
   const auto error_of = [&](const SensorValues& values) {
@@ -246,6 +258,30 @@ TEST(Lidar3d, RefusesBadInputInOneSentence) {
                       {"elevations_deg", std::vector<double>(64, 0.0)}}),
             "rover.sensors.s: 64 lasers and columns = 100000 make 6400000 pulses a turn, must be "
             "at most 2000000");
+  // 100 ms / 1800 = 55.6 us; the last lasers of the last columns would fire after the turn.
+  EXPECT_EQ(error_of({{"firing_s", 0.001}}),
+            "rover.sensors.s: firing_s = 0.001 s, must be at most the time from a column to the "
+            "next, 5.55556e-05 s");
+  EXPECT_EQ(error_of({{"columns", std::int64_t{900}}, {"column_s", 1e-4}}),
+            "rover.sensors.s: columns = 900 and column_s = 0.0001 s are both given, must be one of "
+            "them; column_s = 0 is none");
+  EXPECT_EQ(error_of({{"column_s", 0.2}}),
+            "rover.sensors.s: column_s = 0.2 s, must be at most the time of a turn, 0.1 s");
+  EXPECT_EQ(error_of({{"column_s", 1e-8}}),
+            "rover.sensors.s: 16 lasers and column_s = 1e-08 s make 160000000 pulses a turn, must "
+            "be at most 2000000");
+  const std::string rosette = "rosette";
+  EXPECT_EQ(
+      test::refusal_of([&] {
+        Bench("lidar_3d",
+              test::sensor_parameters("lidar_3d", {{"pattern", rosette}, {"pulses_per_s", 1e7}}),
+              scene, 0.1);
+      }),
+      "rover.sensors.s: pulses_per_s = 1e+07 make 1e+08 pulses a period of 10 s, must be 1 "
+      "to 2000000");
+  EXPECT_EQ(error_of({{"pattern", rosette}, {"pulses_per_s", 4.0}}),
+            "rover.sensors.s: pulses_per_s = 4 make 0.4 pulses a period of 0.1 s, must be 1 to "
+            "2000000");
   EXPECT_EQ(
       error_of({{"slices", std::int64_t{7}}}),
       "rover.sensors.s: slices = 7 cut its period of 0.1 s into 0.0142857 s, must be a multiple of "

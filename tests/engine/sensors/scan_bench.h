@@ -41,6 +41,7 @@ class ScanBench {
   }
   const T& truth() const { return truth_.value(); }
   const SignalReader<T>& reading() const { return reading_; }
+  Duration sampling() const { return sensor_->sampling(); }
   Time last() const { return now_ - sensor_->sampling(); }
 
  private:

@@ -13,6 +13,7 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
 #include "engine/math/angles.h"
+#include "engine/sensors/blindness.h"
 #include "engine/sensors/laser_optics.h"
 #include "engine/sensors/mounted_sensor.h"
 #include "engine/sensors/scan_pattern.h"
@@ -86,6 +87,7 @@ class Lidar3d final : public MountedSensor<PointCloud> {
   Lidar3d(const Lidar3dParams& params, const ParameterSet& parameters, const SensorContext& context)
       : MountedSensor(parameters, context),
         params_(params),
+        world_(context.world),
         light_(&context.light()),
         find_vehicles_(context.vehicles),
         period_(context.period),
@@ -119,7 +121,11 @@ class Lidar3d final : public MountedSensor<PointCloud> {
 
   void sample(Time now) override {
     const Pose X_WS_now = X_WS();
-    if (begin_) cast_until(now, X_WS_now);
+    if (begin_) {
+      cast_until(now, X_WS_now);
+    } else {
+      look_out(X_WS_now);
+    }
     last_ = now;
     last_X_WS_ = X_WS_now;
     if (!begin_) begin_frame(now);
@@ -140,6 +146,14 @@ class Lidar3d final : public MountedSensor<PointCloud> {
     }
     cloud.ring.resize(count);
     cloud.return_number.resize(count);
+  }
+
+  /// Before the first pulse.
+  void look_out(const Pose& X_WS_now) {
+    if (find_vehicles_) vehicles_ = &find_vehicles_();
+    const std::string reason = find_blindness(X_WS_now, *world_, *light_, vehicles_);
+    if (reason.empty()) return;
+    throw ConfigError(fmt::format("the scanner {}: change its position_m", reason));
   }
 
   void begin_frame(Time now) {
@@ -183,11 +197,7 @@ class Lidar3d final : public MountedSensor<PointCloud> {
     rays_.resize(order_.size() * sub_rays);
     hits_.resize(rays_.size());
     vehicle_hits_.resize(rays_.size());
-    if (find_vehicles_) {
-      // Where they are at the slice's end.
-      if (!vehicles_) vehicles_ = &find_vehicles_();
-      vehicles_->update();
-    }
+    if (vehicles_) vehicles_->update();  // to where they are at the slice's end
     for_chunks(order_.size(), std::max<std::size_t>(1, kRaysAtOnce / sub_rays),
                [this, &slice](std::size_t, std::size_t begin, std::size_t end) {
                  cast_pulses(slice, begin, end);
@@ -321,9 +331,10 @@ class Lidar3d final : public MountedSensor<PointCloud> {
   }
 
   Lidar3dParams params_;
+  const WorldModel* world_;
   const RayScene* light_;
   std::function<VehicleScene&()> find_vehicles_;  ///< empty: there are none
-  VehicleScene* vehicles_ = nullptr;              ///< from the first slice on
+  VehicleScene* vehicles_ = nullptr;              ///< from the first sample on
   Duration period_, sampling_;
   std::unique_ptr<ScanPattern> pattern_;
   LaserOptics optics_;

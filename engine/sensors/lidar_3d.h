@@ -26,7 +26,8 @@ namespace vinerow::sensors {
 
 PartSpec lidar_3d_spec();
 /// @throws ConfigError if there is no laser, or too many pulses, or the range is empty, or a
-/// column takes longer than the time to the next
+/// column takes longer than the time to the next. Its first sample()
+/// throws one if the scanner is inside of something.
 std::unique_ptr<Sensor> make_lidar_3d(const ParameterSet& parameters, const SensorContext& context);
 
 }  // namespace vinerow::sensors

@@ -117,19 +117,24 @@ TEST(CameraRun, AScannerSeesTheOtherVehicleToo) {
   EXPECT_NEAR(nearest_m, calc_gap_m(session, 0.6), 0.03);
 }
 
-TEST(CameraRun, RefusesACameraInsideOfItsVehicle) {
+TEST(CameraRun, RefusesCamerasAndScannersInsideOfTheirVehicle) {
   const ScratchFolder folder("camera_inside");
-  const std::string file = folder.file("scenario.yaml", two_rovers("position_m: [0, 0, 0.02]"));
   const std::filesystem::path out = folder.path() / "out";
-  for (const std::string& command :
-       {"run " + file + " --out " + out.string(), "validate " + file}) {
-    const test::CommandResult result = run_vinerow(command);
-    EXPECT_EQ(result.status, 2) << command;
-    EXPECT_NE(result.output.find(
-                  "scenario.yaml:10: watcher.sensors.eye: the camera is inside of watcher/"),
-              std::string::npos)
-        << result.output;
-    EXPECT_FALSE(std::filesystem::exists(out)) << "before its first step a run writes nothing";
+  std::string file;
+  for (const auto& [scenario, refusal] :
+       {std::pair(two_rovers_with("type: lidar_3d"), "the scanner is inside of watcher/"),
+        std::pair(two_rovers("position_m: [0, 0, 0.02]"), "the camera is inside of watcher/")}) {
+    file = folder.file("scenario.yaml", scenario);
+    for (const std::string& command :
+         {"run " + file + " --out " + out.string(), "validate " + file}) {
+      const test::CommandResult result = run_vinerow(command);
+      EXPECT_EQ(result.status, 2) << command;
+      EXPECT_NE(
+          result.output.find(std::string("scenario.yaml:10: watcher.sensors.eye: ") + refusal),
+          std::string::npos)
+          << result.output;
+      EXPECT_FALSE(std::filesystem::exists(out)) << "before its first step a run writes nothing";
+    }
   }
   // What an earlier run has written in the folder stays as it was.
   std::filesystem::create_directories(out / "frames");

@@ -10,6 +10,7 @@
 #include "engine/api/height_field.h"
 #include "engine/api/world_model.h"
 #include "engine/core/parallel.h"
+#include "engine/sensors/blindness.h"
 
 namespace vinerow::sensors {
 namespace {
@@ -51,59 +52,6 @@ Label label_at(const WorldModel& world, const RayHit& hit) {
   if (hit.mesh < 0) return label_of(hit.surface);
   const MeshInstance& instance = world.meshes[static_cast<std::size_t>(hit.mesh)];
   return instance.label.value_or(label_of(instance.surface));
-}
-
-/// Normal of the triangle as its corners are ordered, in W.
-Vector3d outward_W(const MeshInstance& instance, int triangle) {
-  const TriangleMesh& mesh = *instance.mesh;
-  const auto& t = mesh.triangles[static_cast<std::size_t>(triangle)];
-  const Vector3d a = mesh.vertices[t[0]].cast<double>();
-  const Vector3d ab = mesh.vertices[t[1]].cast<double>() - a;
-  const Vector3d ac = mesh.vertices[t[2]].cast<double>() - a;
-  return instance.X_WM.q * ab.cross(ac);
-}
-
-/// Mesh that shuts in a camera at p_W: ahead and in most other directions a ray leaves it more
-/// often than it enters it, or the other way about where its triangles are turned inside out.
-/// Bodies have seams and slots, so that not all directions need to agree; a board is not in the
-/// most of them.
-std::optional<int> find_mesh_around(const Vector3d& p_W, const Vector3d& forward_W,
-                                    const RayScene& scene, std::span<const MeshInstance> meshes,
-                                    SurfaceMask mask) {
-  // All around, along no axis.
-  const Vector3d directions[] = {
-      forward_W,
-      {0.613, 0.271, 0.742},
-      {-0.587, 0.423, 0.691},
-      {0.127, -0.811, 0.571},
-      {0.839, -0.293, -0.459},
-      {-0.719, -0.541, -0.437},
-      {-0.239, 0.857, -0.457},
-      {0.353, 0.149, -0.924},
-  };
-  constexpr std::size_t kMost = 6;
-  constexpr double kPast_m = 1e-6;           // a hit
-  std::map<int, std::size_t> directions_of;  // of the meshes ahead
-  for (const Vector3d& direction : directions) {
-    const Vector3d dir_W = direction.normalized();
-    std::map<int, int> leaves;
-    double from_m = 0.0;
-    while (const auto hit = scene.cast_ray(p_W + from_m * dir_W, dir_W, kFar_m - from_m, mask)) {
-      from_m += hit->distance_m + kPast_m;
-      if (from_m >= kFar_m) break;
-      if (hit->mesh < 0) continue;
-      const MeshInstance& instance = meshes[static_cast<std::size_t>(hit->mesh)];
-      leaves[hit->mesh] += outward_W(instance, hit->triangle).dot(dir_W) > 0.0 ? 1 : -1;
-    }
-    const bool is_ahead = &direction == &directions[0];
-    for (const auto& [mesh, times] : leaves) {
-      if (times != 0 && (is_ahead || directions_of.contains(mesh))) ++directions_of[mesh];
-    }
-  }
-  for (const auto& [mesh, count] : directions_of) {
-    if (count >= kMost) return mesh;
-  }
-  return std::nullopt;
 }
 
 }  // namespace
@@ -413,23 +361,7 @@ void ViewCaster::add_light(const Tile& tile, TileRays& r, View& view) const {
 }
 
 std::string ViewCaster::blindness(const Pose& X_WS) {
-  const Vector3d& p_W = X_WS.p;
-  const Vector3d forward_W = X_WS.q * Vector3d::UnitX();
-  const auto above =
-      light_.cast_ray(p_W, Vector3d::UnitZ(), kFar_m, mask_of(SurfaceClass::kTerrain));
-  if (above && above->mesh < 0) return "is below the ground";
-  constexpr SurfaceMask kClosed =
-      kAllSurfaces & ~mask_of(SurfaceClass::kTerrain) & ~mask_of(SurfaceClass::kCanopy);
-  if (const auto mesh = find_mesh_around(p_W, forward_W, light_, world_.meshes, kClosed)) {
-    return "is inside of " + world_.meshes[static_cast<std::size_t>(*mesh)].name;
-  }
-  if (!vehicles_) return "";
-  vehicles_->update();
-  if (const auto link =
-          find_mesh_around(p_W, forward_W, *vehicles_, vehicles_->links(), kAllSurfaces)) {
-    return "is inside of " + vehicles_->links()[static_cast<std::size_t>(*link)].name;
-  }
-  return "";
+  return find_blindness(X_WS, world_, light_, vehicles_);
 }
 
 }  // namespace vinerow::sensors

@@ -1,0 +1,17 @@
+#pragma once
+/// Whether a sensor that looks out is where it sees nothing.
+
+#include <string>
+
+#include "engine/api/scene_query.h"
+#include "engine/api/world_model.h"
+
+namespace vinerow::sensors {
+
+/// @param light  surfaces of the world
+/// @param vehicles  null: there are none; they are moved to where they are now
+/// @returns reason why a sensor here sees nothing: "is inside of rover/body". Empty: there is none.
+std::string find_blindness(const Pose& X_WS, const WorldModel& world, const RayScene& light,
+                           VehicleScene* vehicles);
+
+}  // namespace vinerow::sensors

@@ -198,14 +198,21 @@ TEST(Lidar3d, DataSheetsHaveTheirPoints) {
     room.panels.push_back({{4.0 * side, 0, 0}, {-side, 0, 0}, SurfaceClass::kObstacle});
     room.panels.push_back({{0, 4.0 * side, 0}, {0, -side, 0}, SurfaceClass::kObstacle});
   }
-  const auto points = [&](const char* sheet) {
-    Bench bench(test::data_sheet(sheet, {{"beam_dropout_share", 0.0}}), room);
-    bench.step();
-    return bench.step().x.size();
+  const auto points_in_a_second = [&](const char* sheet, double rate_Hz = 10.0) {
+    scenario::PartConfig part = test::data_sheet(sheet, {{"beam_dropout_share", 0.0}});
+    part.rate_Hz = rate_Hz;
+    Bench bench(part, room);
+    std::size_t count = 0;
+    for (int frame = 0; frame < rate_Hz; ++frame) count += bench.step().x.size();
+    return static_cast<double>(count);
   };
-  EXPECT_EQ(points("vlp16"), 28'800u);   // 288,000 a second of the 300,000 that the maker states
-  EXPECT_EQ(points("os1_64"), 65'536u);  // 655,360 at 10 Hz
-  EXPECT_EQ(points("mid360"), 20'000u);
+  // 16 every 55.296 us, of the 300,000 that the maker states.
+  EXPECT_NEAR(points_in_a_second("vlp16", 5.0), 289'352.0, 16.0);
+  EXPECT_NEAR(points_in_a_second("vlp16"), 289'352.0, 16.0);
+  EXPECT_NEAR(points_in_a_second("vlp16", 20.0), 289'352.0, 16.0);
+  EXPECT_EQ(points_in_a_second("os1_64"), 655'360.0);
+  EXPECT_EQ(points_in_a_second("os1_64", 20.0), 1'310'720.0);
+  EXPECT_EQ(points_in_a_second("mid360"), 200'000.0);
 }
 
 TEST(Lidar3d, WhatIsSeenShiftsNoRandomNumber) {

@@ -23,8 +23,9 @@ constexpr int cells_of_level(int level) {
 /// Ray in grid units (x, y in cells, z in metres) and the result of its traversal.
 struct HeightFieldRay::Walk {
   double g[2], d[2], per_d[2];  // cells, cells per metre of ray, metres per cell
-  double z, dz, per_dz;
-  int side = 0;  // sign of D so far; 0 at the start
+  double z, dz;
+  double level, dlevel, per_dlevel;  // height above the plane of the ranges
+  int side = 0;                      // sign of D so far; 0 at the start
   double hit_t = 0.0;
   double slope_x = 0.0, slope_y = 0.0;  // slope of the hit triangle, dh per cell
 };
@@ -64,16 +65,35 @@ class HeightFieldRay::GridWalk {
   double per_square_[2], next_[2];
 };
 
+/// The plane of the slope: the least squares of all samples. On a regular grid both slopes follow
+/// alone.
+Eigen::Vector2d HeightFieldRay::calc_tilt_m(const HeightField& field) {
+  Eigen::Vector2d moment = Eigen::Vector2d::Zero(), spread = Eigen::Vector2d::Zero();
+  const Eigen::Vector2d middle(0.5 * (field.columns - 1), 0.5 * (field.rows - 1));
+  const float* height_m = field.heights_m.data();
+  for (int j = 0; j < field.rows; ++j) {
+    for (int i = 0; i < field.columns; ++i, ++height_m) {
+      const Eigen::Vector2d from_middle = Eigen::Vector2d(i, j) - middle;
+      moment += *height_m * from_middle;
+      spread += from_middle.cwiseAbs2();
+    }
+  }
+  return moment.cwiseQuotient(spread);
+}
+
 HeightFieldRay::HeightFieldRay(const HeightField& field)
-    : field_(field), inverse_cell_per_m_(1.0 / field.cell_m), ranges_(field) {
-  double steepest2_m2 = 0.0;  // square of the rise per cell
+    : field_(field),
+      inverse_cell_per_m_(1.0 / field.cell_m),
+      tilt_m_(calc_tilt_m(field)),
+      ranges_(field, tilt_m_) {
+  double steepest2_m2 = 0.0;  // square of the rise per cell, above the plane
   for (int j = 0; j + 1 < field.rows; ++j) {
     for (int i = 0; i + 1 < field.columns; ++i) {
       const float* row = field.heights_m.data() + static_cast<std::size_t>(j) * field.columns + i;
       const double h00 = row[0], h10 = row[1];
       const double h01 = row[field.columns], h11 = row[field.columns + 1];
-      const auto square = [](double along_x, double along_y) {
-        return along_x * along_x + along_y * along_y;
+      const auto square = [this](double along_x, double along_y) {
+        return (Eigen::Vector2d(along_x, along_y) - tilt_m_).squaredNorm();
       };
       steepest2_m2 =
           std::max({steepest2_m2, square(h10 - h00, h11 - h10), square(h11 - h01, h01 - h00)});
@@ -82,28 +102,30 @@ HeightFieldRay::HeightFieldRay(const HeightField& field)
   steepest_ = std::sqrt(steepest2_m2) * inverse_cell_per_m_;
 }
 
-bool HeightFieldRay::rises_above(const Vector3d& p_W, const Vector3d& dir_W) const {
+bool HeightFieldRay::rises_above(const Walk& walk, const Vector3d& p_W,
+                                 const Vector3d& dir_W) const {
   constexpr double kRounding = 1e-9, kRounding_m = 1e-6;
-  const double level2 = dir_W.x() * dir_W.x() + dir_W.y() * dir_W.y();
-  return dir_W.z() > 0.0 &&
-         dir_W.z() * dir_W.z() > (1.0 + kRounding) * steepest_ * steepest_ * level2 &&
+  const double across2 = dir_W.x() * dir_W.x() + dir_W.y() * dir_W.y();
+  return walk.dlevel > 0.0 &&
+         walk.dlevel * walk.dlevel >
+             (1.0 + kRounding) * steepest_ * steepest_ * across2 + kRounding &&
          field_.contains(p_W.x(), p_W.y()) &&
          p_W.z() > field_.height_m(p_W.x(), p_W.y()) + kRounding_m;
 }
 
-/// Limits the ray to its section between two heights. Before it the side is constant, so it need
-/// not be traversed. @returns false if nothing is left
+/// Limits the ray to its section between two heights above the plane. Before it the side is
+/// constant, so it need not be traversed. @returns false if nothing is left
 bool HeightFieldRay::clip(Walk& walk, double low_m, double high_m, double& t0, double& t1) {
   // The margin keeps rounding from cutting off a crossing of the highest or lowest sample.
   constexpr double kMargin_m = 1e-3;
   low_m -= kMargin_m;
   high_m += kMargin_m;
-  if (walk.dz == 0.0) return walk.z <= high_m && walk.z >= low_m;
-  const double at_low = (low_m - walk.z) * walk.per_dz;
-  const double at_high = (high_m - walk.z) * walk.per_dz;
+  if (walk.dlevel == 0.0) return walk.level <= high_m && walk.level >= low_m;
+  const double at_low = (low_m - walk.level) * walk.per_dlevel;
+  const double at_high = (high_m - walk.level) * walk.per_dlevel;
   const double enter = std::min(at_low, at_high);
   if (enter > t0) {
-    walk.side = walk.dz < 0.0 ? 1 : -1;
+    walk.side = walk.dlevel < 0.0 ? 1 : -1;
     t0 = enter;
   }
   t1 = std::min(t1, std::max(at_low, at_high));
@@ -200,10 +222,13 @@ bool HeightFieldRay::cross_squares(const Walk& walk, int cells, const int corner
 /// @returns true if the ray is strictly above or below a whole square. No crossing, and the side is
 /// known.
 bool HeightFieldRay::is_clear(Walk& walk, int level, int i, int j, double t0, double t1) const {
+  constexpr double kRounding_m = 1e-6;
   const HeightRanges::Range range = ranges_.square(level, i, j);
-  const double z0 = walk.z + walk.dz * t0;
-  const double z1 = walk.z + walk.dz * t1;
-  const int side = std::min(z0, z1) > range.high_m ? 1 : (std::max(z0, z1) < range.low_m ? -1 : 0);
+  const double level0 = walk.level + walk.dlevel * t0;
+  const double level1 = walk.level + walk.dlevel * t1;
+  const int side = std::min(level0, level1) > range.high_m + kRounding_m  ? 1
+                   : std::max(level0, level1) < range.low_m - kRounding_m ? -1
+                                                                          : 0;
   if (side == 0 || (walk.side != 0 && walk.side != side)) return false;
   walk.side = side;
   return true;
@@ -235,6 +260,8 @@ std::optional<HeightFieldRay::Hit> HeightFieldRay::cast(const Vector3d& p_W, con
   walk.d[1] = dir_W.y() * inverse_cell_per_m_;
   walk.z = p_W.z();
   walk.dz = dir_W.z();
+  walk.level = walk.z - (tilt_m_.x() * walk.g[0] + tilt_m_.y() * walk.g[1]);
+  walk.dlevel = walk.dz - (tilt_m_.x() * walk.d[0] + tilt_m_.y() * walk.d[1]);
 
   // Non-finite, or far beyond any grid: no hit, and the cell index could overflow.
   constexpr double kFarAway = 1e9;
@@ -242,7 +269,7 @@ std::optional<HeightFieldRay::Hit> HeightFieldRay::cast(const Vector3d& p_W, con
         std::abs(walk.z) < kFarAway && dir_W.squaredNorm() < 2.0 && max_distance_m >= 0.0)) {
     return std::nullopt;
   }
-  if (rises_above(p_W, dir_W)) return std::nullopt;
+  if (rises_above(walk, p_W, dir_W)) return std::nullopt;
   // Neither a short ray over the inside of one cell, such as most of a wheel's, nor one that ends
   // above all ground near it needs clipping or traversal, whose divisions would take most of its
   // time.
@@ -253,7 +280,7 @@ std::optional<HeightFieldRay::Hit> HeightFieldRay::cast(const Vector3d& p_W, con
     }
     if (is_above(walk, *span, max_distance_m)) return std::nullopt;
   }
-  walk.per_dz = 1.0 / walk.dz;
+  walk.per_dlevel = 1.0 / walk.dlevel;
 
   // Section of the ray over the grid.
   double t0 = 0.0;
@@ -333,7 +360,7 @@ bool HeightFieldRay::is_above(const Walk& walk, const Span& span, double max_dis
       std::minmax({span.i0 / HeightRanges::kCells, span.i1 / HeightRanges::kCells});
   const auto [j0, j1] =
       std::minmax({span.j0 / HeightRanges::kCells, span.j1 / HeightRanges::kCells});
-  const double lowest_m = std::min(walk.z, walk.z + max_distance_m * walk.dz);
+  const double lowest_m = std::min(walk.level, walk.level + max_distance_m * walk.dlevel);
   return lowest_m > ranges_.of(i0, j0, i1, j1).high_m + kMargin_m;
 }
 

@@ -6,8 +6,9 @@
 /// each cell, linear on either side of the diagonal. The ray visits the cells that it crosses and
 /// stops where D changes sign. It skips what lies above or below all samples under it, of a long
 /// section first and then block by block. A ray that starts above the surface and rises more
-/// steeply than the surface anywhere visits no cell: D only grows. Both sides of the surface are
-/// hit; the surface ends at the grid's edge.
+/// steeply than the surface anywhere visits no cell: D only grows. Heights are compared above a
+/// plane through the whole surface, z(t) - e(x(t), y(t)) with h - e: on a slope they differ less
+/// than heights. Both sides of the surface are hit; the surface ends at the grid's edge.
 
 #include <Eigen/Core>
 #include <optional>
@@ -39,7 +40,9 @@ class HeightFieldRay {
     int i0, j0, i1, j1;  ///< cells of both ends
     bool is_one_cell() const { return i0 == i1 && j0 == j1; }
   };
-  bool rises_above(const Eigen::Vector3d& p_W, const Eigen::Vector3d& dir_W) const;
+  static Eigen::Vector2d calc_tilt_m(const HeightField& field);
+  bool rises_above(const Walk& walk, const Eigen::Vector3d& p_W,
+                   const Eigen::Vector3d& dir_W) const;
   static bool clip(Walk& walk, double low_m, double high_m, double& t0, double& t1);
   bool clip_to_ground(Walk& walk, double& t0, double& t1) const;
   std::optional<Span> span_of(const Walk& walk, double max_distance_m) const;
@@ -54,8 +57,9 @@ class HeightFieldRay {
 
   const HeightField& field_;
   double inverse_cell_per_m_;
-  HeightRanges ranges_;
-  double steepest_ = 0.0;  ///< largest rise per horizontal metre of all triangles
+  Eigen::Vector2d tilt_m_;  ///< rise of a plane per cell, along x and y
+  HeightRanges ranges_;     ///< above that plane
+  double steepest_ = 0.0;   ///< largest rise per horizontal metre of all triangles, above the plane
 };
 
 }  // namespace vinerow::physics

@@ -1,13 +1,24 @@
 #include "engine/physics/height_ranges.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "engine/api/height_field.h"
 
 namespace vinerow::physics {
+namespace {
 
-HeightRanges::HeightRanges(const HeightField& field) {
+HeightRanges::Range rounded_outwards(double h_m) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  const auto near_m = static_cast<float>(h_m);
+  return {near_m > h_m ? std::nextafter(near_m, -kInfinity) : near_m,
+          near_m < h_m ? std::nextafter(near_m, kInfinity) : near_m};
+}
+
+}  // namespace
+
+HeightRanges::HeightRanges(const HeightField& field, const Eigen::Vector2d& tilt_m) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   Level finest;
   finest.columns = (field.columns - 2) / kCells + 1;
@@ -22,11 +33,12 @@ HeightRanges::HeightRanges(const HeightField& field) {
       const int last_i = std::min((si + 1) * kCells, field.columns - 1);
       for (int j = sj * kCells; j <= last_j; ++j) {
         for (int i = si * kCells; i <= last_i; ++i) {
-          const float h_m =
+          const double h_m =
               field
                   .heights_m[static_cast<std::size_t>(j) * static_cast<std::size_t>(field.columns) +
-                             static_cast<std::size_t>(i)];
-          extend(range, {h_m, h_m});
+                             static_cast<std::size_t>(i)] -
+              (i * tilt_m.x() + j * tilt_m.y());
+          extend(range, rounded_outwards(h_m));
         }
       }
       finest.ranges.push_back(range);

@@ -1,10 +1,12 @@
 #pragma once
-/// Lowest and highest sample of rectangles of a height field.
+/// Lowest and highest sample of rectangles of a height field, above a plane if one is given: on a
+/// slope they differ less above the plane of the slope.
 ///
 /// A pyramid of squares of 4, 8, 16 ... cells: each level halves the number of squares along an
 /// axis. The range of a rectangle is that of at most 2 x 2 squares of one level, hence a bound that
 /// may be wider than the truth, in constant time.
 
+#include <Eigen/Core>
 #include <vector>
 
 #include "engine/api/forward.h"
@@ -13,7 +15,10 @@ namespace vinerow::physics {
 
 class HeightRanges {
  public:
-  explicit HeightRanges(const HeightField& field);
+  /// @param tilt_m  rise of the plane per cell along x and y; it contains the height 0 at sample
+  /// (0, 0)
+  explicit HeightRanges(const HeightField& field,
+                        const Eigen::Vector2d& tilt_m = Eigen::Vector2d::Zero());
 
   struct Range {
     float low_m, high_m;

@@ -72,6 +72,36 @@ TEST(HeightRanges, BoundAllSamplesOfARectangleByThoseOfFewSquares) {
   }
 }
 
+TEST(HeightRanges, AboveThePlaneOfASlopeTheyAreThoseOfWhatStandsOnIt) {
+  RandomStream random(5, "test", "height_ranges");
+  HeightField field = make_rough(61, 45, random);
+  const HeightField rough = field;
+  const Eigen::Vector2d tilt_m(0.37, -1.9);
+  for (int j = 0; j < field.rows; ++j) {
+    for (int i = 0; i < field.columns; ++i) {
+      field.heights_m[static_cast<std::size_t>(j * field.columns + i)] +=
+          static_cast<float>(tilt_m.x() * i + tilt_m.y() * j);
+    }
+  }
+  const HeightRanges on_slope(field, tilt_m), level(rough);
+  for (int j = 0; j < level.rows(); ++j) {
+    for (int i = 0; i < level.columns(); ++i) {
+      // But for the heights' own rounding.
+      EXPECT_NEAR(on_slope.of(i, j, i, j).low_m, level.of(i, j, i, j).low_m, 1e-5);
+      EXPECT_NEAR(on_slope.of(i, j, i, j).high_m, level.of(i, j, i, j).high_m, 1e-5);
+      for (int n = j * 4; n <= std::min(j * 4 + 4, field.rows - 1); ++n) {
+        for (int m = i * 4; m <= std::min(i * 4 + 4, field.columns - 1); ++m) {
+          const double above_m =
+              double{1} * field.heights_m[static_cast<std::size_t>(n * field.columns + m)] -
+              (tilt_m.x() * m + tilt_m.y() * n);
+          ASSERT_LE(on_slope.of(i, j, i, j).low_m, above_m);
+          ASSERT_GE(on_slope.of(i, j, i, j).high_m, above_m);
+        }
+      }
+    }
+  }
+}
+
 TEST(HeightRanges, SquaresAboveTheLastLevelAreTheWholeField) {
   RandomStream random(4, "test", "height_ranges");
   const HeightField field = make_rough(40, 21, random);

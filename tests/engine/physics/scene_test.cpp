@@ -95,6 +95,41 @@ TEST(Scene, SlantedRaysAgreeBetweenTheHeightFieldAndItsMesh) {
   EXPECT_LE(different, 4);
 }
 
+TEST(Scene, RaysMeetASteepSlopeWhereItsMeshIsMet) {
+  WorldModel field_world;
+  field_world.terrain = test::make_terrain(129, 97, 0.25, [](double x, double y) {
+    return 0.05 * std::sin(2.1 * x) * std::cos(1.7 * y) + 0.7 * x - 0.4 * y;
+  });
+  WorldModel mesh_world;
+  mesh_world.meshes = {test::make_instance("slope", test::make_mesh_of(*field_world.terrain),
+                                           Vector3d::Zero(), SurfaceClass::kTerrain)};
+  const PhysicsWorld field_physics({}, field_world);
+  const PhysicsWorld mesh_physics({}, mesh_world);
+  RandomStream random(6, "", "steep");
+  int hits = 0, misses = 0, different = 0;
+  for (int k = 0; k < 40'000; ++k) {
+    // About along the slope, up and down, from above and from below.
+    const double x = random.uniform(-15, 15), y = random.uniform(-11, 11);
+    const double off_m = random.uniform(-0.6, 0.6);
+    if (std::abs(off_m) < 1e-3) continue;
+    const Vector3d p(x, y, field_world.terrain->height_m(x, y) + off_m);
+    const double bearing = random.uniform(-kPi, kPi);
+    const Eigen::Vector2d level(std::cos(bearing), std::sin(bearing));
+    const double rise = level.dot(Eigen::Vector2d(0.7, -0.4)) + random.uniform(-0.3, 0.3);
+    const Vector3d dir = Vector3d(level.x(), level.y(), rise).normalized();
+    const auto own = field_physics.scene().cast_ray(p, dir, 60.0);
+    const auto embree = mesh_physics.scene().cast_ray(p, dir, 60.0);
+    ++(own ? hits : misses);
+    if (own.has_value() != embree.has_value() ||
+        (own && std::abs(own->distance_m - embree->distance_m) > 1e-4)) {
+      ++different;  // rays that graze a ridge or the rim
+    }
+  }
+  EXPECT_GT(hits, 10'000);
+  EXPECT_GT(misses, 5'000);
+  EXPECT_LE(different, 20);
+}
+
 TEST(Scene, RaysThatRiseFromTheGroundMeetItWhereItsMeshIsMet) {
   WorldModel field_world;
   field_world.terrain = test::make_hills(129, 0.25);

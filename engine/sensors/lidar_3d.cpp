@@ -16,6 +16,7 @@
 #include "engine/sensors/blindness.h"
 #include "engine/sensors/laser_optics.h"
 #include "engine/sensors/mounted_sensor.h"
+#include "engine/sensors/scan_links.h"
 #include "engine/sensors/scan_pattern.h"
 
 namespace vinerow::sensors {
@@ -87,6 +88,7 @@ class Lidar3d final : public MountedSensor<PointCloud> {
   Lidar3d(const Lidar3dParams& params, const ParameterSet& parameters, const SensorContext& context)
       : MountedSensor(parameters, context),
         params_(params),
+        vehicle_(context.vehicle),
         world_(context.world),
         light_(&context.light()),
         find_vehicles_(context.vehicles),
@@ -101,13 +103,15 @@ class Lidar3d final : public MountedSensor<PointCloud> {
       const double width = std::tan(0.5 * params.divergence_rad) * kHalfArea;
       const double angle = 2.0 * kPi * (ray - 1) / (params.sub_rays - 1);
       asides_.emplace_back(width * std::cos(angle), width * std::sin(angle));
-      aside_scale_ = 1.0 / std::sqrt(1.0 + width * width);
     }
     // As large as a frame can be, so that none allocates memory.
     const std::size_t pulses = pattern_->most_pulses();
     rays_.reserve(pulses * static_cast<std::size_t>(params.sub_rays));
     hits_.reserve(rays_.capacity());
-    vehicle_hits_.reserve(rays_.capacity());
+    if (find_vehicles_) {
+      own_rays_.reserve(rays_.capacity());
+      link_hits_.reserve(rays_.capacity());
+    }
     order_.reserve(pulses);
     first_ray_.reserve(pulses);
     resize(cloud_, params.returns == Returns::kDual ? 2 * pulses : pulses);
@@ -132,7 +136,11 @@ class Lidar3d final : public MountedSensor<PointCloud> {
   }
 
   void step(Time now) override {
-    if (readings_.is_in_outage(now)) resize(cloud_, 0);
+    if (*begin_ == now) {
+      // The first frame only begins.
+      readings_.push_nothing();
+      return;
+    }
     readings_.push(now, cloud_, true_cloud_);
     ++frame_;
     begin_frame(now);
@@ -150,8 +158,9 @@ class Lidar3d final : public MountedSensor<PointCloud> {
 
   /// Before the first pulse.
   void look_out(const Pose& X_WS_now) {
-    if (find_vehicles_) vehicles_ = &find_vehicles_();
-    const std::string reason = find_blindness(X_WS_now, *world_, *light_, vehicles_);
+    if (find_vehicles_) links_.emplace(find_vehicles_(), vehicle_);
+    const std::string reason =
+        find_blindness(X_WS_now, *world_, *light_, links_ ? &links_->scene() : nullptr);
     if (reason.empty()) return;
     throw ConfigError(fmt::format("the scanner {}: change its position_m", reason));
   }
@@ -196,8 +205,11 @@ class Lidar3d final : public MountedSensor<PointCloud> {
     const auto sub_rays = static_cast<std::size_t>(params_.sub_rays);
     rays_.resize(order_.size() * sub_rays);
     hits_.resize(rays_.size());
-    vehicle_hits_.resize(rays_.size());
-    if (vehicles_) vehicles_->update();  // to where they are at the slice's end
+    if (links_) {
+      own_rays_.resize(rays_.size());
+      link_hits_.resize(rays_.size());
+      links_->scene().update();  // to where they are at the slice's end
+    }
     for_chunks(order_.size(), std::max<std::size_t>(1, kRaysAtOnce / sub_rays),
                [this, &slice](std::size_t, std::size_t begin, std::size_t end) {
                  cast_pulses(slice, begin, end);
@@ -217,36 +229,29 @@ class Lidar3d final : public MountedSensor<PointCloud> {
       const Eigen::Vector3d p_W = last_X_WS_.p + share * (slice.X_WS_end.p - last_X_WS_.p);
       const Eigen::Matrix3d R_WS = R_last_WS + share * (R_end_WS - R_last_WS);
       write_rays(pulse, p_W, R_WS, &rays_[i * sub_rays]);
+      if (links_) write_rays(pulse, slice.X_WS_end.p, R_end_WS, &own_rays_[i * sub_rays]);
     }
     const std::size_t from = begin * sub_rays, count = (end - begin) * sub_rays;
     const auto rays = std::span(rays_).subspan(from, count);
     const auto hits = std::span(hits_).subspan(from, count);
     light_->cast_rays(rays, hits);
-    if (vehicles_) look_at_vehicles(rays, hits, std::span(vehicle_hits_).subspan(from, count));
-  }
-
-  /// Replaces hits by nearer ones on vehicles.
-  void look_at_vehicles(std::span<SceneRay> rays, std::span<std::optional<RayHit>> hits,
-                        std::span<std::optional<RayHit>> vehicle_hits) const {
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      if (hits[i]) rays[i].max_distance_m = hits[i]->distance_m;
-    }
-    vehicles_->cast_rays(rays, vehicle_hits);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      if (vehicle_hits[i]) hits[i] = vehicle_hits[i];
+    if (links_) {
+      links_->cast(rays, std::span(own_rays_).subspan(from, count), hits,
+                   std::span(link_hits_).subspan(from, count));
     }
   }
 
   /// Writes the middle of a beam, and rays on a circle about it, to where `ray` points.
   void write_rays(const LaserPulse& pulse, const Eigen::Vector3d& p_W, const Eigen::Matrix3d& R_WS,
                   SceneRay* ray) const {
-    const Eigen::Vector3d dir_W = (R_WS * pulse.dir_S).normalized();
-    *ray++ = {p_W, dir_W, params_.ranging.max_range_m};
+    const auto write = [&](const Eigen::Vector3d& dir_S) {
+      *ray++ = {p_W, (R_WS * dir_S).normalized(), params_.ranging.max_range_m};
+    };
+    write(pulse.dir_S);
     if (asides_.empty()) return;
-    const Eigen::Vector3d u_W = dir_W.unitOrthogonal(), v_W = dir_W.cross(u_W);
+    const Eigen::Vector3d u_S = pulse.dir_S.unitOrthogonal(), v_S = pulse.dir_S.cross(u_S);
     for (const Eigen::Vector2d& aside : asides_) {
-      *ray++ = {p_W, (dir_W + aside.x() * u_W + aside.y() * v_W) * aside_scale_,
-                params_.ranging.max_range_m};
+      write(pulse.dir_S + aside.x() * u_S + aside.y() * v_S);
     }
   }
 
@@ -254,12 +259,15 @@ class Lidar3d final : public MountedSensor<PointCloud> {
   void receive(const LaserPulse& pulse, std::size_t first) {
     // Always draw the same count for a pulse, so that later readings do not depend on what it
     // detects.
+    const bool is_dual = params_.returns == Returns::kDual;
     const double luck_of_strongest = random_.uniform(), luck_of_last = random_.uniform();
+    const double luck_of_second = is_dual ? random_.uniform() : 0.0;
     const double noise = random_.normal();
-    const double second_noise = params_.returns == Returns::kDual ? random_.normal() : noise;
+    const double second_noise = is_dual ? random_.normal() : noise;
     const bool is_lost = random_.uniform() < params_.ranging.beam_dropout_share;
     const int count = find_echoes(pulse, first);
     if (is_lost || count == 0) return;
+    if (readings_.is_in_outage(*begin_ + duration_from_s(pulse.time_s))) return;
     const Echo3d* const strongest =
         std::max_element(echoes_.begin(), echoes_.begin() + count,
                          [](const Echo3d& a, const Echo3d& b) { return a.power < b.power; });
@@ -270,11 +278,27 @@ class Lidar3d final : public MountedSensor<PointCloud> {
     const bool has_strongest = is_detected(*strongest, luck_of_strongest);
     // A last echo that is too weak leaves the strongest one as the last.
     if (!is_detected(*last, luck_of_last)) last = strongest;
-    const bool has_last = last == strongest ? has_strongest : true;
-    if (params_.returns != Returns::kLast && has_strongest) report(pulse, *strongest, noise, 1);
-    const bool reports_last = params_.returns == Returns::kLast ||
-                              (params_.returns == Returns::kDual && last != strongest);
-    if (reports_last && has_last) report(pulse, *last, second_noise, 2);
+    if (params_.returns == Returns::kLast) {
+      if (last != strongest || has_strongest) report(pulse, *last, noise, 2);
+      return;
+    }
+    if (has_strongest) report(pulse, *strongest, noise, 1);
+    if (!is_dual) return;
+    if (last != strongest) {
+      report(pulse, *last, second_noise, 2);
+    } else if (const Echo3d* second = find_second(strongest, count);
+               second != nullptr && is_detected(*second, luck_of_second)) {
+      report(pulse, *second, second_noise, 2);
+    }
+  }
+
+  /// Second strongest of the echoes before the last one. @returns nullptr if there is none
+  const Echo3d* find_second(const Echo3d* strongest, int count) const {
+    const Echo3d* second = nullptr;
+    for (const Echo3d* echo = echoes_.data(); echo < echoes_.data() + count - 1; ++echo) {
+      if (echo != strongest && (!second || echo->power > second->power)) second = echo;
+    }
+    return second;
   }
 
   void report(const LaserPulse& pulse, const Echo3d& echo, double noise, std::uint8_t number) {
@@ -331,10 +355,11 @@ class Lidar3d final : public MountedSensor<PointCloud> {
   }
 
   Lidar3dParams params_;
+  std::string vehicle_;  ///< own
   const WorldModel* world_;
   const RayScene* light_;
   std::function<VehicleScene&()> find_vehicles_;  ///< empty: there are none
-  VehicleScene* vehicles_ = nullptr;              ///< from the first sample on
+  std::optional<ScanLinks> links_;                ///< from the first sample on
   Duration period_, sampling_;
   std::unique_ptr<ScanPattern> pattern_;
   LaserOptics optics_;
@@ -346,9 +371,9 @@ class Lidar3d final : public MountedSensor<PointCloud> {
   Time last_;  ///< of the last sample
   Pose last_X_WS_;
   std::vector<Eigen::Vector2d> asides_;  ///< of the rays on the circle, per length
-  double aside_scale_ = 1.0;             ///< makes their directions unit vectors
   std::vector<SceneRay> rays_;           ///< of a slice
-  std::vector<std::optional<RayHit>> hits_, vehicle_hits_;
+  std::vector<SceneRay> own_rays_;       ///< the same from the pose at its end, for links_
+  std::vector<std::optional<RayHit>> hits_, link_hits_;
   std::vector<std::size_t> order_;      ///< in which the pulses of a slice are cast
   std::vector<std::size_t> first_ray_;  ///< of each pulse of a slice: the beam's middle
   std::array<Echo3d, kMaxSubRays3d> echoes_;

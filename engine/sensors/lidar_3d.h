@@ -12,7 +12,9 @@
 /// its power is the sum, its distance the mean weighted by power. So the beam looks through gaps
 /// between leaves: a strong echo of the canopy may be followed by a weak one of the post behind.
 /// Power and detection: laser_optics.h. `returns: dual` gives the strongest and the last echo that
-/// are detected, if they differ.
+/// are detected; if they are the same, the second strongest too (Velodyne, 63-9243, p. 57).
+///
+/// Own and other vehicles: scan_links.h.
 ///
 /// Reading: laser_optics.h. Intensity: 100 x the reflectance times the cosine of incidence
 /// that a whole beam would need for that power, as calibrated scanners report it. The truth signal

@@ -35,6 +35,43 @@ Bench make(const SensorValues& values, const PlainScene& scene, std::uint64_t se
   return Bench("lidar_3d", test::sensor_parameters("lidar_3d", values), scene, 10.0, seed);
 }
 
+/// A plate on the scanner's vehicle, 1 m ahead of it, and a wall 8 m along the way, which is
+/// another vehicle's.
+class PlateAndWall final : public VehicleScene {
+ public:
+  using Way = std::function<Pose()>;
+  explicit PlateAndWall(Way way) : way_(std::move(way)) {
+    links_.resize(2);
+    links_[0].name = "rover/plate", links_[1].name = "other/wall";
+    // Its front looks back at the scanner.
+    auto front = std::make_shared<TriangleMesh>();
+    front->vertices = {{0, 0, 0}, {0, 0, 1}, {0, 1, 0}};
+    front->triangles = {{0, 1, 2}};
+    links_[0].mesh = links_[1].mesh = front;
+    plate_.panels.push_back({{1, 0, 0}, {-1, 0, 0}, SurfaceClass::kVehicle, 0.2, 0.2});
+    wall_.panels.push_back({{8, 0, 0}, {-1, 0, 0}, SurfaceClass::kVehicle});
+  }
+
+  void update() override { X_WB_ = way_(); }
+  std::span<const MeshInstance> links() const override { return links_; }
+  int vehicle_of(int link) const override { return link; }
+  std::optional<RayHit> cast_ray(const Eigen::Vector3d& p_W, const Eigen::Vector3d& dir_W,
+                                 double max_distance_m, SurfaceMask mask) const override {
+    auto plate =
+        plate_.cast_ray(X_WB_.inverse() * p_W, X_WB_.q.conjugate() * dir_W, max_distance_m, mask);
+    auto wall = wall_.cast_ray(p_W, dir_W, max_distance_m, mask);
+    if (plate) plate->mesh = plate->triangle = 0, plate->normal_W = X_WB_.q * plate->normal_W;
+    if (wall) wall->mesh = 1, wall->triangle = 0;
+    return !wall || (plate && plate->distance_m < wall->distance_m) ? plate : wall;
+  }
+
+ private:
+  Way way_;
+  Pose X_WB_;
+  std::vector<MeshInstance> links_;
+  PlainScene plate_, wall_;
+};
+
 TEST(Lidar3d, EveryPointLiesOnTheWallsOfARoom) {
   // Walls x = +-8, y = +-5, ground z = -1 in S: closed form for each direction.
   PlainScene room{test::GroundPlane{}};
@@ -90,17 +127,18 @@ TEST(Lidar3d, AMovingScannerSkewsTheWallByItsTimes) {
 
 TEST(Lidar3d, FramesAreTheSameOnOneCoreAndOnAll) {
   PlainScene room{test::GroundPlane{}};
-  room.panels.push_back({{8.0, 0, 0}, {-1, 0, 0}, SurfaceClass::kObstacle});
+  room.panels.push_back({{9.0, 0, 0}, {-1, 0, 0}, SurfaceClass::kObstacle});
   const auto frame = [&] {
+    Pose now;
+    PlateAndWall vehicles([&] { return now; });
     // 14,400 rays a slice.
-    Bench bench = make(
-        ideal(
-            {{"slices", std::int64_t{10}}, {"divergence_deg", 0.2}, {"sub_rays", std::int64_t{5}}}),
-        room);
-    bench.move([](double time_s) {
-      Pose pose;
-      pose.p = {time_s, 0.0, 1.0};
-      return pose;
+    const SensorValues values = ideal(
+        {{"slices", std::int64_t{10}}, {"divergence_deg", 0.2}, {"sub_rays", std::int64_t{5}}});
+    Bench bench("lidar_3d", test::sensor_parameters("lidar_3d", values), room, 10.0, 1,
+                [&]() -> VehicleScene& { return vehicles; });
+    bench.move([&](double time_s) {
+      now.p = {time_s, 0.0, 1.0};
+      return now;
     });
     bench.step();
     const PointCloud& cloud = bench.step();
@@ -138,6 +176,105 @@ TEST(Lidar3d, ReportsTheStrongestAndTheLastEcho) {
   Bench last = make(beam("last"), scene);
   last.step();
   EXPECT_NEAR(last.step().x.at(0), 8.0, 1e-4);
+}
+
+TEST(Lidar3d, ReportsTheSecondStrongestEchoIfTheStrongestIsTheLast) {
+  // Manual of the VLP-16, 63-9243, p. 57. A twig before a wall covers the one ray to the left.
+  PlainScene scene;
+  scene.panels.push_back({{5, 0.253, 0}, {-1, 0, 0}, SurfaceClass::kCanopy, 0.25, 0.0001});
+  scene.panels.push_back({{8, 0, 0}, {-1, 0, 0}, SurfaceClass::kPost});
+  Bench dual = make(ideal({{"elevations_deg", std::vector<double>{0.0}},
+                           {"columns", std::int64_t{2}},
+                           {"field_of_view_deg", 10.0},
+                           {"divergence_deg", 0.2},
+                           {"sub_rays", std::int64_t{5}},
+                           {"returns", std::string("dual")}}),
+                    scene);
+  const PointCloud& both = dual.step();
+  ASSERT_EQ(both.x.size(), 2u);
+  // By power: 0.8 x 0.35 / 8^2 > 0.2 x 0.45 / 5^2.
+  EXPECT_NEAR(both.x[0], 8.0, 1e-4);
+  EXPECT_NEAR(both.x[1], 5.0, 1e-4);
+  EXPECT_EQ(both.return_number[0], 1);
+  EXPECT_EQ(both.return_number[1], 2);
+}
+
+TEST(Lidar3d, TheOwnVehicleStandsStillInItsClouds) {
+  const PlainScene scene;
+  const auto frame = [&](double speed_mps, double rate_radps) {
+    const auto way = [=](double time_s) {
+      Pose pose;
+      pose.p.x() = speed_mps * time_s;
+      pose.q = Eigen::AngleAxisd(rate_radps * time_s, Eigen::Vector3d::UnitZ());
+      return pose;
+    };
+    Pose now;
+    PlateAndWall vehicles([&] { return now; });
+    Bench bench("lidar_3d",
+                test::sensor_parameters("lidar_3d", ideal({{"slices", std::int64_t{1}}})), scene,
+                10.0, 1, [&]() -> VehicleScene& { return vehicles; });
+    bench.move([&](double time_s) { return now = way(time_s); });
+    const PointCloud& cloud = bench.step();
+    std::vector<std::tuple<float, float, float, float, float>> plate;
+    for (std::size_t i = 0; i < cloud.x.size(); ++i) {
+      const double time_s = bench.last().s() + cloud.time_s[i];
+      if (std::abs(cloud.x[i] - 1.0F) < 1e-5F) {
+        plate.emplace_back(cloud.x[i], cloud.y[i], cloud.z[i], cloud.intensity[i], cloud.time_s[i]);
+      } else {
+        EXPECT_NEAR((way(time_s) * point(cloud, i)).x(), 8.0, 2e-3);
+      }
+    }
+    // Pulses that pass the plate go on to the wall, if they fly towards it.
+    EXPECT_GT(cloud.x.size(), plate.size() + 10'000u);
+    return plate;
+  };
+  // Within 11.3 deg: 12 lasers and 113 columns.
+  const auto at_rest = frame(0.0, 0.0), on_the_way = frame(10.0, 1.0);
+  ASSERT_GT(at_rest.size(), 1000u);
+  ASSERT_EQ(on_the_way.size(), at_rest.size());
+  for (std::size_t i = 0; i < at_rest.size(); ++i) {
+    EXPECT_NEAR(std::get<1>(on_the_way[i]), std::get<1>(at_rest[i]), 1e-5);
+    EXPECT_NEAR(std::get<2>(on_the_way[i]), std::get<2>(at_rest[i]), 1e-5);
+    EXPECT_NEAR(std::get<3>(on_the_way[i]), std::get<3>(at_rest[i]), 1e-3);
+    EXPECT_EQ(std::get<4>(on_the_way[i]), std::get<4>(at_rest[i]));
+  }
+}
+
+TEST(Lidar3d, LosesThePulsesOfAnOutageAndNoOthers) {
+  PlainScene room;
+  for (const double side : {-1.0, 1.0}) {
+    room.panels.push_back({{4.0 * side, 0, 0}, {-side, 0, 0}, SurfaceClass::kObstacle});
+    room.panels.push_back({{0, 4.0 * side, 0}, {0, -side, 0}, SurfaceClass::kObstacle});
+  }
+  // From the middle of the second frame to a quarter of the fourth.
+  Bench bench("lidar_3d",
+              test::with_outage(test::sensor_parameters("lidar_3d", ideal()), 0.15, 0.325), room);
+  Bench whole = make(ideal(), room);
+  std::size_t lost = 0;
+  for (int frame = 0; frame < 6; ++frame) {
+    const PointCloud& all = whole.step();
+    const PointCloud& cloud = bench.step();
+    std::vector<float> expected;
+    for (std::size_t i = 0; i < all.x.size(); ++i) {
+      const double time_s = bench.last().s() + all.time_s[i];
+      if (time_s > 0.15 - 1e-6 && time_s < 0.325 - 1e-6) {
+        ++lost;
+      } else {
+        expected.push_back(all.x[i]);
+      }
+    }
+    EXPECT_EQ(cloud.x, expected) << frame;
+    EXPECT_EQ(bench.truth().x, whole.truth().x);
+  }
+  EXPECT_EQ(lost, 14'400u + 28'800u + 7'200u);
+}
+
+TEST(Lidar3d, ReportsNothingBeforeItsFirstFrame) {
+  const PlainScene room{test::GroundPlane{.z_m = -1.0}};
+  Bench bench = make(ideal(), room);
+  EXPECT_EQ(bench.reading().sequence(), 0u);
+  EXPECT_GT(bench.step().x.size(), 0u);
+  EXPECT_EQ(bench.reading().sequence(), 1u);
 }
 
 TEST(Lidar3d, IntensityIsTheReflectanceInPercent) {

@@ -15,20 +15,23 @@ class ScanBench {
  public:
   using Way = std::function<Pose(double time_s)>;
 
+  using Vehicles = std::function<VehicleScene&()>;
+
   ScanBench(const scenario::PartConfig& part, const SceneQuery& scene, std::uint64_t seed = 1)
       : ScanBench(part.type, part.parameters, scene, part.rate_Hz, seed) {}
   ScanBench(const std::string& type, const ParameterSet& parameters, const SceneQuery& scene,
-            double rate_Hz = 10.0, std::uint64_t seed = 1) {
+            double rate_Hz = 10.0, std::uint64_t seed = 1, Vehicles vehicles = {}) {
     SensorContext context = bench_.context(rate_Hz, seed);
     context.scene = &scene;
     context.light = [&scene]() -> const RayScene& { return scene; };
+    context.vehicles = std::move(vehicles);
     context.physics_step = duration_from_s(0.001);
     period_ = context.period;
     sensor_ = sensor_registry().make_sensor(type, parameters, context);
     bench_.connect(*sensor_);
     reading_ = bench_.bus.template subscribe<T>("rover/s", "test");
     truth_ = bench_.bus.template subscribe<T>("rover/s_truth", "test");
-    advance();  // the reading of time 0
+    advance();  // time 0
   }
 
   /// From now on. @param way  pose of the vehicle by time

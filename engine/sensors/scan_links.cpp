@@ -1,5 +1,7 @@
 #include "engine/sensors/scan_links.h"
 
+#include "engine/api/mesh.h"
+
 namespace vinerow::sensors {
 
 ScanLinks::ScanLinks(VehicleScene& scene, const std::string& vehicle) : scene_(scene) {

@@ -3,9 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+#include <memory>
 #include <thread>
 #include <tuple>
+#include <vector>
 
+#include "engine/api/mesh.h"
 #include "engine/api/messages/sensors.h"
 #include "engine/core/parallel.h"
 #include "engine/math/angles.h"

@@ -77,6 +77,15 @@ class Help(unittest.TestCase):
         self.assertEqual(vinerow("help", "run"), vinerow("run", "--help"))
         self.assertIn("did you mean 'run'", vinerow("help", "runn", status=2))
 
+    def test_a_wrong_option_is_one_line(self):
+        for words, sentence in ((["survey", "--picture-width", "1.5", "x.yaml"],
+                                 "Could not convert: --picture-width = 1.5; see 'vinerow survey --help'"),
+                                (["render", "x", "--width", "5"],
+                                 "--width: Value 5 not in range 16 to 8192; see 'vinerow render --help'"),
+                                (["run"], "scenario is required; see 'vinerow run --help'"),
+                                ([], "A subcommand is required; see 'vinerow --help'")):
+            self.assertEqual(vinerow(*words, status=2), f"vinerow: {sentence}\n")
+
     def test_examples_use_options_and_files_that_exist(self):
         for command in commands():
             examples = re.search(r"Examples:\n((?:  .*\n)+)", vinerow(command, "--help")).group(1)

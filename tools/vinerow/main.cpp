@@ -91,8 +91,11 @@ int main(int argc, char** argv) {
     if (words.size() > 1) check_command(app, words[1]);
     app.parse(static_cast<int>(words.size()), words.data());
   } catch (const CLI::ParseError& error) {
-    const int status = app.exit(error);
-    return status == 0 ? 0 : kBadInput;
+    if (error.get_exit_code() == 0) return app.exit(error);  // help, version
+    const std::vector<CLI::App*> given = app.get_subcommands();
+    fmt::print(stderr, "vinerow: {}; see 'vinerow {}--help'\n", error.what(),
+               given.empty() ? "" : given.front()->get_name() + " ");
+    return kBadInput;
   } catch (const vinerow::ConfigError& error) {
     fmt::print(stderr, "vinerow: {}\n", error.what());
     return kBadInput;

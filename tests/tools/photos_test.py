@@ -194,17 +194,29 @@ class BadInput(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             result = call("survey", *words, "--out", pathlib.Path(folder) / "out")
             self.assertEqual(result.returncode, 2, result.stderr)
-            self.assertRegex(result.stderr.strip().splitlines()[-1], sentence)
-            self.assertEqual(list(pathlib.Path(folder).rglob("*.jpg")), [])
+            self.assertRegex(result.stderr, rf"^vinerow: .*{sentence}.*\n$")
+            self.assertEqual(list(pathlib.Path(folder).iterdir()), [])
 
     def test_each_mistake_is_one_sentence(self):
         self.refuse("--log needs --pictures", "--log", "runs/x")
         self.refuse("--pictures needs the world of a scenario, or --log", "--polygon", "x.csv", "--pictures")
-        self.refuse("photographs of 8 x 5 pixels, must be from 16 to 8192 each way; change --picture-width", SCENARIO,
-                    "--pictures", "--picture-width", "8")
+        for width, size in (("8", "8 x 5"), ("0", "0 x 0"), ("-5", "-5 x -3"), ("15", "15 x 10"), ("100000", "100000 x 66667")):
+            self.refuse(f"photographs of {size} pixels, must be from 16 to 8192 each way; change --picture-width", SCENARIO,
+                        "--pictures", f"--picture-width={width}")
         self.refuse("--picture-width has no effect without --pictures", SCENARIO, "--picture-width", "640")
         self.refuse("--sensor has no effect without --log", SCENARIO, "--pictures", "--sensor", "trigger")
         self.refuse("neither a scenario nor --polygon", SCENARIO, "--log", "runs/x", "--pictures")
+
+    def test_a_folder_with_pictures_is_left_alone(self):
+        with tempfile.TemporaryDirectory() as folder:
+            kept = pathlib.Path(folder) / "pictures" / "mine.txt"
+            kept.parent.mkdir()
+            kept.write_text("mine")
+            result = call("survey", SCENARIO, "--pictures", "--out", folder)
+            self.assertEqual(result.returncode, 2)
+            self.assertRegex(result.stderr, r"^vinerow: '.*/pictures' exists and is not empty: remove it, or choose another "
+                             r"folder with --out\n$")
+            self.assertEqual([path for path in pathlib.Path(folder).rglob("*") if path.is_file()], [kept])
 
 
 if __name__ == "__main__":

@@ -10,6 +10,7 @@
 #include "engine/core/error.h"
 #include "engine/core/whole_file.h"
 #include "engine/io/files/output_folder.h"
+#include "engine/io/files/whole_folder.h"
 #include "engine/io/missions/qgc_plan.h"
 #include "engine/io/missions/qgc_wpl.h"
 #include "engine/math/angles.h"
@@ -127,11 +128,16 @@ controllers::SurveyPlan plan_and_write(const SurveyTask& task, const std::filesy
   return *plan;
 }
 
+SurveyPhotoOptions photo_options(const SurveyArguments& arguments,
+                                 const scenario::Scenario& scenario) {
+  return {arguments.picture_width, scenario.seed};
+}
+
 /// @returns exit status
 int take_pictures(const SurveyArguments& arguments, const PictureSet& pictures,
                   const scenario::Scenario& scenario, const Registry& registry,
                   const std::filesystem::path& out) {
-  const SurveyPhotoOptions options = {arguments.picture_width, scenario.seed};
+  const SurveyPhotoOptions options = photo_options(arguments, scenario);
   const SurveyCamera camera = photo_camera(pictures.camera, options);
   const std::unique_ptr<WorldModel> world = build_world(scenario, registry);
   physics::check_world(*world);
@@ -254,6 +260,11 @@ void add_survey_command(CLI::App& app, int& exit_status) {
       Simulation simulation(scenario, registry);
       const SurveyTask task = task_of_scenario(*arguments, scenario, simulation);
       const std::filesystem::path out = out_of(*arguments, task);
+      if (arguments->pictures) {
+        // Before anything is written.
+        photo_camera(task.request.camera, photo_options(*arguments, scenario));
+        io::check_new_folder(out / "pictures");
+      }
       const controllers::SurveyPlan plan = plan_and_write(task, out);
       if (arguments->pictures) {
         const PictureSet pictures =

@@ -10,20 +10,25 @@
 
 namespace vinerow::io {
 
-WholeFolder::WholeFolder(std::filesystem::path folder) : folder_(std::move(folder)) {
-  if (!folder_.has_filename()) folder_ = folder_.parent_path();  // "x/" is "x"
+void check_new_folder(const std::filesystem::path& folder) {
   std::error_code failed;
-  const bool exists = std::filesystem::exists(std::filesystem::symlink_status(folder_, failed));
-  if (exists && !std::filesystem::is_directory(folder_, failed)) {
+  const bool exists = std::filesystem::exists(std::filesystem::symlink_status(folder, failed));
+  if (exists && !std::filesystem::is_directory(folder, failed)) {
     throw ConfigError(fmt::format(
-        "'{}' is not a folder: remove it, or choose another folder with --out", folder_.string()));
+        "'{}' is not a folder: remove it, or choose another folder with --out", folder.string()));
   }
-  if (exists && !std::filesystem::is_empty(folder_, failed)) {
+  if (exists && !std::filesystem::is_empty(folder, failed)) {
     throw ConfigError(
         fmt::format("'{}' exists and is not empty: remove it, or choose another "
                     "folder with --out",
-                    folder_.string()));
+                    folder.string()));
   }
+}
+
+WholeFolder::WholeFolder(std::filesystem::path folder) : folder_(std::move(folder)) {
+  if (!folder_.has_filename()) folder_ = folder_.parent_path();  // "x/" is "x"
+  check_new_folder(folder_);
+  std::error_code failed;
   unfinished_ = folder_.string() + ".unfinished";
   std::filesystem::remove_all(unfinished_, failed);
   make_folder(unfinished_);

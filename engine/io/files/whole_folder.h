@@ -5,10 +5,13 @@
 
 namespace vinerow::io {
 
+/// @throws ConfigError if a file has that name, or the folder is not empty
+void check_new_folder(const std::filesystem::path& folder);
+
 class WholeFolder {
  public:
   /// Starts "<folder>.unfinished"; one that an earlier, killed program left is removed.
-  /// @throws ConfigError if a file has that name, the folder is not empty, or cannot be created
+  /// @throws ConfigError as check_new_folder(), or if the folder cannot be created
   explicit WholeFolder(std::filesystem::path folder);
   /// Removes it unless it was finished.
   ~WholeFolder();

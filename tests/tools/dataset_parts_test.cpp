@@ -262,9 +262,12 @@ TEST(Annotate, EndsOfRowsAreHiddenByWhatIsNearer) {
   // 8 m ahead: 2.5 px to the metre.
   EXPECT_NEAR(open.ends[1].u, 17.0, 1e-9);
   EXPECT_NEAR(open.ends[1].v, 17.0, 1e-9);
-  // From the ground at the picture's lower edge to the horizon, which is the canopy's top here.
+  // From where the ground leaves the picture below to the horizon, which is the canopy's top here
+  // and leaves it on the left.
   EXPECT_NEAR(open.top, 15.0, 1e-9);
-  EXPECT_LE(open.top + open.height, 30.0);
+  EXPECT_NEAR(open.top + open.height, 30.0, 1e-6);
+  EXPECT_NEAR(open.left, 0.0, 1e-6);
+  EXPECT_NEAR(open.left + open.width, 17.5, 1e-9);
   scene.paint(2, 0, 40, 0, 30, 3000);
   EXPECT_EQ(rows()[0].ends[1].seen, Seen::kHidden);
   scene.paint(1, 0, 40, 0, 30, 7950);

@@ -102,6 +102,52 @@ void add_shares(const PictureView& view, const std::vector<Vector3d>& vertices_W
   a.visible_share = inside > 0 ? static_cast<double>(seen) / inside : 0.0;
 }
 
+/// Extends a box by what the picture shows of a leg between two points of W.
+void extend_by_leg(const PictureView& view, const Vector3d& from_W, const Vector3d& to_W,
+                   Eigen::AlignedBox2d& box) {
+  const auto pixel = [&](double share) {
+    return view.pixel(view.in_camera(from_W + share * (to_W - from_W)));
+  };
+  const std::optional<Vector2d> from = pixel(0.0), to = pixel(1.0);
+  for (const auto& uv : {from, to}) {
+    if (uv) box.extend(*uv + Vector2d(0.5, 0.5));
+  }
+  if (from.has_value() == to.has_value()) return;
+  // Where it leaves the picture, to far less than a pixel.
+  double in = from ? 0.0 : 1.0, out = 1.0 - in;
+  constexpr int kHalvings = 40;
+  for (int k = 0; k < kHalvings; ++k) {
+    const double middle = 0.5 * (in + out);
+    (pixel(middle) ? in : out) = middle;
+  }
+  box.extend(*pixel(in) + Vector2d(0.5, 0.5));
+}
+
+/// Around what the picture shows of a row's face, from the ground to the canopy's top.
+Eigen::AlignedBox2d row_box(const PictureView& view, const PlantRow& row) {
+  constexpr double kStep_m = 0.5;
+  constexpr int kLevels = 4;
+  Eigen::AlignedBox2d box;
+  const auto place = [&](std::size_t k, double share, int level) -> Vector3d {
+    const Vector3d line_W = row.line_W[k] + share * (row.line_W[k + 1] - row.line_W[k]);
+    return line_W + row.canopy_top_m * level / kLevels * Vector3d::UnitZ();
+  };
+  for (std::size_t k = 0; k + 1 < row.line_W.size(); ++k) {
+    const double length_m = (row.line_W[k + 1] - row.line_W[k]).norm();
+    const int steps = std::max(1, static_cast<int>(std::ceil(length_m / kStep_m)));
+    for (int i = 0; i <= steps; ++i) {
+      const double here = static_cast<double>(i) / steps, next = static_cast<double>(i + 1) / steps;
+      for (int level = 0; level <= kLevels; ++level) {
+        if (level < kLevels) {
+          extend_by_leg(view, place(k, here, level), place(k, here, level + 1), box);
+        }
+        if (i < steps) extend_by_leg(view, place(k, here, level), place(k, next, level), box);
+      }
+    }
+  }
+  return box;
+}
+
 }  // namespace
 
 std::vector<Annotation> annotate(const Layers& layers, const Lens& lens, const Pose& X_WC,
@@ -166,20 +212,7 @@ std::vector<RowAnnotation> annotate_rows(const Layers& layers, const Lens& lens,
       a.ends[k] = {uv->x(), uv->y(), view.is_open(*uv, p_C.z()) ? Seen::kSeen : Seen::kHidden};
     }
     if (a.ends[0].seen == Seen::kOutside && a.ends[1].seen == Seen::kOutside) continue;
-    // The box around the row's line, from the ground to the canopy's top.
-    Eigen::AlignedBox2d box;
-    constexpr double kStep_m = 0.5;
-    for (std::size_t k = 0; k + 1 < row.line_W.size(); ++k) {
-      const Vector3d leg = row.line_W[k + 1] - row.line_W[k];
-      const int steps = std::max(1, static_cast<int>(std::ceil(leg.norm() / kStep_m)));
-      for (int i = 0; i <= steps; ++i) {
-        const Vector3d p_W = row.line_W[k] + static_cast<double>(i) / steps * leg;
-        for (const double z : {0.0, row.canopy_top_m}) {
-          const auto uv = view.pixel(view.in_camera(p_W + z * Vector3d::UnitZ()));
-          if (uv) box.extend(*uv + Vector2d(0.5, 0.5));
-        }
-      }
-    }
+    const Eigen::AlignedBox2d box = row_box(view, row);
     a.left = box.min().x();
     a.top = box.min().y();
     a.width = box.sizes().x();

@@ -154,6 +154,17 @@ void check_names(const io::YamlNode& dataset, const char* key,
   }
 }
 
+/// Something is left for training.
+void check_shares(const io::YamlNode& dataset, const DatasetConfig& config) {
+  const double both = config.validation_share + config.test_share;
+  if (both < 1.0) return;
+  const io::YamlNode* node = dataset.find("validation_share");
+  if (!node) node = dataset.find("test_share");
+  io::fail_at(node->mark, fmt::format("dataset.validation_share + dataset.test_share = {:g}, must "
+                                      "be < 1: the rest is for training",
+                                      both));
+}
+
 }  // namespace
 
 Study load_study(const std::filesystem::path& named) {
@@ -196,6 +207,7 @@ Study load_study(const std::filesystem::path& named) {
     study.dataset_mark = dataset->mark;
     check_names(*dataset, "formats", study.dataset->formats);
     check_names(*dataset, "classes", study.dataset->classes);
+    check_shares(*dataset, *study.dataset);
   }
   if (const io::YamlNode* node = root.find("set")) study.set = read_set(*node);
   if (const io::YamlNode* node = root.find("factors")) study.factors = read_factors(*node);

@@ -1,7 +1,5 @@
 #include "engine/scenario/study_keys.h"
 
-#include <fmt/format.h>
-
 #include "engine/api/parameter_table.h"
 
 namespace vinerow::scenario {
@@ -60,12 +58,7 @@ const ParameterTable<DatasetConfig>& dataset_table() {
               "split_by", &P::split_by,
               {{"cell", SplitBy::kCell}, {"seed", SplitBy::kSeed}, {"setting", SplitBy::kSetting}},
               "pictures of one cell, seed or setting are never divided")
-          .text("licence", &P::licence, "of the data set, for its card")
-          .rule([](const P& p) -> std::string {
-            if (p.validation_share + p.test_share < 1.0) return "";
-            return fmt::format("validation_share + test_share = {:g}, must be < 1",
-                               p.validation_share + p.test_share);
-          });
+          .text("licence", &P::licence, "of the data set, for its card");
   return table;
 }
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "engine/api/world_model.h"
+#include "engine/core/error.h"
 #include "tools/dataset/annotate.h"
 #include "tools/dataset/mask.h"
 #include "tools/dataset/splits.h"
@@ -84,13 +85,40 @@ TEST(Splits, GroupsStayTogether) {
   EXPECT_EQ(std::set<Split>(parts.begin(), parts.end()).size(), 3u);
 }
 
-TEST(Splits, TrainingKeepsOneGroup) {
+TEST(Splits, EachPartKeepsOneGroup) {
   scenario::Study study = study_of_thirty();
   study.factors.clear();
-  study.seeds = {4};
+  study.seeds = {4, 5, 6};
   scenario::DatasetConfig config;
-  config.validation_share = 0.9;
+  for (const auto& [validation, test] :
+       {std::pair{0.9, 0.05}, {0.05, 0.9}, {0.45, 0.45}, {0.01, 0.01}}) {
+    config.validation_share = validation;
+    config.test_share = test;
+    const std::vector<Split> parts = make_splits(study::Design(study), config);
+    EXPECT_EQ(std::set<Split>(parts.begin(), parts.end()).size(), 3u) << validation << " " << test;
+  }
+  study.seeds = {4};
+  config.validation_share = config.test_share = 0.0;
   EXPECT_EQ(make_splits(study::Design(study), config), std::vector<Split>{Split::kTrain});
+}
+
+TEST(Splits, TooFewGroupsAreRefused) {
+  scenario::Study study = study_of_thirty();
+  study.factors.clear();
+  study.seeds = {4, 5};
+  study.dataset_mark = {"study.yaml", 7};
+  scenario::DatasetConfig config;
+  config.split_by = scenario::SplitBy::kSeed;
+  config.test_share = 0.1;
+  try {
+    make_splits(study::Design(study), config);
+    FAIL() << "two seeds for three parts";
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(),
+                 "study.yaml:7: dataset.validation_share = 0.2 and test_share = 0.1 need at least "
+                 "3 seeds, but the study has 2; add some, choose another split_by, or set a share "
+                 "to 0");
+  }
 }
 
 /// 40 x 30 pixels, 20 px per unit, at the origin looking along +x.

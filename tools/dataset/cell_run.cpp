@@ -164,6 +164,7 @@ CellPictures run_cell(const DatasetTask& task, std::size_t cell, Split split,
   CellPictures result;
   result.report.cell = cell;
   result.report.split = split;
+  result.report.plant_seed = task.plant_seed(cell);
   try {
     CellRun run(task, cell, split, shelf, out);
     run.run(counter, result);

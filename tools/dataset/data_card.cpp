@@ -1,9 +1,17 @@
 #include "tools/dataset/data_card.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <vinerow/version.h>
 
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <set>
+
 #include "engine/api/surface.h"
+#include "engine/io/files/yaml.h"
+#include "tools/dataset/splits.h"
 #include "tools/export/markdown.h"
 
 namespace vinerow::dataset {
@@ -82,14 +90,124 @@ std::string files(const scenario::DatasetConfig& config) {
                             config.min_pixels);
 }
 
+/// "320 x 240, 160 x 240"
+std::string sizes(const DatasetReport& report) {
+  std::string text;
+  for (const auto& [width, height] : report.sizes) {
+    text += fmt::format("{}{} x {}", text.empty() ? "" : ", ", width, height);
+  }
+  return text;
+}
+
+template <class Numbers>
+std::string listed(const Numbers& numbers) {
+  return fmt::format("{}", fmt::join(numbers, ", "));
+}
+
+/// The plants of the runs that gave pictures, by part; nullopt: of a world without plant_seed.
+using PlantSeeds = std::set<std::optional<std::uint64_t>>;
+std::array<PlantSeeds, 3> plants_of_parts(const DatasetReport& report) {
+  std::array<PlantSeeds, 3> plants;
+  for (const CellReport& cell : report.cells) {
+    if (cell.pictures == 0) continue;
+    plants[static_cast<std::size_t>(cell.split)].insert(cell.plant_seed);
+  }
+  return plants;
+}
+
+/// What the parts have in common.
+std::string shared(const DatasetReport& report) {
+  const std::array<PlantSeeds, 3> plants = plants_of_parts(report);
+  std::string text;
+  int parts = 0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    parts += plants[a].empty() ? 0 : 1;
+    for (std::size_t b = a + 1; b < 3; ++b) {
+      PlantSeeds both;
+      std::set_intersection(plants[a].begin(), plants[a].end(), plants[b].begin(), plants[b].end(),
+                            std::inserter(both, both.end()));
+      if (both.empty()) continue;
+      const bool has_seed = both.begin()->has_value();
+      std::vector<std::uint64_t> seeds;
+      for (const auto& seed : both) {
+        if (seed) seeds.push_back(*seed);
+      }
+      text += fmt::format(" {} and {} show the same {}: scores of {} say nothing about others.",
+                          kSplitNames[a], kSplitNames[b],
+                          has_seed ? fmt::format("plants (`world.plant_seed` {})", listed(seeds))
+                                   : std::string("world"),
+                          kSplitNames[b]);
+    }
+  }
+  return text.empty() && parts > 1 ? " No two parts show the same plants." : text;
+}
+
+/// A value as the study has it, in one line.
+void to_flow(io::YamlNode& node) {
+  node.flow = true;
+  for (io::YamlNode& item : node.items) to_flow(item);
+  for (io::YamlEntry& entry : node.entries) to_flow(entry.value);
+}
+
+std::string set_by(const scenario::FactorLevel& level) {
+  if (level.values.empty()) return "nothing";
+  io::YamlNode all = io::yaml_mapping();
+  for (const scenario::OverrideValue& value : level.values) all.put(value.path, value.value);
+  to_flow(all);
+  std::string text = io::to_yaml(all);
+  while (text.ends_with('\n')) text.pop_back();
+  return markdown_code(text);
+}
+
+/// The key of a factor that sets one to plain values; "" for alternatives.
+std::string only_key(const scenario::Factor& factor) {
+  std::string key;
+  for (const scenario::FactorLevel& level : factor.levels) {
+    if (level.values.size() != 1 || level.values[0].value.text != level.texts[0]) return "";
+    if (!key.empty() && key != level.values[0].path) return "";
+    key = level.values[0].path;
+  }
+  return key;
+}
+
+/// Rows of a factor: one for each of its keys, or for each alternative.
+std::string factor_rows(const scenario::Factor& factor) {
+  constexpr std::size_t kShown = 12;
+  const std::size_t shown = std::min(factor.levels.size(), kShown);
+  const std::string more =
+      shown < factor.levels.size() ? fmt::format("... ({} levels)", factor.levels.size()) : "";
+  const std::string name = markdown_text(factor.name);
+  std::string text;
+  std::vector<std::string> keys = factor.columns;
+  if (keys == std::vector<std::string>{factor.name}) {
+    keys = {only_key(factor)};
+    if (keys[0].empty()) {
+      for (std::size_t k = 0; k < shown; ++k) {
+        text += fmt::format("| {} | {} | {} |\n", name, markdown_text(factor.levels[k].texts[0]),
+                            set_by(factor.levels[k]));
+      }
+      return more.empty() ? text : text + fmt::format("| {} | {} | |\n", name, more);
+    }
+  }
+  for (std::size_t column = 0; column < keys.size(); ++column) {
+    std::string levels;
+    for (std::size_t k = 0; k < shown; ++k) {
+      levels += (k == 0 ? "" : ", ") + factor.levels[k].texts[column];
+    }
+    if (!more.empty()) levels += ", " + more;
+    text +=
+        fmt::format("| {} | {} | {} |\n", name, markdown_code(keys[column]), markdown_text(levels));
+  }
+  return text;
+}
+
 std::string origin(const study::OpenStudy& open, const DatasetReport& report) {
   const scenario::Study& study = open.study;
   std::string text = fmt::format(
-      "Drawn by Vinerow {} from the scenario {}, camera {}, {} x {} pixels, in {} runs: {} "
-      "settings "
-      "x {} seeds. The same study, scenario and program give the same bytes.\n\n",
+      "Drawn by Vinerow {} from the scenario {}, camera {}, {} pixels, in {} runs: {} "
+      "settings x {} seeds. The same study, scenario and program give the same bytes.\n\n",
       VINEROW_VERSION_STRING, markdown_code(study.scenario.filename().string()),
-      markdown_code(study.dataset->camera), report.width, report.height, report.cells.size(),
+      markdown_code(study.dataset->camera), sizes(report), report.cells.size(),
       open.design.settings(), open.design.seeds());
   text += fmt::format(
       "- command: {}\n- digest of the scenario with its files: `{}`\n- digest of the program: "
@@ -97,26 +215,16 @@ std::string origin(const study::OpenStudy& open, const DatasetReport& report) {
       "- seeds: ",
       markdown_code("vinerow dataset " + study.file.filename().string()), open.identity.scenario(),
       open.identity.program());
-  for (std::size_t i = 0; i < study.seeds.size(); ++i) {
-    text += fmt::format("{}{}", i == 0 ? "" : ", ", study.seeds[i]);
+  text += listed(study.seeds) + "\n";
+  std::set<std::uint64_t> plants;
+  for (const CellReport& cell : report.cells) {
+    if (cell.plant_seed) plants.insert(*cell.plant_seed);
   }
-  text += "\n\n";
+  if (!plants.empty()) text += fmt::format("- seeds of the plants: {}\n", listed(plants));
+  text += "\n";
   if (!study.factors.empty()) {
-    text += "| factor | key | levels |\n|---|---|---|\n";
-    for (const scenario::Factor& factor : study.factors) {
-      for (std::size_t column = 0; column < factor.columns.size(); ++column) {
-        std::string levels;
-        constexpr std::size_t kShown = 12;
-        for (std::size_t k = 0; k < factor.levels.size() && k < kShown; ++k) {
-          levels += (k == 0 ? "" : ", ") + factor.levels[k].texts[column];
-        }
-        if (factor.levels.size() > kShown) {
-          levels += fmt::format(", ... ({} levels)", factor.levels.size());
-        }
-        text += fmt::format("| {} | {} | {} |\n", markdown_text(factor.name),
-                            markdown_code(factor.columns[column]), markdown_text(levels));
-      }
-    }
+    text += "| factor | key, or alternative | values |\n|---|---|---|\n";
+    for (const scenario::Factor& factor : study.factors) text += factor_rows(factor);
     text += "\n";
   }
   std::string failures;
@@ -141,10 +249,9 @@ std::string data_card(const study::OpenStudy& open, const DatasetReport& report)
   if (!study.description.empty()) text += markdown_text(study.description) + "\n\n";
   text += "## Contents\n\n" + counts(config, report) + files(config);
   text += "## Origin\n\n" + origin(open, report);
-  const char* const by = config.split_by == scenario::SplitBy::kCell   ? "run"
-                         : config.split_by == scenario::SplitBy::kSeed ? "seed"
-                                                                       : "setting";
-  text += fmt::format("Pictures of one {} are all in the same part.\n\n", by);
+  text += fmt::format("Pictures of one {} are all in the same part.{}\n\n",
+                      group_name(config.split_by), shared(report));
+  for (const std::string& note : report.notes) text += markdown_text(note) + ".\n\n";
   text += "## Licence\n\n";
   text += config.licence.empty() ? std::string("Not stated by the study.")
                                  : markdown_text(config.licence);
@@ -153,7 +260,7 @@ std::string data_card(const study::OpenStudy& open, const DatasetReport& report)
       "licences.\n\n"
       "## Limits\n\n"
       "The pictures are drawn, not taken. Light that goes from leaf to leaf is not followed, and "
-      "the sky is clear. Labels are exact, which those of people are not: test on real "
+      "clouds have no shapes. Labels are exact, which those of people are not: test on real "
       "pictures.\n";
   return text;
 }

@@ -12,11 +12,20 @@
 namespace vinerow::dataset {
 namespace {
 
-io::YamlNode scalar(std::string text) {
-  io::YamlNode node;
-  node.kind = io::YamlKind::kScalar;
-  node.text = std::move(text);
-  return node;
+/// More pictures than this are a mistake; their numbers and counts are ints.
+constexpr double kMostPictures = 1e9;
+
+/// Whether the scenario or the study gives a value of the world's plant_seed in a cell.
+bool gives_plant_seed(const study::OpenStudy& open, std::size_t cell) {
+  const auto has = [](const io::YamlNode* world) {
+    return world != nullptr && world->is_mapping() && world->find("plant_seed") != nullptr;
+  };
+  bool given = has(open.source.tree().find("world"));
+  for (const scenario::OverrideValue& value : open.design.overrides(cell).values) {
+    if (value.path == "world") given = has(&value.value);
+    if (value.path == "world.plant_seed") given = !value.value.is_null();
+  }
+  return given;
 }
 
 }  // namespace
@@ -32,6 +41,13 @@ DatasetTask::DatasetTask(const study::OpenStudy& open) : open_(open) {
   vehicle_ = config.camera.substr(0, slash);
   sensor_ = slash == std::string::npos ? "" : config.camera.substr(slash + 1);
   for (std::size_t cell = 0; cell < open.design.cells(); ++cell) check_cell(cell);
+  const double all = static_cast<double>(open.design.cells()) * most_pictures_;
+  if (all > kMostPictures) {
+    fail(
+        fmt::format("pictures: {} runs of up to {} pictures, must make at most {:.0f} together; "
+                    "set dataset.pictures or a longer dataset.every_s",
+                    open.design.cells(), most_pictures_, kMostPictures));
+  }
 }
 
 bool DatasetTask::writes(const char* format) const {
@@ -41,15 +57,25 @@ bool DatasetTask::writes(const char* format) const {
 
 scenario::Scenario DatasetTask::scenario(std::size_t cell) const {
   scenario::Overrides overrides = open_.design.overrides(cell);
+  const auto set = [&](const std::string& path, const std::string& text) {
+    io::YamlNode value;
+    value.kind = io::YamlKind::kScalar;
+    value.text = text;
+    value.mark = open_.study.dataset_mark;
+    overrides.values.push_back({path, std::move(value)});
+  };
   const std::string key = fmt::format("{}.sensors.{}.", vehicle_, sensor_);
-  for (const char* layer : kLayerNames) overrides.values.push_back({key + layer, scalar("true")});
+  for (const char* layer : kLayerNames) set(key + layer, "true");
   // Every picture, when it is taken.
-  overrides.values.push_back({key + "delay_s", scalar("0")});
-  overrides.values.push_back({key + "dropout_share", scalar("0")});
-  if (config().every_s) {
-    overrides.values.push_back(
-        {key + "rate_Hz", scalar(fmt::format("{}", 1.0 / *config().every_s))});
+  set(key + "delay_s", "0");
+  set(key + "dropout_share", "0");
+  // Labels are exact, and so is the depth that key points are judged by.
+  for (const char* error : {"depth_disparity_std_px", "depth_dropout_share", "depth_min_m"}) {
+    set(key + error, "0");
   }
+  set(key + "depth_max_m", "65.535");
+  if (config().every_s) set(key + "rate_Hz", fmt::format("{}", 1.0 / *config().every_s));
+  if (plant_seed(cell)) set("world.plant_seed", fmt::format("{}", *plant_seed(cell)));
   return open_.source.load(open_.registry, overrides);
 }
 
@@ -87,15 +113,42 @@ void DatasetTask::check_cell(std::size_t cell) {
                     config().camera));
   }
   if (config().every_s) {
-    const double steps = *config().every_s / plain.physics_step.s();
-    if (std::abs(steps - std::round(steps)) > 1e-6 || std::round(steps) < 1.0) {
-      fail(fmt::format("every_s = {:g} s, must be a multiple of the physics step of {:g} s",
+    const Duration period = period_of_rate(1.0 / *config().every_s);
+    if (period.ns <= 0 || period.ns % plain.physics_step.ns != 0) {
+      fail(fmt::format("every_s = {} s, must be a multiple of the physics step of {} s",
                        *config().every_s, plain.physics_step.s()));
     }
   }
-  const double period_s = config().every_s.value_or(1.0 / found->part.rate_Hz);
-  const int all = static_cast<int>(std::floor(plain.duration_s / period_s + 1e-9)) + 1;
-  most_pictures_ = std::max(most_pictures_, std::min(all, config().pictures.value_or(all)));
+  add_plant_seed(cell, plain.world);
+  const double rate_Hz = config().every_s ? 1.0 / *config().every_s : found->part.rate_Hz;
+  const double pictures = pictures_of(plain, rate_Hz);
+  if (pictures > kMostPictures) {
+    fail(
+        fmt::format("every_s makes {:.3g} pictures in the {:g} s of a run, must make at most "
+                    "{:.0f}; set dataset.pictures or a longer dataset.every_s",
+                    pictures, plain.duration_s, kMostPictures));
+  }
+  most_pictures_ = std::max(most_pictures_, static_cast<int>(pictures));
+}
+
+/// Most pictures of a cell's run; a double, since long runs have more than an int holds.
+double DatasetTask::pictures_of(const scenario::Scenario& plain, double rate_Hz) const {
+  const double all = std::floor(plain.duration_s * rate_Hz + 1e-9) + 1.0;
+  return config().pictures ? std::min(all, static_cast<double>(*config().pictures)) : all;
+}
+
+void DatasetTask::add_plant_seed(std::size_t cell, const scenario::PartConfig& world) {
+  const auto& specs = world.parameters.specs();
+  const bool has_plants = std::any_of(specs.begin(), specs.end(), [](const ParameterSpec& spec) {
+    return spec.name == "plant_seed" && spec.kind == ParameterKind::kInteger;
+  });
+  std::optional<std::uint64_t> seed;
+  if (has_plants) {
+    seed = gives_plant_seed(open_, cell)
+               ? static_cast<std::uint64_t>(world.parameters.integer("plant_seed"))
+               : open_.design.seed_of(cell);
+  }
+  plant_seeds_.push_back(seed);
 }
 
 }  // namespace vinerow::dataset

@@ -3,7 +3,10 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/scenario/study.h"
 #include "tools/study/open_study.h"
@@ -27,16 +30,23 @@ class DatasetTask {
   const std::string& sensor() const { return sensor_; }
   /// Pictures of the longest run: the numbers of each cell's pictures start at its multiple.
   int most_pictures() const { return most_pictures_; }
-  /// Of a cell, whose camera writes all layers at `every_s`, without delay and dropouts.
+  /// Of a cell, whose camera writes all layers at `every_s`, without delay and dropouts, and depth
+  /// without its errors. The plants are those of plant_seed().
   scenario::Scenario scenario(std::size_t cell) const;
+  /// World's `plant_seed` of a cell: the study's or the scenario's, else the cell's seed, so that
+  /// each seed shows other plants. @returns nullopt for a world without it
+  std::optional<std::uint64_t> plant_seed(std::size_t cell) const { return plant_seeds_[cell]; }
 
  private:
   [[noreturn]] void fail(const std::string& sentence) const;
   void check_cell(std::size_t cell);
+  void add_plant_seed(std::size_t cell, const scenario::PartConfig& world);
+  double pictures_of(const scenario::Scenario& plain, double rate_Hz) const;
 
   const study::OpenStudy& open_;
   std::string vehicle_, sensor_;
   int most_pictures_ = 0;
+  std::vector<std::optional<std::uint64_t>> plant_seeds_;  ///< by cell
 };
 
 }  // namespace vinerow::dataset

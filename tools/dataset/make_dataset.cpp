@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
 #include "engine/core/whole_file.h"
@@ -48,22 +51,43 @@ std::string pictures_csv(const study::OpenStudy& open, const std::vector<CellPic
   return text;
 }
 
+/// Parts whose share of the pictures is far from the wanted one.
+std::vector<std::string> share_notes(const scenario::DatasetConfig& config,
+                                     const DatasetReport& report) {
+  constexpr double kMuch = 0.05;
+  double all = 0.0;
+  for (const Split part : {Split::kTrain, Split::kValidation, Split::kTest}) {
+    all += report.pictures(part);
+  }
+  std::vector<std::string> notes;
+  if (all == 0.0) return notes;
+  const auto compare = [&](Split part, const char* key, double share) {
+    const double real = report.pictures(part) / all;
+    if (std::abs(real - share) <= kMuch) return;
+    notes.push_back(fmt::format(
+        "{} has {:.0f} % of the pictures, not the {:.0f} % of {}: the pictures of a {} "
+        "stay together",
+        to_string(part), 100.0 * real, 100.0 * share, key, group_name(config.split_by)));
+  };
+  compare(Split::kValidation, "validation_share", config.validation_share);
+  compare(Split::kTest, "test_share", config.test_share);
+  return notes;
+}
+
 DatasetReport report_of(const DatasetTask& task, const std::vector<CellPictures>& cells) {
   DatasetReport report;
   for (const CellPictures& cell : cells) {
     report.cells.push_back(cell.report);
     for (const PictureRecord& record : cell.records) {
       const auto part = static_cast<std::size_t>(record.split);
-      if (report.width == 0) {
-        report.width = static_cast<int>(record.camera.width);
-        report.height = static_cast<int>(record.camera.height);
-      }
+      report.sizes.insert({record.camera.width, record.camera.height});
       report.rows[part] += static_cast<int>(record.rows.size());
       for (const Annotation& thing : record.things) {
         ++report.things[part][task.config().classes[static_cast<std::size_t>(thing.class_index)]];
       }
     }
   }
+  report.notes = share_notes(task.config(), report);
   return report;
 }
 
@@ -96,6 +120,25 @@ void write_formats(const DatasetTask& task, const std::vector<CellPictures>& cel
   }
 }
 
+/// Cells in running order: those that share a world are consecutive, so that it is built once.
+std::vector<std::size_t> running_order(const DatasetTask& task) {
+  const study::Design& design = task.open().design;
+  const bool seeds_have_own_plants =
+      design.seeds() > 1 && task.plant_seed(0) != task.plant_seed(design.cell_of(0, 1));
+  std::vector<std::size_t> cells;
+  for (const std::size_t setting : design.settings_in_running_order()) {
+    for (std::size_t seed = 0; seed < design.seeds(); ++seed) {
+      cells.push_back(design.cell_of(setting, seed));
+    }
+  }
+  if (seeds_have_own_plants) {
+    std::stable_sort(cells.begin(), cells.end(), [&](std::size_t a, std::size_t b) {
+      return a % design.seeds() < b % design.seeds();
+    });
+  }
+  return cells;
+}
+
 }  // namespace
 
 std::string PictureRecord::name() const {
@@ -112,19 +155,21 @@ std::optional<DatasetReport> make_dataset(const study::OpenStudy& open,
                                           const std::filesystem::path& out,
                                           const std::function<bool(int done, int most)>& drawn) {
   const DatasetTask task(open);
-  io::WholeFolder folder(out);
   const std::vector<Split> splits = make_splits(open.design, task.config());
+  io::WholeFolder folder(out);
   const std::size_t count = open.design.cells();
   std::vector<CellPictures> cells(count);
   Counter counter(static_cast<int>(count) * task.most_pictures(), drawn);
   const auto shelf = std::make_shared<RunShelf>(2);
-  for_chunks(count, 1, [&](std::size_t cell, std::size_t, std::size_t) {
+  const std::vector<std::size_t> order = running_order(task);
+  for_chunks(count, 1, [&](std::size_t place, std::size_t, std::size_t) {
     if (!counter.goes_on()) return;
+    const std::size_t cell = order[place];
     cells[cell] = run_cell(task, cell, splits[cell], shelf, folder.path(), counter);
   });
   if (!counter.goes_on()) return std::nullopt;
   DatasetReport report = report_of(task, cells);
-  if (report.width == 0) {
+  if (report.sizes.empty()) {
     throw ConfigError(
         fmt::format("{}: no cell gave a picture; cell 0: {}", open.study.file.string(),
                     report.cells.front().failure.empty() ? "ended before the first"

@@ -1,11 +1,14 @@
 #pragma once
 /// A data set from a study: its cells are run, their cameras' pictures labelled and written.
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tools/dataset/picture_record.h"
@@ -17,13 +20,15 @@ namespace vinerow::dataset {
 struct CellReport {
   std::size_t cell = 0;
   Split split = Split::kTrain;
+  std::optional<std::uint64_t> plant_seed;  ///< of DatasetTask
   int pictures = 0;
   std::string failure;  ///< one sentence; "": ran to its end
 };
 
 struct DatasetReport {
   std::vector<CellReport> cells;
-  int width = 0, height = 0;             ///< of the first picture
+  std::set<std::pair<std::uint32_t, std::uint32_t>> sizes;  ///< width and height of its pictures
+  std::vector<std::string> notes;        ///< parts that are much larger or smaller than their share
   std::map<std::string, int> things[3];  ///< number by class, by Split
   int rows[3] = {0, 0, 0};               ///< rows with an end in the picture
   int pictures(Split split) const;

@@ -8,10 +8,13 @@
 
 namespace vinerow::dataset {
 
+/// What a group of cells is called: "run", "seed" or "setting".
+const char* group_name(scenario::SplitBy by);
+
 /// Part of each cell. Groups of cells (DatasetConfig::split_by) stay together, so that no picture
 /// is tested whose neighbour was trained on. Which groups go where is drawn from a stream of its
-/// own: the same in every run. A part with a share gets at least one group while training keeps
-/// one.
+/// own: the same in every run. A part with a share gets at least one group, and so does training.
+/// @throws ConfigError if there are too few groups for that
 std::vector<Split> make_splits(const study::Design& design, const scenario::DatasetConfig& config);
 
 }  // namespace vinerow::dataset

@@ -28,6 +28,7 @@ void print_dataset(const dataset::DatasetReport& report, const std::filesystem::
     words += fmt::format("{}{} {}", words.empty() ? "" : ", ", name, count);
   }
   fmt::print("things   {}\n", words.empty() ? "none" : words);
+  for (const std::string& note : report.notes) fmt::print("note     {}\n", note);
   int failed = 0;
   for (const dataset::CellReport& cell : report.cells) failed += cell.failure.empty() ? 0 : 1;
   if (failed > 0) {

@@ -422,14 +422,22 @@ class BadInput(InAFolder):
         self.refuse(changed(camera="rover"), r"dataset.camera = 'rover', must be a sensor of type camera")
         self.refuse(changed(every_s=0.0010000005),
                     r"study.yaml:\d+: dataset.every_s = 0.0010000005 s, must be a multiple of the physics step of 0.001 s")
+        self.refuse(changed(every_s=0.001), r"study.yaml:\d+: dataset.every_s = 0.001 s, must be at least the 0.0162 s of an "
+                    r"exposure and a readout of 'rover/front'")
+        limits = {"rover.sensors.front.depth_min_m": 9, "rover.sensors.front.depth_max_m": 3}
+        self.refuse({**STUDY, "set": limits}, r"vineyard_camera.yaml:\d+: rover.sensors.front: depth_min_m = 9, must be < "
+                    r"depth_max_m = 3")
+        self.refuse({**STUDY, "seeds": [1, 10**16]}, r"study.yaml:\d+: seed 10000000000000000 is too large to be also the "
+                    r"world's plant_seed; choose smaller seeds, or set world.plant_seed")
         self.refuse(changed(validation_share=0.7, test_share=0.3),
                     r"study.yaml:\d+: dataset.validation_share \+ dataset.test_share = 1, must be < 1")
         self.refuse(changed(test_share=0.1), r"study.yaml:\d+: dataset.validation_share = 0.3 and test_share = 0.1 need at "
                     r"least 3 seeds, but the study has 2; add some, choose another split_by, or set a share to 0")
-        self.refuse({**changed(every_s=0.001), "set": {"duration_s": 9_000_000}},
+        quick = {"rover.sensors.front.exposure_s": 0.0005, "rover.sensors.front.readout_s": 0}
+        self.refuse({**changed(every_s=0.001), "set": {**quick, "duration_s": 9_000_000}},
                     r"study.yaml:\d+: dataset.every_s makes 9e\+09 pictures in the 9e\+06 s of a run, must make at most "
                     r"1000000000; set dataset.pictures or a longer dataset.every_s")
-        self.refuse({**changed(every_s=0.001), "set": {"duration_s": 900_000}},
+        self.refuse({**changed(every_s=0.001), "set": {**quick, "duration_s": 900_000}},
                     r"study.yaml:\d+: dataset.pictures: 6 runs of up to 900000001 pictures, must make at most 1000000000 "
                     r"together; set dataset.pictures or a longer dataset.every_s")
         self.refuse(changed(pictures=0), r"dataset.pictures = 0")

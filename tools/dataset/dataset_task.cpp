@@ -83,6 +83,15 @@ void DatasetTask::fail(const std::string& sentence) const {
   io::fail_at(open_.study.dataset_mark, "dataset." + sentence);
 }
 
+sensors::CameraNature DatasetTask::nature_of(const scenario::NamedPart& camera) const {
+  try {
+    return sensors::camera_nature(camera.part.parameters,
+                                  fmt::format("{}.sensors.{}", vehicle_, sensor_));
+  } catch (const ConfigError& error) {
+    io::fail_at(camera.part.where, error.what());
+  }
+}
+
 void DatasetTask::check_cell(std::size_t cell) {
   const scenario::Scenario plain = open_.source.load(open_.registry, open_.design.overrides(cell));
   std::vector<std::string> cameras;
@@ -99,7 +108,7 @@ void DatasetTask::check_cell(std::size_t cell) {
                      cameras.empty() ? "the scenario has none" : join(cameras),
                      did_you_mean(config().camera, cameras)));
   }
-  const sensors::CameraNature nature = sensors::camera_nature(found->part.parameters);
+  const sensors::CameraNature nature = nature_of(*found);
   if (nature.takes_depth_alone) {
     fail(
         fmt::format("camera = '{}' takes pictures of depth alone; choose one of colour, grey or "
@@ -117,6 +126,12 @@ void DatasetTask::check_cell(std::size_t cell) {
     if (period.ns <= 0 || period.ns % plain.physics_step.ns != 0) {
       fail(fmt::format("every_s = {} s, must be a multiple of the physics step of {} s",
                        *config().every_s, plain.physics_step.s()));
+    }
+    if (period.s() < nature.busy_s) {
+      fail(
+          fmt::format("every_s = {} s, must be at least the {:g} s of an exposure and a readout "
+                      "of '{}'",
+                      *config().every_s, nature.busy_s, config().camera));
     }
   }
   add_plant_seed(cell, plain.world);
@@ -138,17 +153,24 @@ double DatasetTask::pictures_of(const scenario::Scenario& plain, double rate_Hz)
 }
 
 void DatasetTask::add_plant_seed(std::size_t cell, const scenario::PartConfig& world) {
-  const auto& specs = world.parameters.specs();
-  const bool has_plants = std::any_of(specs.begin(), specs.end(), [](const ParameterSpec& spec) {
-    return spec.name == "plant_seed" && spec.kind == ParameterKind::kInteger;
-  });
-  std::optional<std::uint64_t> seed;
-  if (has_plants) {
-    seed = gives_plant_seed(open_, cell)
-               ? static_cast<std::uint64_t>(world.parameters.integer("plant_seed"))
-               : open_.design.seed_of(cell);
+  plant_seeds_.emplace_back();
+  for (const ParameterSpec& spec : world.parameters.specs()) {
+    if (spec.name != "plant_seed" || spec.kind != ParameterKind::kInteger) continue;
+    if (gives_plant_seed(open_, cell)) {
+      plant_seeds_.back() = static_cast<std::uint64_t>(world.parameters.integer(spec.name));
+      continue;
+    }
+    const std::uint64_t seed = open_.design.seed_of(cell);
+    try {
+      check_parameter(spec, static_cast<std::int64_t>(seed));
+    } catch (const ConfigError&) {
+      io::fail_at(open_.study.dataset_mark,
+                  fmt::format("seed {} is too large to be also the world's plant_seed; choose "
+                              "smaller seeds, or set world.plant_seed",
+                              seed));
+    }
+    plant_seeds_.back() = seed;
   }
-  plant_seeds_.push_back(seed);
 }
 
 }  // namespace vinerow::dataset

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/scenario/study.h"
+#include "engine/sensors/camera/camera.h"
 #include "tools/study/open_study.h"
 
 namespace vinerow::dataset {
@@ -39,6 +40,7 @@ class DatasetTask {
 
  private:
   [[noreturn]] void fail(const std::string& sentence) const;
+  sensors::CameraNature nature_of(const scenario::NamedPart& camera) const;
   void check_cell(std::size_t cell);
   void add_plant_seed(std::size_t cell, const scenario::PartConfig& world);
   double pictures_of(const scenario::Scenario& plain, double rate_Hz) const;

@@ -34,6 +34,11 @@ struct CameraParams {
   bool instance = false;
 };
 
+/// Time that a picture takes.
+double busy_of(const CameraParams& params) {
+  return params.view.readout_s + params.imager.exposure_s;
+}
+
 const ParameterTable<CameraParams>& camera_table() {
   using P = CameraParams;
   static const ParameterTable<P> table =
@@ -160,7 +165,7 @@ class Camera final : public MountedSensor<Picture> {
     add(params.normals, "_normals", Picture::Format::kRgb8, &Camera::fill_normals);
     add(params.semantic, "_semantic", Picture::Format::kMono8, &Camera::fill_semantic);
     add(params.instance, "_instance", Picture::Format::kRgb8, &Camera::fill_instance);
-    const double busy_s = params.view.readout_s + params.imager.exposure_s;
+    const double busy_s = busy_of(params);
     if (busy_s > context.period.s()) {
       throw ConfigError(
           fmt::format("{}: readout_s + exposure_s = {:g} s, must be <= its period of {:g} s",
@@ -275,12 +280,13 @@ class Camera final : public MountedSensor<Picture> {
 
 }  // namespace
 
-CameraNature camera_nature(const ParameterSet& parameters) {
-  const CameraParams params = camera_table().read(parameters, "camera");
+CameraNature camera_nature(const ParameterSet& parameters, const std::string& owner) {
+  const CameraParams params = camera_table().read(parameters, owner);
   const std::vector<double>& k = params.lens.distortion;
   return {params.picture == Content::kDepth,
           params.lens.lens == CameraInfo::Lens::kFisheye ||
-              std::any_of(k.begin(), k.end(), [](double value) { return value != 0.0; })};
+              std::any_of(k.begin(), k.end(), [](double value) { return value != 0.0; }),
+          busy_of(params)};
 }
 
 PartSpec camera_spec() {

@@ -15,6 +15,7 @@
 /// Labels and numbers have no error: they are what a perfect recognition would give.
 
 #include <memory>
+#include <string>
 
 #include "engine/api/registry.h"
 
@@ -24,8 +25,10 @@ namespace vinerow::sensors {
 struct CameraNature {
   bool takes_depth_alone = false;
   bool has_distortion = false;
+  double busy_s = 0.0;  ///< of a picture, its exposure and readout: the shortest period
 };
-CameraNature camera_nature(const ParameterSet& parameters);
+/// @param owner  of the parameters, for errors  @throws ConfigError "rover.sensors.front: ..."
+CameraNature camera_nature(const ParameterSet& parameters, const std::string& owner);
 
 PartSpec camera_spec();
 /// @throws ConfigError if the lens folds, a picture takes longer than the period, or the world has

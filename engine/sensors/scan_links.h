@@ -1,5 +1,5 @@
 #pragma once
-/// Links of vehicles before a scanner that moves while it scans.
+/// Links of vehicles before a sensor that moves while it scans or takes a picture.
 
 #include <optional>
 #include <span>
@@ -11,15 +11,16 @@
 namespace vinerow::sensors {
 
 /// The scene has all links where they are at one instant. Links of other vehicles stand still there
-/// for the rays of a slice, each of which starts where the scanner is at its own time. Own links
-/// move with the scanner: they are met from where it is at the instant of the links. Else they
+/// for all rays, each of which starts where the sensor is at its own time. Own links move with the
+/// sensor: they are met from where it is at the instant of the links. Else they
 /// would be off by the way of the vehicle from one time to the other.
 class ScanLinks {
  public:
-  /// @param vehicle  name of the scanner's
+  /// @param vehicle  name of the sensor's
   ScanLinks(VehicleScene& scene, const std::string& vehicle);
 
-  VehicleScene& scene() { return scene_; }
+  VehicleScene& scene() const { return scene_; }
+  bool is_own(int link) const { return whose_[static_cast<std::size_t>(link)] == Whose::kOwn; }
 
   /// Replaces hits by nearer ones on links, and rays by own rays where those met an own link.
   /// Thread safe. @param own_rays  the same in S, from where S is at the instant of the links

@@ -142,6 +142,7 @@ class Camera final : public MountedSensor<Picture> {
                 context.random("pattern")),
         depth_reading_(params.depth_reading, lens_.info().fx_px),
         vehicles_(context.vehicles),
+        vehicle_name_(context.vehicle),
         noise_(context.random("noise")),
         depth_noise_(context.random("depth")),
         info_(lens_.info()),
@@ -225,7 +226,7 @@ class Camera final : public MountedSensor<Picture> {
 
   void begin(const Pose& X_WS_now) {
     has_looked_ = true;
-    if (vehicles_) caster_.set_vehicles(&vehicles_());
+    if (vehicles_) caster_.set_vehicles(vehicles_(), vehicle_name_);
     const std::string reason = caster_.blindness(X_WS_now);
     if (reason.empty()) return;
     throw ConfigError(fmt::format("the camera {}: change its position_m", reason));
@@ -269,6 +270,7 @@ class Camera final : public MountedSensor<Picture> {
   Imager imager_;
   DepthReading depth_reading_;
   std::function<VehicleScene&()> vehicles_;
+  std::string vehicle_name_;
   bool has_looked_ = false;
   QuickNormals noise_, depth_noise_;
   View view_;

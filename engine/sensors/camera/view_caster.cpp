@@ -105,7 +105,10 @@ struct ViewCaster::Tile {
 /// The rays of a tile, and what they meet.
 struct ViewCaster::TileRays {
   Eigen::Matrix3d row_R_WC[kTileRows];  ///< of the camera at each row's exposure
+  Eigen::Matrix3d R_WC;                 ///< at the stamp
   std::vector<SceneRay> rays, sun_rays;
+  std::vector<SceneRay>
+      own_rays;  ///< the same from the pose at the stamp; empty: they are no others
   std::vector<std::optional<RayHit>> hits, vehicle_hits;
   std::vector<bool> on_vehicle;
   std::vector<SeenSurface> surfaces;
@@ -116,6 +119,7 @@ struct ViewCaster::TileRays {
   TileRays() {
     constexpr std::size_t kMost = kTileColumns * kTileRows;
     rays.reserve(kMost);
+    own_rays.reserve(kMost);
     hits.reserve(kMost);
     vehicle_hits.reserve(kMost);
     on_vehicle.reserve(kMost);
@@ -163,11 +167,10 @@ ViewCaster::ViewCaster(const Lens& lens, const ViewSettings& settings, const Wor
 
 ViewCaster::~ViewCaster() = default;
 
-void ViewCaster::set_vehicles(VehicleScene* vehicles) {
-  vehicles_ = vehicles;
+void ViewCaster::set_vehicles(VehicleScene& vehicles, const std::string& own) {
+  links_.emplace(vehicles, own);
   link_reach_m_.clear();
-  if (!vehicles) return;
-  for (const MeshInstance& link : vehicles->links()) {
+  for (const MeshInstance& link : vehicles.links()) {
     double reach_m = 0.0;
     for (const Vector3f& p_M : link.mesh->vertices) {
       reach_m = std::max(reach_m, double{1} * p_M.norm());
@@ -179,7 +182,7 @@ void ViewCaster::set_vehicles(VehicleScene* vehicles) {
 void ViewCaster::find_top() {
   top_m_ = world_top_m_;
   for (std::size_t i = 0; i < link_reach_m_.size(); ++i) {
-    top_m_ = std::max(top_m_, vehicles_->links()[i].X_WM.p.z() + link_reach_m_[i]);
+    top_m_ = std::max(top_m_, links_->scene().links()[i].X_WM.p.z() + link_reach_m_[i]);
   }
 }
 
@@ -199,7 +202,7 @@ void ViewCaster::cast(const CameraMotion& motion, double exposure_s, View& view)
     view.label.assign(pixels, Label::kSky);
     view.thing.assign(pixels, ThingNumbers::kNothing);
   }
-  if (vehicles_) vehicles_->update();
+  if (links_) links_->scene().update();
   find_top();
   make_tile_rays();
   // Few captures, so that std::function needs no memory for them.
@@ -252,6 +255,11 @@ void ViewCaster::add_rays(const CameraMotion& motion, double exposure_s, int sam
                         Eigen::AngleAxisd(angle, turn_S / angle).toRotationMatrix() * R_SC();
     }
   }
+  // The own body keeps its place before the camera.
+  const bool moves = links_ && !(motion.v_W.isZero(0.0) && motion.w_WS_S.isZero(0.0)) &&
+                     (settings_.readout_s > 0.0 || settings_.samples > 1);
+  r.R_WC = R_WC;
+  r.own_rays.clear();
   r.rays.clear();
   const int last_x = lens_.width() - 1, last_y = lens_.height() - 1;
   tile.for_each([&](int row, int x) {
@@ -267,19 +275,28 @@ void ViewCaster::add_rays(const CameraMotion& motion, double exposure_s, int sam
                                   : Vector3f(dir_C - direction_C_[pixel - width]);
       dir_C += right * along + down * across;
     }
-    r.rays.push_back({row_p_W[row], (r.row_R_WC[row] * dir_C.cast<double>()).normalized(), kFar_m});
+    const Vector3d dir = dir_C.cast<double>();
+    r.rays.push_back({row_p_W[row], (r.row_R_WC[row] * dir).normalized(), kFar_m});
+    if (moves) r.own_rays.push_back({motion.X_WS.p, (R_WC * dir).normalized(), kFar_m});
   });
 }
 
-/// Replaces hits by nearer ones on vehicles.
+/// Replaces hits by nearer ones on vehicles, and rays on the own one by those of the stamp.
 void ViewCaster::look_at_vehicles(TileRays& r) const {
   r.on_vehicle.assign(r.rays.size(), false);
-  if (!vehicles_) return;
+  if (!links_) return;
+  r.vehicle_hits.resize(r.rays.size());
+  if (!r.own_rays.empty()) {
+    links_->cast(r.rays, r.own_rays, r.hits, r.vehicle_hits);
+    for (std::size_t i = 0; i < r.rays.size(); ++i) {
+      r.on_vehicle[i] = r.hits[i] && r.hits[i]->surface == SurfaceClass::kVehicle;
+    }
+    return;
+  }
   for (std::size_t i = 0; i < r.rays.size(); ++i) {
     if (r.hits[i]) r.rays[i].max_distance_m = r.hits[i]->distance_m;
   }
-  r.vehicle_hits.resize(r.rays.size());
-  vehicles_->cast_rays(r.rays, r.vehicle_hits);
+  links_->scene().cast_rays(r.rays, r.vehicle_hits);
   for (std::size_t i = 0; i < r.rays.size(); ++i) {
     if (!r.vehicle_hits[i]) continue;
     r.hits[i] = r.vehicle_hits[i];
@@ -298,10 +315,12 @@ void ViewCaster::write_facts(const Tile& tile, const TileRays& r, View& view) co
     const RayHit& hit = *r.hits[ray];
     // Along the axes of the row's own camera: the pixel's direction has them.
     view.depth_m[pixel] = static_cast<float>(hit.distance_m * direction_C_[pixel].z());
-    view.normal_C[pixel] = (r.row_R_WC[row].transpose() * hit.normal_W).cast<float>();
+    const bool is_own = !r.own_rays.empty() && r.on_vehicle[ray] && links_->is_own(hit.mesh);
+    const Eigen::Matrix3d& R_WC = is_own ? r.R_WC : r.row_R_WC[row];
+    view.normal_C[pixel] = (R_WC.transpose() * hit.normal_W).cast<float>();
     if (r.on_vehicle[ray]) {
       view.label[pixel] = Label::kVehicle;
-      view.thing[pixel] = numbers_.of_vehicle(vehicles_->vehicle_of(hit.mesh));
+      view.thing[pixel] = numbers_.of_vehicle(links_->scene().vehicle_of(hit.mesh));
       return;
     }
     view.thing[pixel] = numbers_.of(hit);
@@ -315,7 +334,7 @@ SeenSurface ViewCaster::surface_of(const TileRays& r, std::size_t ray) const {
   const double footprint_m = hit.distance_m / (lens_.info().fx_px * cosine);
   return look_.surface(
       r.rays[ray], hit,
-      r.on_vehicle[ray] ? vehicles_->links() : std::span<const MeshInstance>(world_.meshes),
+      r.on_vehicle[ray] ? links_->scene().links() : std::span<const MeshInstance>(world_.meshes),
       footprint_m);
 }
 
@@ -339,8 +358,8 @@ void ViewCaster::add_light(const Tile& tile, TileRays& r, View& view) const {
     r.sun_rays.push_back({p_W + side * r.hits[i]->normal_W, sun_W, far_m});
   }
   light_.find_blocked(r.sun_rays, {r.is_shaded.get(), r.sun_rays.size()});
-  if (vehicles_) {
-    vehicles_->find_blocked(r.sun_rays, {r.is_shaded_by_vehicle.get(), r.sun_rays.size()});
+  if (links_) {
+    links_->scene().find_blocked(r.sun_rays, {r.is_shaded_by_vehicle.get(), r.sun_rays.size()});
   }
   std::size_t i = 0;
   tile.for_each([&](int row, int x) {
@@ -349,7 +368,7 @@ void ViewCaster::add_light(const Tile& tile, TileRays& r, View& view) const {
     if (r.hits[ray]) {
       const std::size_t to_sun = r.sun_ray[ray];
       const bool is_shaded =
-          to_sun != kNone && (r.is_shaded[to_sun] || (vehicles_ && r.is_shaded_by_vehicle[to_sun]));
+          to_sun != kNone && (r.is_shaded[to_sun] || (links_ && r.is_shaded_by_vehicle[to_sun]));
       radiance = look_.radiance(r.surfaces[ray], is_shaded ? 0.0f : 1.0f);
     } else {
       radiance = look_.far_radiance(r.rays[ray].dir_W);
@@ -361,7 +380,7 @@ void ViewCaster::add_light(const Tile& tile, TileRays& r, View& view) const {
 }
 
 std::string ViewCaster::blindness(const Pose& X_WS) {
-  return find_blindness(X_WS, world_, light_, vehicles_);
+  return find_blindness(X_WS, world_, light_, links_ ? &links_->scene() : nullptr);
 }
 
 }  // namespace vinerow::sensors

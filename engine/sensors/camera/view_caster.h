@@ -10,7 +10,8 @@
 /// The stamp is the middle of the picture's exposure. Row j of h is exposed about
 /// (j / (h - 1) - 1/2) readout_s later (rolling shutter; 0: global). In between the camera moves
 /// with the velocities that it has at the stamp: for an acceleration a the outer rows are off by
-/// a readout_s^2 / 8.
+/// a readout_s^2 / 8. The own body moves with it; other vehicles stand still where they are at the
+/// stamp.
 ///
 /// Tiles are cast on all cores (core/parallel.h); the picture does not depend on their number.
 
@@ -18,6 +19,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +28,7 @@
 #include "engine/math/pose.h"
 #include "engine/sensors/camera/scene_look.h"
 #include "engine/sensors/camera/thing_numbers.h"
+#include "engine/sensors/scan_links.h"
 
 namespace vinerow::sensors {
 
@@ -64,8 +67,8 @@ class ViewCaster {
              const RayScene& light, const SceneLook& look);
   ~ViewCaster();
 
-  /// Vehicles that it sees from now on.
-  void set_vehicles(VehicleScene* vehicles);
+  /// Vehicles that it sees from now on. @param own  name of the one that carries it
+  void set_vehicles(VehicleScene& vehicles, const std::string& own);
 
   /// @param exposure_s  for motion blur
   void cast(const CameraMotion& motion, double exposure_s, View& view);
@@ -94,7 +97,7 @@ class ViewCaster {
   const SceneLook& look_;
   /// Height that no surface exceeds: of the world, and of the vehicles too at this picture.
   double world_top_m_ = -std::numeric_limits<double>::infinity(), top_m_ = 0.0;
-  VehicleScene* vehicles_ = nullptr;
+  std::optional<ScanLinks> links_;
   std::vector<double> link_reach_m_;  ///< of each link's mesh from its origin
   ThingNumbers numbers_;
   std::vector<Eigen::Vector3f> direction_C_;  ///< of each pixel, in the optical frame

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <thread>
 
@@ -16,6 +17,7 @@
 #include "engine/math/srgb.h"
 #include "engine/physics/static_scene.h"
 #include "tests/engine/physics/small_worlds.h"
+#include "tests/engine/sensors/plate_and_wall.h"
 #include "tests/engine/sensors/sensor_bench.h"
 #include "tests/engine/sensors/sensor_parts.h"
 #include "tests/support/paths.h"
@@ -30,9 +32,11 @@ namespace small = physics::test;
 /// A camera on a vehicle that is where the test says.
 class CameraBench {
  public:
-  CameraBench(std::shared_ptr<const WorldModel> world, const test::SensorValues& values)
+  CameraBench(std::shared_ptr<const WorldModel> world, const test::SensorValues& values,
+              std::function<VehicleScene&()> vehicles = {})
       : scene_(world), world_(world) {
     SensorContext context = bench_.context(10.0);
+    context.vehicles = std::move(vehicles);
     context.scene = &scene_.queries();
     context.light = [this]() -> const RayScene& { return scene_.light(); };
     context.world = world_.get();
@@ -282,6 +286,62 @@ TEST(Camera, NormalsAndDepthOfARowAreInTheRowsOwnFrame) {
       EXPECT_NEAR(number(bench.picture("_depth"), column, row), 4900.0 / -normal_C.dot(ray_C), 1.0);
     }
   }
+}
+
+TEST(Camera, TheOwnBodyKeepsItsPlaceInPicturesOnTheWay) {
+  const auto world = flat_world();
+  Odometry state;
+  state.X_WB = at(0.0, 0.0, 10.0);
+  test::PlateAndWall vehicles([&] { return state.X_WB; });
+  CameraBench bench(world,
+                    with(kSmall, {{"readout_s", 0.06},
+                                  {"exposure_s", 0.03},
+                                  {"samples", std::int64_t{4}},
+                                  {"instance", true},
+                                  {"depth", true},
+                                  {"normals", true}}),
+                    [&]() -> VehicleScene& { return vehicles; });
+  struct Seen {
+    std::vector<std::uint32_t> things, depth_mm, normal;
+  };
+  const auto look = [&] {
+    bench.step(state);
+    Seen seen;
+    for (int row = 0; row < 90; ++row) {
+      for (int x = 0; x < 120; ++x) {
+        seen.things.push_back(number(bench.picture("_instance"), x, row));
+        seen.depth_mm.push_back(number(bench.picture("_depth"), x, row));
+        seen.normal.push_back(number(bench.picture("_normals"), x, row));
+      }
+    }
+    return seen;
+  };
+  const Seen still = look();
+  const std::uint32_t own = still.things[45 * 120 + 60];
+  state.v_WB_B = {6.0, 0.0, 0.0};
+  state.w_WB_B = {0.0, 0.0, 0.5};
+  const Seen moving = look();
+  const auto& info = bench.value<CameraInfo>("rover/s_info");
+  int plate = 0, wall = 0;
+  for (std::size_t i = 0; i < still.things.size(); ++i) {
+    ASSERT_EQ(moving.things[i] == own, still.things[i] == own) << i;
+    if (still.things[i] == own) {
+      EXPECT_EQ(moving.depth_mm[i], still.depth_mm[i]);
+      EXPECT_EQ(moving.normal[i], still.normal[i]);
+      ++plate;
+    } else {
+      // The other's wall, x = 8 m, from where the camera is at the row's time.
+      const double time_s = (static_cast<double>(i / 120) / 89.0 - 0.5) * 0.06;
+      const double angle = 0.5 * time_s;
+      const double left = (info.cx_px - static_cast<double>(i % 120)) / info.fx_px;
+      const double depth_m = (8.0 - 6.0 * time_s) / (std::cos(angle) - left * std::sin(angle));
+      EXPECT_NEAR(moving.depth_mm[i], 1000.0 * depth_m, 1.0);
+      ++wall;
+    }
+  }
+  EXPECT_GT(plate, 300);
+  EXPECT_GT(wall, 300);
+  EXPECT_NE(moving.depth_mm, still.depth_mm);
 }
 
 TEST(Camera, MotionBlurIsAsWideAsTheWayInTheExposure) {

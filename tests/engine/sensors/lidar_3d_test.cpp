@@ -13,6 +13,7 @@
 #include "engine/api/messages/sensors.h"
 #include "engine/core/parallel.h"
 #include "engine/math/angles.h"
+#include "tests/engine/sensors/plate_and_wall.h"
 #include "tests/engine/sensors/scan_bench.h"
 #include "tests/support/no_alloc.h"
 #include "tests/support/plain_scene.h"
@@ -38,43 +39,6 @@ SensorValues ideal(SensorValues more = {}) {
 Bench make(const SensorValues& values, const PlainScene& scene, std::uint64_t seed = 1) {
   return Bench("lidar_3d", test::sensor_parameters("lidar_3d", values), scene, 10.0, seed);
 }
-
-/// A plate on the scanner's vehicle, 1 m ahead of it, and a wall 8 m along the way, which is
-/// another vehicle's.
-class PlateAndWall final : public VehicleScene {
- public:
-  using Way = std::function<Pose()>;
-  explicit PlateAndWall(Way way) : way_(std::move(way)) {
-    links_.resize(2);
-    links_[0].name = "rover/plate", links_[1].name = "other/wall";
-    // Its front looks back at the scanner.
-    auto front = std::make_shared<TriangleMesh>();
-    front->vertices = {{0, 0, 0}, {0, 0, 1}, {0, 1, 0}};
-    front->triangles = {{0, 1, 2}};
-    links_[0].mesh = links_[1].mesh = front;
-    plate_.panels.push_back({{1, 0, 0}, {-1, 0, 0}, SurfaceClass::kVehicle, 0.2, 0.2});
-    wall_.panels.push_back({{8, 0, 0}, {-1, 0, 0}, SurfaceClass::kVehicle});
-  }
-
-  void update() override { X_WB_ = way_(); }
-  std::span<const MeshInstance> links() const override { return links_; }
-  int vehicle_of(int link) const override { return link; }
-  std::optional<RayHit> cast_ray(const Eigen::Vector3d& p_W, const Eigen::Vector3d& dir_W,
-                                 double max_distance_m, SurfaceMask mask) const override {
-    auto plate =
-        plate_.cast_ray(X_WB_.inverse() * p_W, X_WB_.q.conjugate() * dir_W, max_distance_m, mask);
-    auto wall = wall_.cast_ray(p_W, dir_W, max_distance_m, mask);
-    if (plate) plate->mesh = plate->triangle = 0, plate->normal_W = X_WB_.q * plate->normal_W;
-    if (wall) wall->mesh = 1, wall->triangle = 0;
-    return !wall || (plate && plate->distance_m < wall->distance_m) ? plate : wall;
-  }
-
- private:
-  Way way_;
-  Pose X_WB_;
-  std::vector<MeshInstance> links_;
-  PlainScene plate_, wall_;
-};
 
 TEST(Lidar3d, EveryPointLiesOnTheWallsOfARoom) {
   // Walls x = +-8, y = +-5, ground z = -1 in S: closed form for each direction.
@@ -134,7 +98,7 @@ TEST(Lidar3d, FramesAreTheSameOnOneCoreAndOnAll) {
   room.panels.push_back({{9.0, 0, 0}, {-1, 0, 0}, SurfaceClass::kObstacle});
   const auto frame = [&] {
     Pose now;
-    PlateAndWall vehicles([&] { return now; });
+    test::PlateAndWall vehicles([&] { return now; });
     // 14,400 rays a slice.
     const SensorValues values = ideal(
         {{"slices", std::int64_t{10}}, {"divergence_deg", 0.2}, {"sub_rays", std::int64_t{5}}});
@@ -213,7 +177,7 @@ TEST(Lidar3d, TheOwnVehicleStandsStillInItsClouds) {
       return pose;
     };
     Pose now;
-    PlateAndWall vehicles([&] { return now; });
+    test::PlateAndWall vehicles([&] { return now; });
     Bench bench("lidar_3d",
                 test::sensor_parameters("lidar_3d", ideal({{"slices", std::int64_t{1}}})), scene,
                 10.0, 1, [&]() -> VehicleScene& { return vehicles; });

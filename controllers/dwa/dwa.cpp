@@ -165,7 +165,7 @@ PartSpec dwa_spec() {
       "Dynamic window approach in (v, front, rear axle angle) with obstacles that ultrasound "
       "detects (paper A, eq. 23 corrected); follows the plan while it is free, else passes, backs "
       "out or stops.";
-  spec.parameters = dwa_table().specs();
+  dwa_table().add_to(spec);
   spec.default_rate_Hz = 10.0;
   spec.reads = {"estimate", "plan", "<ultrasound sensors>", "encoders", "actuators", "authority"};
   spec.writes = {"local_command", "guidance_event"};

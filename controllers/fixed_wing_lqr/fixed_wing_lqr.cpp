@@ -66,7 +66,7 @@ PartSpec fixed_wing_lqr_spec() {
   spec.description =
       "Linear quadratic regulator about the reference's steady flight (paper A, section 2, without "
       "constraints and tube) for fixed-wing vehicles.";
-  spec.parameters = fixed_wing_lqr_table().specs();
+  fixed_wing_lqr_table().add_to(spec);
   spec.default_rate_Hz = 20.0;
   spec.reads = {"estimate", "reference"};
   spec.writes = {"actuators", "deviation", "follower"};

@@ -98,7 +98,7 @@ PartSpec fixed_wing_pid_spec() {
   spec.description =
       "Usual autopilot (successive loop closure; Beard and McLain 2012, chapter 6, without rudder) "
       "about the reference's steady flight, for fixed-wing vehicles.";
-  spec.parameters = fixed_wing_pid_table().specs();
+  fixed_wing_pid_table().add_to(spec);
   spec.default_rate_Hz = 20.0;
   spec.reads = {"estimate", "reference"};
   spec.writes = {"actuators", "deviation", "follower"};

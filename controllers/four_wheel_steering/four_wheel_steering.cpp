@@ -272,7 +272,7 @@ PartSpec four_wheel_steering_spec() {
       "Follows a path with two steered axles and four driven wheels: proportional steering of "
       "Mammarella et al. 2022 (eq. 24-26, corrected or as printed) and wheel speeds by the "
       "velocity QP (eq. 30-33); obeys a local planner if there is one.";
-  spec.parameters = four_wheel_table().specs();
+  four_wheel_table().add_to(spec);
   spec.default_rate_Hz = 50.0;
   spec.reads = {"estimate", "plan", "local_command", "encoders", "authority"};
   spec.writes = {"actuators", "command", "follower", "steering", "controller_event"};

@@ -28,7 +28,7 @@ PartSpec mpc_nominal_spec() {
       "Linear model predictive control about the reference's steady flight for fixed-wing "
       "vehicles, "
       "without a tube: the baseline of `trmpc`.";
-  spec.parameters = mpc_nominal_table().specs();
+  mpc_nominal_table().add_to(spec);
   describe_aircraft_mpc_signals(spec);
   return spec;
 }

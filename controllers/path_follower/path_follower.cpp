@@ -187,7 +187,7 @@ PartSpec path_follower_spec() {
       "Follows straights and arcs by their own curvature plus feedback of lateral and heading "
       "error over a lookahead that grows with speed; brakes for turns; estimates the slip of a "
       "skid-steered vehicle.";
-  spec.parameters = follower_table().specs();
+  follower_table().add_to(spec);
   spec.default_rate_Hz = 40.0;
   spec.reads = {"estimate", "plan", "authority"};
   spec.writes = {"actuators", "command", "follower", "controller_event"};

@@ -176,7 +176,7 @@ PartSpec pure_pursuit_spec() {
       "Lookahead follower of Martelli, Mocera, Soma 2024 (eq. 1-7): local goal point on the "
       "lookahead circle, current index, steering threshold; wheel speeds of a speed-steered "
       "vehicle.";
-  spec.parameters = pursuit_table().specs();
+  pursuit_table().add_to(spec);
   spec.default_rate_Hz = 40.0;
   spec.reads = {"estimate", "plan", "authority"};
   spec.writes = {"actuators", "command", "follower", "controller_event"};

@@ -90,7 +90,7 @@ PartSpec quadrotor_lqr_spec() {
   spec.description =
       "Linear quadratic regulator of the hover model (paper A, section 4.2, without constraints) "
       "for rotorcraft, with feed-forward of the reference and a disturbance estimate.";
-  spec.parameters = quadrotor_lqr_table().specs();
+  quadrotor_lqr_table().add_to(spec);
   spec.default_rate_Hz = 50.0;
   spec.reads = {"estimate", "reference"};
   spec.writes = {"actuators", "wrench", "follower"};

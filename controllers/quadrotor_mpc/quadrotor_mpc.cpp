@@ -182,7 +182,7 @@ PartSpec quadrotor_mpc_spec() {
       "Flies a rotorcraft along a reference by linear model predictive control (Mammarella et al. "
       "2022, section 4.2): 16 states about hover in the frame of the wanted heading, limits of "
       "thrust, torques and tilt, soft limits of the deviation, and a disturbance observer.";
-  spec.parameters = quadrotor_mpc_table().specs();
+  quadrotor_mpc_table().add_to(spec);
   spec.default_rate_Hz = 20.0;
   spec.reads = {"estimate", "reference"};
   spec.writes = {"actuators", "wrench", "follower", "mpc", "controller_event"};

@@ -143,7 +143,7 @@ PartSpec quadrotor_pid_spec() {
       "Cascade of position P, velocity PID, attitude (tilt before yaw, Brescianini, Hehn, D'Andrea "
       "2013) and rate PID for rotorcraft, with feed-forward of the reference's velocity, "
       "acceleration and yaw rate.";
-  spec.parameters = quadrotor_pid_table().specs();
+  quadrotor_pid_table().add_to(spec);
   spec.default_rate_Hz = 250.0;
   spec.reads = {"estimate", "reference"};
   spec.writes = {"actuators", "wrench", "follower"};

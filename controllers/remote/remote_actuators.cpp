@@ -74,7 +74,7 @@ PartSpec remote_actuators_spec() {
       "Passes on actuator commands from outside the run (actuator_command), which name any of the "
       "vehicle's actuators; the others keep their values. All are zero if no command has come for "
       "timeout_s.";
-  spec.parameters = remote_actuators_table().specs();
+  remote_actuators_table().add_to(spec);
   spec.default_rate_Hz = 100.0;
   spec.reads = {"actuator_command"};
   spec.writes = {"actuators", "controller_event"};

@@ -101,7 +101,7 @@ PartSpec remote_velocity_spec() {
   spec.description =
       "Drives by speed and yaw rate from outside the run (cmd_vel): a ROS 2 node, a viewer, a "
       "program with a session. Stops if no command has come for timeout_s.";
-  spec.parameters = remote_velocity_table().specs();
+  remote_velocity_table().add_to(spec);
   spec.default_rate_Hz = 50.0;
   spec.reads = {"cmd_vel"};
   spec.writes = {"actuators", "command", "controller_event"};

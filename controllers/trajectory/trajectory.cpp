@@ -195,7 +195,7 @@ PartSpec trajectory_spec() {
   spec.description =
       "Reference of a rotorcraft over the controller's horizon: a time law along the plan with "
       "3 m/s in rows, slow turns, climb, return and landing (paper A, 4.2).";
-  spec.parameters = trajectory_table().specs();
+  trajectory_table().add_to(spec);
   spec.default_rate_Hz = 20.0;
   spec.reads = {"estimate", "plan", "authority"};
   spec.writes = {"reference", "guidance_event"};

@@ -83,7 +83,7 @@ PartSpec trmpc_spec() {
       "Tube-based robust model predictive control about the reference's steady flight "
       "(Mammarella et al. 2022, eq. 8-20, corrected) for fixed-wing vehicles: deviations and "
       "controls keep their limits in every gust up to a given strength.";
-  spec.parameters = trmpc_table().specs();
+  trmpc_table().add_to(spec);
   describe_aircraft_mpc_signals(spec);
   return spec;
 }

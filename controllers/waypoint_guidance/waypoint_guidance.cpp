@@ -189,7 +189,7 @@ PartSpec waypoint_guidance_spec() {
   spec.description =
       "Reference of a fixed-wing vehicle, from the launcher along the plan's waypoints to the "
       "ground: heading by cross track and turn, height by ramps, in wind (paper A, eq. 1-7).";
-  spec.parameters = waypoint_guidance_parameters();
+  add_waypoint_guidance_parameters(spec);
   spec.default_rate_Hz = 20.0;
   spec.reads = {"estimate", "plan", "<air_data>"};
   spec.writes = {"reference", "guidance_event", "landing"};

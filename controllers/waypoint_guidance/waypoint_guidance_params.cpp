@@ -211,8 +211,8 @@ void settle_landing(const GivenParams& given, const VehicleDescription& vehicle,
 
 }  // namespace
 
-std::vector<ParameterSpec> waypoint_guidance_parameters() {
-  return given_table().specs();
+void add_waypoint_guidance_parameters(PartSpec& spec) {
+  given_table().add_to(spec);
 }
 
 WaypointGuidanceParams read_waypoint_guidance_params(const ParameterSet& parameters,

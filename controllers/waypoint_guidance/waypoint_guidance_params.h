@@ -44,7 +44,7 @@ struct WaypointGuidanceParams {
   double power_off_m = 0.1;
 };
 
-std::vector<ParameterSpec> waypoint_guidance_parameters();
+void add_waypoint_guidance_parameters(PartSpec& spec);
 /// @throws ConfigError for a vehicle without wings, speeds below the stall speed at the turns'
 /// bank, a bank beyond the vehicle's, circles smaller than it can fly, or landing keys without a
 /// landing

@@ -17,7 +17,7 @@
 ///             .rule([](const P& p) { return p.arm_m > p.radius_m ? "" : "the rotors touch"; });
 ///     return table;
 ///   }
-///   spec.parameters = rover_table().specs();
+///   rover_table().add_to(spec);
 ///   const RoverParams params = rover_table().read(parameters, "rover");
 ///   rover_table().validate(params, "rover");
 ///
@@ -440,8 +440,15 @@ class ParameterTable {
     return *this;
   }
 
-  /// For PartSpec::parameters, in the order of the rows.
+  /// In the order of the rows.
   std::vector<ParameterSpec> specs() const { return rows_.specs(); }
+  /// Appends the parameters and the check of their rules to a PartSpec, which this table outlives.
+  template <class Spec>
+  void add_to(Spec& spec) const {
+    for (ParameterSpec& parameter : specs()) spec.parameters.push_back(std::move(parameter));
+    spec.checks.push_back(
+        [this](const ParameterSet& parameters, const std::string& who) { read(parameters, who); });
+  }
 
   /// @param parameters  with at least this table's keys
   /// @param who  prefix of errors, "" for none

@@ -2,6 +2,7 @@
 /// Common base of exchangeable parts: spec, context and stepping.
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,9 @@ struct PartSpec {
   std::string name;         ///< the `type` in scenario files, snake_case
   std::string description;  ///< one sentence, with the paper and equations it implements
   std::vector<ParameterSpec> parameters;
+  /// Rules across parameters, from their tables. Each throws the ConfigError of
+  /// ParameterTable::validate.
+  std::vector<std::function<void(const ParameterSet& parameters, const std::string& who)>> checks;
   double default_rate_Hz = 0.0;    ///< of stepped parts; 0 = every physics step or not stepped
   std::vector<std::string> reads;  ///< local signal names, for documentation
   std::vector<std::string> writes;

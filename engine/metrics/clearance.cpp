@@ -148,7 +148,7 @@ PartSpec clearance_spec() {
   spec.description =
       "Minimum distance from the hull to canopy, posts, trunks and wires, and the number of "
       "touches";
-  spec.parameters = clearance_table().specs();
+  clearance_table().add_to(spec);
   spec.reads = {"truth", "contacts"};
   spec.results = clearance_results();
   return spec;

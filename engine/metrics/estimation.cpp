@@ -130,7 +130,7 @@ PartSpec estimation_spec() {
   spec.description =
       "Error of the estimate across and along the rows, and consistency of its covariance (NEES, "
       "NIS, containment)";
-  spec.parameters = estimation_table().specs();
+  estimation_table().add_to(spec);
   spec.reads = {"truth", "estimate (optional)", "ellipsoid (optional)",
                 "estimator_state (optional)", "those of the observers"};
   spec.results = estimation_results();

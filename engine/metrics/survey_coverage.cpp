@@ -121,7 +121,7 @@ PartSpec survey_coverage_spec() {
   spec.description =
       "Vehicles with a survey camera: coverage of the parcel by their pictures, overlap and "
       "ground sampling distance (paper A, section 2)";
-  spec.parameters = survey_metric_table().specs();
+  survey_metric_table().add_to(spec);
   spec.reads = {"truth", "<camera> (optional)", "plan (optional)"};
   spec.results = coverage_results();
   return spec;

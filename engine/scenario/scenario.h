@@ -16,6 +16,13 @@
 
 namespace vinerow::scenario {
 
+/// A parameter that the user gave.
+struct GivenKey {
+  std::string name;  ///< without the groups around it
+  io::SourceMark where;
+  bool is_group = false;
+};
+
 /// A part as named in a scenario: `type`, `rate_Hz`, and its parameters at the same level.
 struct PartConfig {
   std::string type;
@@ -25,6 +32,11 @@ struct PartConfig {
   double rate_Hz = 0.0;
   ParameterSet parameters;
   io::SourceMark where;
+  std::vector<GivenKey> given;
+
+  /// Where the user finds what a sentence about the part speaks of: a value of a study or --set
+  /// that it names, else another given key that it names, else the part.
+  const io::SourceMark& place_of(const std::string& sentence) const;
 };
 
 /// Start pose of a vehicle: a pose, a spawn point of the world, or an alley's entrance.

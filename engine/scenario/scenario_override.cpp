@@ -101,17 +101,20 @@ void set_value(io::YamlNode& root, const std::vector<std::string>& keys, io::Yam
   }
 }
 
-void mark_all(io::YamlNode& node, const io::SourceMark& mark) {
-  node.mark = mark;
-  for (io::YamlNode& item : node.items) mark_all(item, mark);
+/// Calls `change` with every mark of a value.
+template <class Change>
+void change_marks(io::YamlNode& node, const Change& change) {
+  change(node.mark);
+  for (io::YamlNode& item : node.items) change_marks(item, change);
   for (io::YamlEntry& entry : node.entries) {
-    entry.mark = mark;
-    mark_all(entry.value, mark);
+    change(entry.mark);
+    change_marks(entry.value, change);
   }
 }
 
 /// @param value  with its marks
 void apply_value(io::YamlNode& root, const std::string& path, io::YamlNode value) {
+  change_marks(value, [](io::SourceMark& mark) { mark.is_override = true; });
   const io::SourceMark mark = value.mark;
   std::vector<std::string> keys = split_path(path, mark);
   complete_path(keys, root, mark);
@@ -133,7 +136,7 @@ void apply_set(io::YamlNode& root, const std::string& set, const std::filesystem
   } catch (const ConfigError&) {
     io::fail_at(mark, fmt::format("the value '{}' is not valid YAML", set.substr(equals + 1)));
   }
-  mark_all(value, mark);
+  change_marks(value, [&](io::SourceMark& of_value) { of_value = mark; });
   apply_value(root, set.substr(0, equals), std::move(value));
 }
 

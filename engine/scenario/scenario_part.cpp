@@ -278,6 +278,48 @@ void use_present_names(io::YamlNode& mapping, const std::string& path,
   }
 }
 
+/// The given ones of these parameters, and of their fields.
+void add_given_keys(const io::YamlNode& mapping, const std::vector<ParameterSpec>& specs,
+                    std::vector<GivenKey>& given) {
+  for (const ParameterSpec& spec : specs) {
+    const io::YamlEntry* entry = mapping.find_entry(spec.name);
+    if (!entry) continue;
+    given.push_back({spec.name, entry->value.mark, !spec.fields.empty()});
+    if (spec.fields.empty()) continue;
+    add_given_keys(entry->value, spec.fields, given);
+    for (const io::YamlNode& item : entry->value.items) add_given_keys(item, spec.fields, given);
+  }
+}
+
+/// Rules across parameters.
+void check_rules(const PartSpec& spec, const PartConfig& part, const std::string& path) {
+  for (const auto& check : spec.checks) {
+    try {
+      check(part.parameters, "");
+    } catch (const ConfigError& error) {
+      const std::string text = error.what();
+      const bool begins_with_key = std::any_of(
+          spec.parameters.begin(), spec.parameters.end(), [&](const ParameterSpec& parameter) {
+            return text.starts_with(parameter.name) &&
+                   text.find_first_of(" :[") == parameter.name.size();
+          });
+      io::fail_at(part.place_of(text), (begins_with_key ? path + "." : path + ": ") + text);
+    }
+  }
+}
+
+/// Readings are delivered in a physics step.
+void check_delay(const io::YamlEntry& entry, const ParameterSet& values, const std::string& path,
+                 const ReadContext& context) {
+  const ParameterSet::Value* value = values.find("delay_s");
+  const double* delay_s = value ? std::get_if<double>(value) : nullptr;
+  if (!delay_s || duration_from_s(*delay_s).ns % context.physics_step.ns == 0) return;
+  const io::YamlEntry* given = entry.value.find_entry("delay_s");
+  io::fail_at(given ? given->value.mark : entry.mark,
+              fmt::format("{}.delay_s = {} s, must be a multiple of the physics step of {} s", path,
+                          *delay_s, context.physics_step.s()));
+}
+
 }  // namespace
 
 std::vector<std::string> fixed_signals(const PartSpec& spec) {
@@ -335,7 +377,12 @@ ReadPart read_part(const io::YamlEntry& original, const std::string& path, PartK
     part.resolved.put(written.key, std::move(written.value));
   }
   check_wires(entry, path, kind, fields, read.values);
+  if (kind == PartKind::kSensor && is_known("delay_s", names_of(fields))) {
+    check_delay(entry, read.values, path, context);
+  }
   part.config.parameters = std::move(read.values);
+  add_given_keys(entry.value, fields, part.config.given);
+  check_rules(spec, part.config, path);
   return part;
 }
 

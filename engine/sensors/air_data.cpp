@@ -77,7 +77,7 @@ PartSpec air_data_spec() {
   PartSpec spec = reading_sensor_spec<AirData>(
       "air_data",
       "Pitot tube and vanes: velocity through the air with white noise, lag, delay and scale error",
-      20.0, air_data_table().specs());
+      20.0, air_data_table());
   spec.reads = {"the vehicle's true velocity through the air"};
   return spec;
 }

@@ -98,7 +98,7 @@ PartSpec barometer_spec() {
   PartSpec spec = mounted_sensor_spec<PressureSample>(
       "barometer",
       "Static pressure by the US Standard Atmosphere 1976 with noise, drift, bias and wind error",
-      50.0, barometer_table().specs());
+      50.0, barometer_table());
   spec.reads.push_back("the vehicle's true velocity through the air");
   return spec;
 }

@@ -198,7 +198,7 @@ PartSpec camera_trigger_spec() {
       "camera_trigger",
       "Survey camera: pictures by time or by distance, each with its pose and its footprint on the "
       "ground",
-      20.0, camera_trigger_table().specs(), camera_mounting_table().specs());
+      20.0, camera_trigger_table(), camera_mounting_table());
   spec.reads.push_back("plan (if on: lanes)");
   spec.reads.push_back("estimate (if available: lane, and distance from the last picture)");
   spec.gives = ProductKind::kPictures;

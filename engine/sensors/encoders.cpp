@@ -64,7 +64,7 @@ class Encoders final : public ReadingSensor<NamedValues> {
 PartSpec encoders_spec() {
   return reading_sensor_spec<NamedValues>(
       "encoders", "Steering angles and wheel speeds of the actuators, with noise and resolution",
-      50.0, encoder_errors_table().specs());
+      50.0, encoder_errors_table());
 }
 
 std::unique_ptr<Sensor> make_encoders(const ParameterSet& parameters,

@@ -135,7 +135,7 @@ PartSpec gnss_spec() {
       "gnss",
       "Satellite receiver, standalone to RTK, whose fix and error depend on the satellites visible "
       "past ground, posts and leaves",
-      5.0, gnss_table().specs());
+      5.0, gnss_table());
 }
 
 std::unique_ptr<Sensor> make_gnss(const ParameterSet& parameters, const SensorContext& context) {

@@ -146,7 +146,7 @@ PartSpec gnss_heading_spec() {
       "gnss_heading",
       "Heading and slope by two satellite antennas (moving baseline by carrier phase), visible "
       "past ground, posts and leaves",
-      5.0, gnss_heading_table().specs());
+      5.0, gnss_heading_table());
 }
 
 std::unique_ptr<Sensor> make_gnss_heading(const ParameterSet& parameters,

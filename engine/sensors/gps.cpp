@@ -119,7 +119,7 @@ class Gps final : public SatelliteReceiver {
 PartSpec gps_spec() {
   return mounted_sensor_spec<GnssFix>(
       "gps", "Satellite positioning with paper B's uniform error or a white + Gauss-Markov one",
-      5.0, gps_table().specs());
+      5.0, gps_table());
 }
 
 std::unique_ptr<Sensor> make_gps(const ParameterSet& parameters, const SensorContext& context) {

@@ -18,8 +18,7 @@ constexpr ParameterConversion kDegreesPerHour = {
     [](double member) { return member / kRadps_per_dph; }};
 
 TriadNames gyro_names() {
-  return {"gyro",  "deg/s", "dps",    "deg/s2",       "dps2",
-          "deg/h", "dph",   kDegrees, kDegreesPerHour};
+  return {"gyro", "deg/s", "dps", "deg/s2", "dps2", "deg/h", "dph", kDegrees, kDegreesPerHour};
 }
 TriadNames accelerometer_names() {
   return {"accel", "m/s2", "mps2", "m/s3", "mps3", "m/s2", "mps2", {}, {}};
@@ -68,8 +67,7 @@ class Imu final : public MountedSensor<ImuSample> {
         gyro_(gyro_names(), params.gyro, context),
         accelerometer_(accelerometer_names(), params.accelerometer, context) {
     RandomStream device = context.random("g_sensitivity");
-    const double std_radps_per_mps2 =
-        params.gyro_g_sensitivity_std_radps / kStandardGravity_mps2;
+    const double std_radps_per_mps2 = params.gyro_g_sensitivity_std_radps / kStandardGravity_mps2;
     for (int i = 0; i < 9; ++i) g_sensitivity_(i) = std_radps_per_mps2 * device.normal();
   }
 
@@ -122,7 +120,7 @@ PartSpec imu_spec() {
       "imu",
       "Rate gyro and accelerometer: white noise, bias instability and random walk by their Allan "
       "deviation, turn-on bias, scale, misalignment, saturation",
-      100.0, imu_table().specs());
+      100.0, imu_table());
 }
 
 std::unique_ptr<Sensor> make_imu(const ParameterSet& parameters, const SensorContext& context) {

@@ -105,8 +105,7 @@ class Ins final : public ReadingSensor<Odometry> {
   Ins(const InsParams& params, const ParameterSet& parameters, const SensorContext& context)
       : ReadingSensor(parameters, context),
         position_std_m_(params.horizontal_std_m, params.horizontal_std_m, params.vertical_std_m),
-        attitude_std_rad_(params.roll_pitch_std_rad, params.roll_pitch_std_rad,
-                          params.yaw_std_rad),
+        attitude_std_rad_(params.roll_pitch_std_rad, params.roll_pitch_std_rad, params.yaw_std_rad),
         rate_std_radps_(params.rate_noise_radps_rtHz / std::sqrt(context.period.s())),
         position_(position_std_m_, params.position, "position", context),
         velocity_(Vector3d::Constant(params.velocity_std_mps), params.velocity, "velocity",
@@ -149,7 +148,7 @@ PartSpec ins_spec() {
   PartSpec spec = reading_sensor_spec<Odometry>(
       "ins",
       "Aided inertial unit as a black box: pose and velocity with the errors of its data sheet",
-      100.0, ins_table().specs());
+      100.0, ins_table());
   spec.reads = {"truth"};
   return spec;
 }

@@ -181,7 +181,7 @@ PartSpec lidar_spec() {
       "lidar",
       "2D laser scanner: ranges in a plane, with noise, dropouts by distance and incidence, and "
       "beam divergence; a scan is instantaneous",
-      40.0, lidar_table().specs());
+      40.0, lidar_table());
 }
 
 std::unique_ptr<Sensor> make_lidar(const ParameterSet& parameters, const SensorContext& context) {

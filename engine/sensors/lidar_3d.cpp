@@ -387,7 +387,7 @@ PartSpec lidar_3d_spec() {
       "lidar_3d",
       "3D laser scanner: points of each frame with time, ring and intensity; it moves while it "
       "turns, and its beams look through leaves",
-      10.0, lidar_3d_table().specs());
+      10.0, lidar_3d_table());
 }
 
 std::unique_ptr<Sensor> make_lidar_3d(const ParameterSet& parameters,

@@ -115,7 +115,7 @@ PartSpec magnetometer_spec() {
   return mounted_sensor_spec<MagneticSample>(
       "magnetometer",
       "Earth's magnetic field (World Magnetic Model 2025) with hard and soft iron and noise", 50.0,
-      magnetometer_table().specs());
+      magnetometer_table());
 }
 
 std::unique_ptr<Sensor> make_magnetometer(const ParameterSet& parameters,

@@ -38,16 +38,15 @@ class MountedSensor : public ReadingSensor<T> {
   SignalReader<Odometry> truth_;
 };
 
-/// @param parameters  the sensor's own; the spec has the mounting's before them and the readings'
-/// after them
-/// @param mounting  of mounting_table(), for a sensor with other defaults
-template <class T>
+/// @param table  of the sensor's own parameters; the spec has the mounting's before them and the
+/// readings' after them
+/// @param mounting  for a sensor with other defaults
+template <class T, class Params, class Mounting = MountingParams>
 PartSpec mounted_sensor_spec(std::string name, std::string description, double default_rate_Hz,
-                             std::vector<ParameterSpec> parameters,
-                             std::vector<ParameterSpec> mounting = mounting_table().specs()) {
-  PartSpec spec =
-      reading_sensor_spec<T>(std::move(name), std::move(description), default_rate_Hz,
-                             join_parameters({std::move(mounting), std::move(parameters)}));
+                             const ParameterTable<Params>& table,
+                             const ParameterTable<Mounting>& mounting = mounting_table()) {
+  PartSpec spec = reading_sensor_spec<T>(std::move(name), std::move(description), default_rate_Hz,
+                                         mounting, table);
   spec.reads = {"truth"};
   return spec;
 }

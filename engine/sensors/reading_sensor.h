@@ -26,15 +26,16 @@ class ReadingSensor : public Sensor {
   Readings<T> readings_;
 };
 
-/// @param parameters  the sensor's own; the spec has the readings' after them
-template <class T>
+/// @param tables  of the sensor's own parameters; the spec has the readings' after them
+template <class T, class... Params>
 PartSpec reading_sensor_spec(std::string name, std::string description, double default_rate_Hz,
-                             std::vector<ParameterSpec> parameters) {
+                             const ParameterTable<Params>&... tables) {
   PartSpec spec;
   spec.name = std::move(name);
   spec.description = std::move(description);
   spec.default_rate_Hz = default_rate_Hz;
-  spec.parameters = join_parameters({std::move(parameters), reading_table().specs()});
+  (tables.add_to(spec), ...);
+  reading_table().add_to(spec);
   for (const char* signal : {"<name>: ", "<name>_truth: "}) {
     spec.writes.push_back(std::string(signal) + T::kType);
   }

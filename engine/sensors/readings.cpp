@@ -14,13 +14,4 @@ const ParameterTable<ReadingParams>& reading_table() {
   return table;
 }
 
-std::vector<ParameterSpec> join_parameters(
-    std::initializer_list<std::vector<ParameterSpec>> lists) {
-  std::vector<ParameterSpec> all;
-  for (const std::vector<ParameterSpec>& list : lists) {
-    all.insert(all.end(), list.begin(), list.end());
-  }
-  return all;
-}
-
 }  // namespace vinerow::sensors

@@ -29,8 +29,6 @@ struct ReadingParams {
 
 /// `delay_s`, `dropout_share`, `outages`.
 const ParameterTable<ReadingParams>& reading_table();
-/// Concatenates several lists, in their order.
-std::vector<ParameterSpec> join_parameters(std::initializer_list<std::vector<ParameterSpec>> lists);
 
 template <class T>
 class Readings {

@@ -296,7 +296,7 @@ PartSpec ultrasound_spec() {
       "ultrasound",
       "Ultrasonic ranger: first return in a cone of rays, with noise, echo strength, missed and "
       "false echoes",
-      20.0, ultrasound_table().specs());
+      20.0, ultrasound_table());
 }
 
 std::unique_ptr<Sensor> make_ultrasound(const ParameterSet& parameters,

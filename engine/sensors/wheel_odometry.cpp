@@ -152,7 +152,7 @@ PartSpec wheel_odometry_spec() {
   PartSpec spec = reading_sensor_spec<DeadReckoning>(
       "wheel_odometry",
       "Pose since the start and motion by dead reckoning from wheel speeds and steering angles",
-      50.0, wheel_odometry_table().specs());
+      50.0, wheel_odometry_table());
   spec.reads = {"truth"};
   return spec;
 }

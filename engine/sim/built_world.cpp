@@ -10,7 +10,7 @@ namespace vinerow {
 namespace {
 
 /// True if the sentence starts with one of the parameters, "terrain_cell_m = 0.5 m gives ...", or
-/// with a group of them, "vines: bbch = 30: ...".
+/// with a group of them.
 bool begins_with_key(const std::string& text, const ParameterSet& parameters) {
   for (const ParameterSpec& spec : parameters.specs()) {
     if (text.starts_with(spec.name + " ") || text.starts_with(spec.name + ":")) return true;
@@ -35,7 +35,7 @@ std::unique_ptr<WorldModel> build_world(const scenario::Scenario& scenario,
     // Prefix errors about a key with the place in the scenario file, as the loader does.
     const std::string text = error.what();
     if (!begins_with_key(text, parameters)) throw;
-    throw ConfigError(fmt::format("{}: world.{}", scenario.world.where.text(), text));
+    throw ConfigError(fmt::format("{}: world.{}", scenario.world.place_of(text).text(), text));
   }
 }
 

@@ -137,7 +137,7 @@ void Mission::build_job(Phase& phase) {
   try {
     phase.job = run_.registry.make_job(job.type, job.parameters, context);
   } catch (const ConfigError& error) {
-    throw ConfigError(fmt::format("{}: phases.{}.job ({}): {}", job.where.text(),
+    throw ConfigError(fmt::format("{}: phases.{}.job ({}): {}", job.place_of(error.what()).text(),
                                   phase.config->name, job.type, error.what()));
   }
 }

@@ -64,7 +64,7 @@ void register_plan_job(Registry& registry) {
   spec.description =
       "plans a path for a vehicle from its present pose, with its own planner, before the phase in "
       "which it drives";
-  spec.parameters = plan_job_table().specs();
+  plan_job_table().add_to(spec);
   spec.takes = {{"map", ProductKind::kMap, false, "map to plan on; default: the vehicle's own"}};
   spec.gives = ProductKind::kPlan;
   registry.add_job(std::move(spec), [](const ParameterSet& parameters, const JobContext& context) {

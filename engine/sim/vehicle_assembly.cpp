@@ -22,17 +22,16 @@ constexpr const char* kCamera = "camera";
 /// pictures; the recorder reduces it further.
 constexpr double kDefaultControlRate_Hz = 20.0;
 
-/// Runs `make` and prefixes the ConfigErrors of a vehicle's part with the part's place in the
-/// scenario file.
+/// Runs `make` and prefixes the ConfigErrors of a vehicle's part with their place in the scenario.
 template <class Make>
-auto with_place(const io::SourceMark& where, const std::string& vehicle, Make&& make) {
+auto with_place(const scenario::PartConfig& config, const std::string& vehicle, Make&& make) {
   try {
     return make();
   } catch (const ConfigError& error) {
     const std::string text = error.what();
     // Other messages already start with a place: that of a file or of the key.
     if (!text.starts_with(vehicle + ".") && !text.starts_with(vehicle + ":")) throw;
-    throw ConfigError(fmt::format("{}: {}", where.text(), text));
+    throw ConfigError(fmt::format("{}: {}", config.place_of(text).text(), text));
   }
 }
 
@@ -57,19 +56,23 @@ std::function<void(Time)> guarded(const SignalBus& bus, const std::string& part,
                                   const scenario::PartConfig& config,
                                   std::function<void(Time)> step) {
   const std::string culprit = fmt::format("{} ({})", part, config.type);
-  const std::string place = config.where.text();
+  // Without the parameters, which are large.
+  const scenario::PartConfig given{config.type, config.rate_Hz, {}, config.where, config.given};
   std::vector<SignalBase*> written;
   for (const auto& signal : bus.signals()) {
     if (signal->writer() == part) written.push_back(signal.get());
   }
-  return [part, place, culprit, written = std::move(written), step = std::move(step)](Time now) {
+  return [part, given, culprit, written = std::move(written), step = std::move(step)](Time now) {
     try {
       step(now);
     } catch (const SimulationError&) {
       throw;
     } catch (const ConfigError& error) {
       // What a part finds at the start is bad input, as what it has found before.
-      if (now == Time{0}) throw ConfigError(fmt::format("{}: {}: {}", place, part, error.what()));
+      if (now == Time{0}) {
+        throw ConfigError(
+            fmt::format("{}: {}: {}", given.place_of(error.what()).text(), part, error.what()));
+      }
       throw SimulationError(culprit, now, error.what());
     } catch (const std::exception& error) {
       throw SimulationError(culprit, now, fmt::format("threw an exception: {}", error.what()));
@@ -87,8 +90,7 @@ std::function<void(Time)> guarded(const SignalBus& bus, const std::string& part,
 
 std::unique_ptr<Vehicle> make_placed_vehicle(const scenario::VehicleConfig& config,
                                              const RunContext& run) {
-  const io::SourceMark& where = config.vehicle.where;
-  auto vehicle = with_place(where, config.name, [&] {
+  auto vehicle = with_place(config.vehicle, config.name, [&] {
     return run.registry.make_vehicle(
         config.vehicle.type, config.vehicle.parameters,
         make_part_context<VehicleContext>(config.name, run, config.name, 0.0));
@@ -96,7 +98,7 @@ std::unique_ptr<Vehicle> make_placed_vehicle(const scenario::VehicleConfig& conf
   const Pose X_WB = find_spawn_pose(config.spawn, run.world, run.physics.scene(), config.name,
                                     vehicle->description().height_above_ground_m,
                                     larger_ground_hint(run.scenario.world.parameters));
-  with_place(where, config.name, [&] { vehicle->spawn(run.physics, X_WB); });
+  with_place(config.vehicle, config.name, [&] { vehicle->spawn(run.physics, X_WB); });
   return vehicle;
 }
 
@@ -182,7 +184,7 @@ void VehicleAssembly::add_sensors() {
     sensor_context.vehicles = run_.vehicles;
     sensor_context.world = &run_.world;
     sensor_context.vehicle_truth = &vehicle_;
-    parts_.sensors.push_back(with_place(sensor.part.where, config_.name, [&] {
+    parts_.sensors.push_back(with_place(sensor.part, config_.name, [&] {
       return run_.registry.make_sensor(sensor.part.type, sensor.part.parameters, sensor_context);
     }));
     Sensor& built = *parts_.sensors.back();
@@ -210,10 +212,11 @@ void VehicleAssembly::add_estimator() {
   const std::string part = config_.name + ".estimator";
   const bool given = config_.estimator.has_value();
   const scenario::PartConfig config =
-      given ? *config_.estimator : scenario::PartConfig{"truth", 0.0, {}, config_.vehicle.where};
+      given ? *config_.estimator
+            : scenario::PartConfig{"truth", 0.0, {}, config_.vehicle.where, {}};
   const double rate = given ? rate_of(*config_.estimator) : control_rate_Hz();
   if (given) {
-    parts_.estimator = with_place(config_.estimator->where, config_.name, [&] {
+    parts_.estimator = with_place(*config_.estimator, config_.name, [&] {
       return run_.registry.make_estimator(config.type, config.parameters,
                                           estimator_context(part, rate));
     });
@@ -236,7 +239,7 @@ void VehicleAssembly::add_observers() {
   for (const scenario::NamedPart& observer : config_.observers) {
     const std::string part = fmt::format("{}.observers.{}", config_.name, observer.name);
     const double rate = rate_of(observer.part);
-    parts_.observers.push_back(with_place(observer.part.where, config_.name, [&] {
+    parts_.observers.push_back(with_place(observer.part, config_.name, [&] {
       return run_.registry.make_estimator(observer.part.type, observer.part.parameters,
                                           estimator_context(part, rate));
     }));
@@ -259,7 +262,7 @@ void VehicleAssembly::add_planner(bool has_plan) {
   if (!config_.planner && !has_plan) return;
   const std::string part = config_.name + ".planner";
   if (!has_plan) {
-    parts_.planner = with_place(config_.planner->where, config_.name, [&] {
+    parts_.planner = with_place(*config_.planner, config_.name, [&] {
       return run_.registry.make_planner(config_.planner->type, config_.planner->parameters,
                                         planner_context());
     });
@@ -291,7 +294,7 @@ void VehicleAssembly::add_guidance() {
   }
   const std::string part = config_.name + ".guidance";
   const double rate = rate_of(*config_.guidance);
-  parts_.guidance = with_place(config_.guidance->where, config_.name, [&] {
+  parts_.guidance = with_place(*config_.guidance, config_.name, [&] {
     return run_.registry.make_guidance(config_.guidance->type, config_.guidance->parameters,
                                        controller_context(part, rate));
   });
@@ -320,7 +323,7 @@ void VehicleAssembly::add_autopilot() {
   autopilot_context.sensors = parts_.mountings;
   autopilot_context.origin = run_.world.origin;
   autopilot_context.folder = run_.products / part;
-  std::unique_ptr<Autopilot> autopilot = with_place(config.where, config_.name, [&] {
+  std::unique_ptr<Autopilot> autopilot = with_place(config, config_.name, [&] {
     return run_.registry.make_autopilot(config.type, config.parameters, autopilot_context);
   });
   Autopilot& firmware = *autopilot;
@@ -336,7 +339,7 @@ void VehicleAssembly::add_autopilot() {
 void VehicleAssembly::add_controller(bool has_plan) {
   if (config_.controller) {
     const std::string part = config_.name + ".controller";
-    parts_.controller = with_place(config_.controller->where, config_.name, [&] {
+    parts_.controller = with_place(*config_.controller, config_.name, [&] {
       return run_.registry.make_controller(config_.controller->type, config_.controller->parameters,
                                            controller_context(part, control_rate_Hz()));
     });
@@ -382,7 +385,7 @@ void VehicleAssembly::add_payloads() {
     payload_context.vehicle_truth = &vehicle_;
     payload_context.vehicle_description = &vehicle_.description();
     payload_context.map = &map();
-    parts_.payloads.emplace_back(payload.name, with_place(payload.part.where, config_.name, [&] {
+    parts_.payloads.emplace_back(payload.name, with_place(payload.part, config_.name, [&] {
                                    return run_.registry.make_payload(
                                        payload.part.type, payload.part.parameters, payload_context);
                                  }));
@@ -404,8 +407,9 @@ void VehicleAssembly::add_metrics() {
     for (const scenario::NamedPart& observer : config_.observers) {
       metric_context.observers.push_back(observer.name);
     }
-    parts_.metrics.push_back(
-        run_.registry.make_metric(metric.part.type, parameters_of(metric), metric_context));
+    parts_.metrics.push_back(with_place(metric.part, config_.name, [&] {
+      return run_.registry.make_metric(metric.part.type, parameters_of(metric), metric_context);
+    }));
     add_stepped(Stage::kJudge, part, metric.part, rate, *parts_.metrics.back());
   }
 }

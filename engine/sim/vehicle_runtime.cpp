@@ -189,7 +189,7 @@ void VehicleRuntime::try_to_plan(Time now) {
         fmt::format("{}.planner ({}): {}", config_.name, config_.planner->type, plan.reason());
     // A failed plan is bad input, not an error of the simulation.
     if (run_.scenario.phases.empty()) {
-      throw ConfigError(fmt::format("{}: {}", config_.planner->where.text(), reason));
+      throw ConfigError(fmt::format("{}: {}", config_.planner->place_of(reason).text(), reason));
     }
     plan_failure_ = reason;
     return;

@@ -158,7 +158,7 @@ PartSpec fixed_wing_spec() {
       "coefficients with stall (Beard, McLain 2012), launched by hand or catapult, lands on its "
       "belly";
   spec.writes = {"air", "battery", "vehicle_event"};
-  spec.parameters = fixed_wing_table().specs();
+  fixed_wing_table().add_to(spec);
   return spec;
 }
 

@@ -77,7 +77,7 @@ PartSpec four_wheel_steering_rover_spec() {
       "Paper A's rover with Ackermann steering on both axles and four hub motors, with wheel and "
       "tyre forces";
   spec.writes = {"wheels", "battery"};
-  spec.parameters = four_wheel_steering_rover_table().specs();
+  four_wheel_steering_rover_table().add_to(spec);
   return spec;
 }
 

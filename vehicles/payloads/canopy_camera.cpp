@@ -278,7 +278,7 @@ PartSpec canopy_camera_spec() {
   spec.description =
       "Scouting cameras that look at the rows: patches of the true canopy that their pictures show "
       "sharply enough";
-  spec.parameters = canopy_camera_table().specs();
+  canopy_camera_table().add_to(spec);
   spec.default_rate_Hz = 2.0;
   spec.reads = {"truth", "estimate and plan (if on: legs)"};
   spec.writes = {"<name>"};

@@ -311,7 +311,7 @@ PartSpec sprayer_spec() {
   spec.description =
       "Air-assisted sprayer with nozzles on both sides: sections open beside the rows of the map; "
       "deposit on the true canopy, drift with the wind";
-  spec.parameters = sprayer_parameters();
+  add_sprayer_parameters(spec);
   spec.default_rate_Hz = 20.0;
   spec.reads = {"truth", "estimate", "plan (if switching: legs)"};
   spec.writes = {"<name>", "<name>_event"};

@@ -115,8 +115,8 @@ const ParameterTable<SprayerSettings>& sprayer_table() {
 
 }  // namespace
 
-std::vector<ParameterSpec> sprayer_parameters() {
-  return sprayer_table().specs();
+void add_sprayer_parameters(PartSpec& spec) {
+  sprayer_table().add_to(spec);
 }
 
 SprayerParams read_sprayer(const ParameterSet& parameters, const std::string& who) {

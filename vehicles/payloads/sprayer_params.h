@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/api/parameters.h"
+#include "engine/api/part.h"
 #include "engine/math/angles.h"
 #include "vehicles/payloads/spray_jet.h"
 
@@ -40,7 +40,7 @@ struct SprayerParams {
   double wanted_ml_per_m2 = 3.0;
 };
 
-std::vector<ParameterSpec> sprayer_parameters();
+void add_sprayer_parameters(PartSpec& spec);
 /// @param who  for errors, "rover.sprayer"
 /// @throws ConfigError if values contradict each other
 SprayerParams read_sprayer(const ParameterSet& parameters, const std::string& who);

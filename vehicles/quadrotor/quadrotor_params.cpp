@@ -158,7 +158,7 @@ PartSpec quadrotor_spec() {
       "Rotorcraft with four rotors (papers A and C): speed lag, thrust and drag torque of speed "
       "squared, rotor inertia, drag in the wind, ground effect; X or + layout";
   spec.writes = {"rotors", "battery", "vehicle_event"};
-  spec.parameters = quadrotor_table().specs();
+  quadrotor_table().add_to(spec);
   return spec;
 }
 

@@ -205,7 +205,7 @@ PartSpec urdf_rover_spec() {
       "Wheeled robot from a URDF file, with wheel and tyre forces and the file's own masses: skid "
       "steering, Ackermann steering, or four steered wheels";
   spec.writes = {"wheels", "battery"};
-  spec.parameters = urdf_rover_table().specs();
+  urdf_rover_table().add_to(spec);
   return spec;
 }
 

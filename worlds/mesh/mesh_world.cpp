@@ -27,7 +27,7 @@ PartSpec mesh_spec() {
   PartSpec spec;
   spec.name = "mesh";
   spec.description = "mesh files placed by pose, an SDF world's includes, or both";
-  spec.parameters = mesh_world_table().specs();
+  mesh_world_table().add_to(spec);
   return spec;
 }
 

@@ -12,8 +12,8 @@
 #include "engine/math/angles.h"
 #include "worlds/mapping/from_truth/map_parameters.h"
 #include "worlds/parts/alley_spawns.h"
-#include "worlds/parts/leaf_area.h"
 #include "worlds/parts/common.h"
+#include "worlds/parts/leaf_area.h"
 #include "worlds/parts/obstacles.h"
 #include "worlds/parts/terrain.h"
 #include "worlds/plants/trees.h"
@@ -92,7 +92,7 @@ PartSpec orchard_spec() {
   spec.description =
       "parametric orchard of straight tree rows (AgriEngineering 6 (2024) 1937, section 2.2, eq. "
       "3-4)";
-  spec.parameters = orchard_table().specs();
+  orchard_table().add_to(spec);
   return spec;
 }
 

@@ -84,7 +84,7 @@ PartSpec surveyed_spec() {
   spec.name = "surveyed";
   spec.description =
       "vineyard from surveyed rows, poles and vines (GeoJSON, KML, shapefile, GeoPackage)";
-  spec.parameters = surveyed_table().specs();
+  surveyed_table().add_to(spec);
   return spec;
 }
 

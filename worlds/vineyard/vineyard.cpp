@@ -27,7 +27,7 @@ PartSpec vineyard_spec() {
       "parametric vine rows on terrain, loaded from mesh files; default: Parcel F of a Barolo "
       "vineyard "
       "(Biosystems Engineering 2022)";
-  spec.parameters = vineyard_table().specs();
+  vineyard_table().add_to(spec);
   return spec;
 }
 

@@ -17,10 +17,12 @@ FirmwareLinkOptions ardupilot_link_options(const FirmwareParams& params) {
 }
 
 PartSpec ardupilot_spec() {
-  return firmware_spec("ardupilot",
-                       "An unmodified ArduPilot (Rover, Copter, Plane) in lock-step by its JSON "
-                       "interface: it gets a state for each step and drives the actuators.",
-                       ardupilot_table().specs());
+  PartSpec spec =
+      firmware_spec("ardupilot",
+                    "An unmodified ArduPilot (Rover, Copter, Plane) in lock-step by its JSON "
+                    "interface: it gets a state for each step and drives the actuators.");
+  ardupilot_table().add_to(spec);
+  return spec;
 }
 
 std::unique_ptr<Autopilot> make_ardupilot(const ParameterSet& parameters,

@@ -19,12 +19,10 @@ std::chrono::milliseconds milliseconds_of(double time_s) {
 
 }  // namespace
 
-PartSpec firmware_spec(const char* name, const char* description,
-                       std::vector<ParameterSpec> parameters) {
+PartSpec firmware_spec(const char* name, const char* description) {
   PartSpec spec;
   spec.name = name;
   spec.description = description;
-  spec.parameters = std::move(parameters);
   spec.reads = {"truth", "plan (optional)", "battery (optional)"};
   spec.writes = {"actuators", "servo_outputs", "estimate", "follower", "autopilot_event"};
   return spec;

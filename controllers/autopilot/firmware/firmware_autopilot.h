@@ -17,8 +17,7 @@
 namespace vinerow::controllers {
 
 /// What every autopilot reads and writes.
-PartSpec firmware_spec(const char* name, const char* description,
-                       std::vector<ParameterSpec> parameters);
+PartSpec firmware_spec(const char* name, const char* description);
 
 /// Mission, parameters, commands and limits of the scenario for the firmware's MAVLink. Firmware
 /// that was started with the parameters gets them again: names that it does not know come out.

@@ -35,11 +35,13 @@ FirmwareLinkOptions px4_link_options(const FirmwareParams& params) {
 }
 
 PartSpec px4_spec() {
-  return firmware_spec("px4",
-                       "An unmodified PX4 in lock-step by its interface to simulators (MAVLink HIL "
-                       "over TCP): it gets readings of the vehicle's sensors and drives the "
-                       "actuators.",
-                       px4_table().specs());
+  PartSpec spec =
+      firmware_spec("px4",
+                    "An unmodified PX4 in lock-step by its interface to simulators (MAVLink HIL "
+                    "over TCP): it gets readings of the vehicle's sensors and drives the "
+                    "actuators.");
+  px4_table().add_to(spec);
+  return spec;
 }
 
 std::unique_ptr<Autopilot> make_px4(const ParameterSet& parameters,

@@ -22,10 +22,12 @@ bool is_of_px4(Bytes outputs) {
 }  // namespace
 
 PartSpec autopilot_replay_spec() {
-  return firmware_spec("replay",
-                       "The recording of an autopilot in its place: the same outputs without it, "
-                       "as long as the state is the recorded one.",
-                       autopilot_replay_table().specs());
+  PartSpec spec =
+      firmware_spec("replay",
+                    "The recording of an autopilot in its place: the same outputs without it, "
+                    "as long as the state is the recorded one.");
+  autopilot_replay_table().add_to(spec);
+  return spec;
 }
 
 std::unique_ptr<Autopilot> make_autopilot_replay(const ParameterSet& parameters,

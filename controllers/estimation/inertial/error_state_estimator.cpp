@@ -180,7 +180,7 @@ PartSpec error_state_kalman_spec() {
   spec.description =
       "Inertial navigation aided by satellite fixes: error-state Kalman filter with 15 states "
       "(Sola 2017); optionally barometer, magnetometer, wheels and two antennas.";
-  spec.parameters = ErrorStateOptions::parameters();
+  ErrorStateOptions::add_parameters(spec);
   spec.default_rate_Hz = 100.0;
   spec.reads = {"<imu>",
                 "<gps>",

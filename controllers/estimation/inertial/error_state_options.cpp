@@ -107,8 +107,8 @@ const ParameterTable<ErrorStateOptions>& error_state_table() {
 
 }  // namespace
 
-std::vector<ParameterSpec> ErrorStateOptions::parameters() {
-  return error_state_table().specs();
+void ErrorStateOptions::add_parameters(PartSpec& spec) {
+  error_state_table().add_to(spec);
 }
 
 ErrorStateOptions ErrorStateOptions::read(const ParameterSet& parameters, const std::string& who) {

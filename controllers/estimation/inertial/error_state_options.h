@@ -49,7 +49,7 @@ struct ErrorStateOptions {
 
   /// @throws ConfigError if zero_velocity is wheels and no wheels are named
   static ErrorStateOptions read(const ParameterSet& parameters, const std::string& who);
-  static std::vector<ParameterSpec> parameters();
+  static void add_parameters(PartSpec& spec);
 };
 
 }  // namespace vinerow::controllers

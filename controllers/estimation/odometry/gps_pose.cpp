@@ -80,7 +80,7 @@ PartSpec gps_pose_spec() {
   spec.description =
       "Uses the last satellite fix as the position, unfiltered (Martelli, Mocera, Soma 2024, "
       "location error), and the heading of a gyro, corrected by the course.";
-  spec.parameters = gps_pose_table().specs();
+  gps_pose_table().add_to(spec);
   spec.default_rate_Hz = 40.0;
   spec.reads = {"<gps>", "<imu>", "truth (start; heading: truth)"};
   spec.writes = {"estimate"};

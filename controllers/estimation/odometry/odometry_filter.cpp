@@ -250,7 +250,7 @@ PartSpec odometry_filter_spec() {
   spec.description =
       "Dead reckoning along the heading with wheel, commanded or satellite speed, corrected by "
       "satellite fixes with a Kalman gain (position and odometry scale) or a fixed gain.";
-  spec.parameters = odometry_filter_table().specs();
+  odometry_filter_table().add_to(spec);
   spec.default_rate_Hz = 40.0;
   spec.reads = {"<gps>", "<imu>", "command or <wheels>", "truth (start; heading: truth)",
                 "initialpose (from outside)"};

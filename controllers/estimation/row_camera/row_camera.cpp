@@ -232,7 +232,7 @@ PartSpec row_camera_spec() {
       "whose "
       "labels may come from a neural network, or borders of bare strips), wheels and a rate gyro; "
       "no satellites.";
-  spec.parameters = row_camera_table().specs();
+  row_camera_table().add_to(spec);
   spec.default_rate_Hz = 40.0;
   spec.reads = {"<camera>_semantic or <camera>", "<camera>_info", "<imu>", "<wheels>",
                 "truth (start)"};

@@ -304,7 +304,7 @@ PartSpec distance_filter_spec() {
       "Position from an inertial unit, satellite fixes and echoes from mapped rows: the 3D "
       "distance filter of Donati et al. 2022, section 3, in several variants, and an EKF on the "
       "range.";
-  spec.parameters = distance_filter_table().specs();
+  distance_filter_table().add_to(spec);
   spec.default_rate_Hz = 100.0;
   spec.reads = {"truth", "<ins>", "<gps>", "<ranges>", "<down>", "initialpose (from outside)"};
   spec.writes = {"estimate", "ellipsoid", "estimator_state", "estimator_event"};

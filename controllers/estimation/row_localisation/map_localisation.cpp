@@ -325,7 +325,7 @@ PartSpec map_localisation_spec() {
   spec.description =
       "Position between mapped rows from an inertial unit, satellite fixes and echoes: a bank of "
       "extended Kalman filters on the echoes themselves, one for each possible alley.";
-  spec.parameters = map_localisation_table().specs();
+  map_localisation_table().add_to(spec);
   spec.default_rate_Hz = 100.0;
   spec.reads = {"truth", "<ins>", "<gps>", "<ranges>", "<down>", "initialpose (from outside)"};
   spec.writes = {"estimate", "estimator_state", "estimator_event"};

@@ -331,7 +331,7 @@ PartSpec mission_route_spec() {
   spec.description =
       "A mission from QGroundControl (.plan) or Mission Planner (QGC WPL 110), flown or driven leg "
       "by leg; docs/guides/survey.md lists the commands.";
-  spec.parameters = mission_route_table().specs();
+  mission_route_table().add_to(spec);
   spec.reads = {"estimate"};
   spec.writes = {"plan"};
   return spec;

@@ -144,7 +144,7 @@ PartSpec coverage_spec() {
       "Path along the alleys of the row map with straight legs and headland turns (Martelli, "
       "Mocera, Soma 2024, section 2.3): three-point arcs or Dubins paths, split at the waypoint "
       "pitch.";
-  spec.parameters = coverage_table().specs();
+  coverage_table().add_to(spec);
   spec.reads = {"estimate"};
   spec.writes = {"plan"};
   return spec;

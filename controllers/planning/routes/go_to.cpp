@@ -68,7 +68,7 @@ PartSpec go_to_spec() {
       "Path from the vehicle's position to given places, around rows and mapped obstacles: the "
       "shortest Dubins path if it is free, else the shortened result of the quartile tree of "
       "rrt_quartile on the occupancy grid.";
-  spec.parameters = go_to_table().specs();
+  go_to_table().add_to(spec);
   spec.reads = {"estimate"};
   spec.writes = {"plan", "plan_tree"};
   return spec;

@@ -92,7 +92,7 @@ PartSpec remote_goal_spec() {
   spec.description =
       "Drives to goals from outside the run (goal_pose): plans a path from the estimate to each "
       "new goal as the planner go_to does, for a path follower.";
-  spec.parameters = remote_goal_table().specs();
+  remote_goal_table().add_to(spec);
   spec.default_rate_Hz = 5.0;
   spec.reads = {"estimate", "goal_pose"};
   spec.writes = {"plan", "guidance_event"};

@@ -118,7 +118,7 @@ PartSpec rrt_quartile_spec() {
       "(three steering angles, quartiles of the distance to the goal, eq. 22). Nodes are closed "
       "and cells occupied so that the search ends. Near neighbours are not rewired, so the path is "
       "not necessarily the shortest; it is shortened afterwards.";
-  spec.parameters = rrt_quartile_table().specs();
+  rrt_quartile_table().add_to(spec);
   spec.reads = {"estimate"};
   spec.writes = {"plan", "plan_tree"};
   return spec;

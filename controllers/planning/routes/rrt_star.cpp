@@ -61,7 +61,7 @@ PartSpec rrt_star_spec() {
       "Path with legs along the alleys and turns on the occupancy grid: an initial turn in closed "
       "form, improved by RRT* (Karaman, Frazzoli 2011) in OMPL for a car-like vehicle (paper A, "
       "4.1).";
-  spec.parameters = route_planner_table().specs();
+  route_planner_table().add_to(spec);
   for (ParameterSpec& parameter : rrt_star_search_parameters()) {
     spec.parameters.push_back(std::move(parameter));
   }

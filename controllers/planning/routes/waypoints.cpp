@@ -189,7 +189,7 @@ PartSpec waypoints_spec() {
   spec.description =
       "Path of straights between points from the scenario or a CSV file, on the ground or in the "
       "air.";
-  spec.parameters = waypoints_table().specs();
+  waypoints_table().add_to(spec);
   spec.reads = {"estimate"};
   spec.writes = {"plan"};
   return spec;

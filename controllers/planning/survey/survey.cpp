@@ -42,7 +42,7 @@ PartSpec survey_spec() {
       "Parallel lanes over a parcel for a camera that looks down: height from ground sampling "
       "distance, overlaps, flyable turns, waypoints above the terrain (paper A, section 2; "
       "docs/guides/survey.md).";
-  spec.parameters = survey_parameters();
+  add_survey_parameters(spec);
   spec.reads = {"estimate"};
   spec.writes = {"plan"};
   return spec;

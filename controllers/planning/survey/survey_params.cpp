@@ -183,12 +183,12 @@ double find_bank_rad(const std::optional<double>& wanted_rad, const VehicleDescr
 
 }  // namespace
 
-std::vector<ParameterSpec> survey_parameters() {
-  std::vector<ParameterSpec> specs = survey_area_table().specs();
-  for (const auto& more : {survey_camera_parameters(), survey_flight_table().specs()}) {
-    specs.insert(specs.end(), more.begin(), more.end());
+void add_survey_parameters(PartSpec& spec) {
+  survey_area_table().add_to(spec);
+  for (ParameterSpec& parameter : survey_camera_parameters()) {
+    spec.parameters.push_back(std::move(parameter));
   }
-  return specs;
+  survey_flight_table().add_to(spec);
 }
 
 SurveyRequest read_survey_request(const ParameterSet& parameters, const PlannerContext& context,

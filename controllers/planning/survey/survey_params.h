@@ -10,7 +10,7 @@
 
 namespace vinerow::controllers {
 
-std::vector<ParameterSpec> survey_parameters();
+void add_survey_parameters(PartSpec& spec);
 
 /// Respects the vehicle's `stall_speed_mps`, `min_turning_radius_m` and `max_bank_rad` if it has
 /// them. Without the key `rotorcraft`, the kind of vehicle decides. The polygon is the given one,

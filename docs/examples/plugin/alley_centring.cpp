@@ -55,8 +55,8 @@ class AlleyCentring final : public vinerow::Controller {
       const double before_m = offset_m_;
       offset_m_ += 0.1 * (seen_m - offset_m_);
       const double rate_mps = (offset_m_ - before_m) / period_s_;
-      yaw_rate_radps = std::clamp(-params_.gain_radps_per_m * offset_m_ -
-                                      params_.damping_rad_per_m * rate_mps, -0.5, 0.5);
+      yaw_rate_radps = std::clamp(
+          -params_.gain_radps_per_m * offset_m_ - params_.damping_rad_per_m * rate_mps, -0.5, 0.5);
     }
     for (std::size_t i = 0; i < command_.names.size(); ++i) {
       const bool left_wheel =
@@ -85,7 +85,7 @@ vinerow::PartSpec alley_centring_spec() {
   spec.name = "alley_centring";
   spec.description = "Keeps the middle of an alley by two ultrasonic rangers";
   spec.default_rate_Hz = 20.0;
-  spec.parameters = alley_centring_table().specs();
+  alley_centring_table().add_to(spec);
   spec.reads = {"sonar_left", "sonar_right"};
   spec.writes = {"actuators"};
   return spec;

@@ -9,6 +9,7 @@ namespace vinerow::io {
 struct SourceMark {
   std::string file;
   int line = 0;              ///< 1-based; 0 = not from a file (--set, default)
+  bool is_override = false;  ///< of a study or --set, in place of the scenario's own value
   std::string text() const;  ///< "file.yaml:12", or only the file if there is no line
 };
 

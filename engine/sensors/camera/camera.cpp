@@ -296,7 +296,7 @@ PartSpec camera_spec() {
       "camera",
       "camera: pictures with lens, exposure and noise of an image sensor, in colour, bands or "
       "depth, with depth, normals and labels of each pixel",
-      10.0, camera_table().specs());
+      10.0, camera_table());
   spec.writes.push_back(std::string("<name>_info: ") + CameraInfo::kType);
   for (const char* layer : {"depth", "normals", "semantic", "instance"}) {
     spec.writes.push_back(fmt::format("<name>_{}: {}", layer, Picture::kType));

@@ -16,7 +16,8 @@ namespace {
 template <class Thrown>
 std::string thrown_at(Time now, const Thrown& thrown) {
   const SignalBus bus;
-  const scenario::PartConfig config{"stove", 1.0, {}, {"cabin.yaml", 12}};
+  const scenario::PartConfig config{
+      "stove", 1.0, {}, {"cabin.yaml", 12}, {{"heat_W", {"cabin.yaml", 14}}}};
   const auto tick = guarded(bus, "rover.heater", config, [&](Time) { throw thrown; });
   try {
     tick(now);
@@ -31,6 +32,8 @@ std::string thrown_at(Time now, const Thrown& thrown) {
 TEST(Guarded, WhatAPartRefusesAtTheStartIsBadInput) {
   EXPECT_EQ(thrown_at(Time{0}, ConfigError("no wood")),
             "bad input: cabin.yaml:12: rover.heater: no wood");
+  EXPECT_EQ(thrown_at(Time{0}, ConfigError("heat_W = 9 W needs wood")),
+            "bad input: cabin.yaml:14: rover.heater: heat_W = 9 W needs wood");
   EXPECT_EQ(thrown_at(Time{1'000'000'000}, ConfigError("no wood")),
             "broke off: t = 1.000000 s: rover.heater (stove): no wood");
 }

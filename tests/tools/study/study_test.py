@@ -273,6 +273,16 @@ class Study(study_case.StudyCase):
         self.assertIn("s.yaml:4: derived.x: no cell has a number 'nothing'", fault("derived: {x: nothing + 1}"))
         self.assertIn("make 1e+09 cells", fault("seeds: 1000\nfactors: {a: {key: gravity_mps2, from: 1, to: 2, count: 1000}, "
                                                 "b: {key: rover.controller.lookahead_m, from: 1, to: 2, count: 1000}}"))
+        # What a rule across keys refuses, without building a world.
+        vines = (f"vinerow_study: 1\nscenario: {ROOT}/assets/scenarios/vineyard_camera.yaml\nset: {{duration_s: 1}}\n"
+                 "factors:\n  b:\n    key: world.vines.bbch\n    values: [89, %s]\n"
+                 "  arm: {key: world.arm_height_m, values: [0.7, %s]}\n")
+        (self.folder / "vines.yaml").write_text(vines % (30, 0.8))
+        self.assertIn("vines.yaml:7: world.vines: bbch = 30: grapevines have no stages between 19",
+                      self.study("check", self.folder / "vines.yaml", status=2))
+        (self.folder / "vines.yaml").write_text(vines % (85, 2.5))
+        self.assertIn("vines.yaml:8: world.arm_height_m = 2.5 m, must be < canopy_top_m = 2 m for growing vines",
+                      self.study("check", self.folder / "vines.yaml", status=2))
         two = self.write(self.TWO)
         self.assertIn("need '--runner slurm'", self.study("run", two, "--chunk", 3, status=2, out="bad"))
         self.assertIn("--jobs: must be > 0, is '0'", self.study("run", two, "--jobs", 0, status=2, out="bad"))

@@ -262,7 +262,7 @@ void register_row_mesh_map(Registry& registry) {
   spec.description =
       "the true rows with meshes of few triangles fitted to their canopy, after papers A, section "
       "3.2, and C, section 2.2, and with configurable errors";
-  spec.parameters = row_mesh_table().specs();
+  row_mesh_table().add_to(spec);
   registry.add_map(std::move(spec), [](const ParameterSet& parameters, const MapContext& context) {
     return make_row_mesh_map(parameters, context);
   });

@@ -174,7 +174,7 @@ void register_cloud_map_job(Registry& registry) {
   spec.description =
       "turns a point cloud into a low-complexity map: rows, alleys, ground, row meshes and "
       "occupancy grid, after paper A, section 3";
-  spec.parameters = cloud_map_job_table().specs();
+  cloud_map_job_table().add_to(spec);
   spec.takes = {{"cloud", ProductKind::kCloud, true, "points of the whole parcel"}};
   spec.gives = ProductKind::kMap;
   registry.add_job(std::move(spec), [](const ParameterSet& parameters, const JobContext& context) {

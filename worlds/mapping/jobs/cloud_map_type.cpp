@@ -170,7 +170,7 @@ void register_cloud_map(Registry& registry) {
   spec.description =
       "a map that `vinerow map` made from a point cloud: rows, alleys, parcel, ground, row meshes "
       "and occupancy grid, after paper A, section 3";
-  spec.parameters = cloud_map_table().specs();
+  cloud_map_table().add_to(spec);
   registry.add_map(std::move(spec), make_map_of_folder);
 }
 

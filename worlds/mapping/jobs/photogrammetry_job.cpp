@@ -119,7 +119,7 @@ void register_photogrammetry_job(Registry& registry) {
   spec.description =
       "turns the pictures of a survey into a point cloud: dense matching by visibility, errors of "
       "forward intersection (Hartley, Zisserman, section 5.2); the truth is in a file next to it";
-  spec.parameters = photogrammetry_job_table().specs();
+  photogrammetry_job_table().add_to(spec);
   spec.takes = {{"pictures", ProductKind::kPictures, true, "of a survey's camera_trigger"}};
   spec.gives = ProductKind::kCloud;
   registry.add_job(std::move(spec), [](const ParameterSet& parameters, const JobContext& context) {

@@ -1,7 +1,7 @@
+#include "worlds/orchard/orchard.h"
 #include "engine/api/map.h"
 #include "engine/api/mesh.h"
 #include "engine/api/world_model.h"
-#include "worlds/orchard/orchard.h"
 
 #include <gtest/gtest.h>
 
@@ -57,6 +57,24 @@ TEST(Orchard, CrownsStayInsideTheRowsWidth) {
       ASSERT_LE(std::abs(x - row_x), 1.0 + 1e-5) << instance.name;
     }
   }
+}
+
+TEST(Orchard, ATreeHasOneTrunkAndItsTwigsAreWood) {
+  ParameterSet parameters = test::world_parameters("orchard");
+  parameters.set("leaves", std::vector<ParameterSet>{parameters.make_group("leaves")});
+  const auto world = test::make_world("orchard", parameters);
+  int trees = 0, trunks = 0, twigs = 0;
+  for (const MeshInstance& instance : world->meshes) {
+    trees += instance.name.starts_with("crown_hull") ? 1 : 0;
+    // What pictures call a trunk (tools/dataset/thing_shapes.cpp).
+    trunks += instance.surface == SurfaceClass::kTrunk && !instance.label ? 1 : 0;
+    if (!instance.name.starts_with("twigs")) continue;
+    EXPECT_EQ(instance.label, Label::kWood);
+    ++twigs;
+  }
+  EXPECT_GT(trees, 0);
+  EXPECT_EQ(trunks, trees);
+  EXPECT_EQ(twigs, trees);
 }
 
 TEST(Orchard, RefusesRowsThatDoNotFit) {

@@ -167,6 +167,7 @@ void plant_tree_row(WorldModel& world, int row_number, const mapping::RowCurve& 
         add("twigs", SurfaceClass::kTrunk,
             store.get("twigs/" + key, [&] { return make_twigs(space, random("twigs." + key)); }));
     twigs.collides = false;
+    twigs.label = Label::kWood;  // a tree has one trunk
     const auto fruit = store.get(
         "fruit/" + key, [&] { return make_fruit(*params.leaves, space, random("fruit." + key)); });
     if (fruit->triangles.empty()) continue;

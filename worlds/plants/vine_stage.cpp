@@ -1,5 +1,6 @@
 #include "worlds/plants/vine_stage.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -12,7 +13,7 @@ using Point = StagePoint;
 
 /// Leaves that are unfolded: 11 to 19 by definition. Coombe (Aust. J. Grape Wine Res. 1, 1995, 104)
 /// puts 53 at Eichhorn and Lorenz's stage 15, whose shoots have eight leaves; 57 at twelve to
-/// sixteen.
+/// sixteen. 53 has nine here, since 19 comes before it.
 constexpr std::array<Point, 12> kLeaves = {{{11, 1},
                                             {12, 2},
                                             {13, 3},
@@ -22,7 +23,7 @@ constexpr std::array<Point, 12> kLeaves = {{{11, 1},
                                             {17, 7},
                                             {18, 8},
                                             {19, 9},
-                                            {53, 8},
+                                            {53, 9},
                                             {55, 10},
                                             {57, 13}}};
 
@@ -58,9 +59,12 @@ double thermal_time_Cd(const VineVariety& variety, double bbch) {
   const double first_Cd = leaf_time_Cd(variety, 1.0);
   if (bbch < 11.0) return first_Cd * (bbch - 9.0) / 2.0;
   if (bbch <= 57.0) return leaf_time_Cd(variety, interpolate(kLeaves, bbch));
-  if (bbch >= 60.0) return interpolate(kThermalTime, bbch);
   const double from_Cd = leaf_time_Cd(variety, kLeaves.back().value);
-  return from_Cd + (kThermalTime.front().value - from_Cd) * (bbch - 57.0) / 3.0;
+  // One leaf at least unfolds from 57 to 60: varieties whose leaves come slowly are late.
+  const double next_Cd = leaf_time_Cd(variety, kLeaves.back().value + 1.0);
+  const double late_Cd = std::max(0.0, next_Cd - kThermalTime.front().value);
+  if (bbch >= 60.0) return interpolate(kThermalTime, bbch) + late_Cd;
+  return from_Cd + (kThermalTime.front().value + late_Cd - from_Cd) * (bbch - 57.0) / 3.0;
 }
 
 }  // namespace

@@ -3,7 +3,8 @@
 ///
 /// The scale counts leaves (11 to 19) and inflorescences (53 to 57) that grow at the same time. A
 /// stage is therefore taken as a time: degree days above 10 C since bud burst (09). Up to 57 it
-/// follows from the number of leaves, then from a table with straight lines between its points.
+/// follows from the number of leaves, then from a table with straight lines between its points,
+/// which comes later for varieties whose leaves come slowly.
 /// Veraison, leaf fall and the growth of berries are shares by stage.
 
 #include "worlds/plants/vine_variety.h"

@@ -146,6 +146,37 @@ TEST(VineShoot, GrowsAsPublished) {
   }
 }
 
+/// Growth does not run backwards, whatever the variety: from stage to stage the thermal time and
+/// with it leaves, their area and shoots never become less.
+TEST(VineShoot, NeverShrinksFromStageToStage) {
+  std::vector<double> stages;
+  for (double bbch = 10.0; bbch <= 19.0; bbch += 0.25) stages.push_back(bbch);
+  for (double bbch = 53.0; bbch <= 89.0; bbch += 0.25) stages.push_back(bbch);
+  VineVariety variety;
+  for (variety.first_leaf_Cd = 0.0; variety.first_leaf_Cd <= 200.0; variety.first_leaf_Cd += 20.0) {
+    for (const double preformed_Cd : {0.5, 15.0, 40.0, 100.0}) {
+      variety.preformed_phyllochron_Cd = preformed_Cd;
+      for (const double later_Cd : {0.5, 10.0, 22.0, 29.0, 33.6, 33.7, 40.0, 60.0, 100.0}) {
+        variety.phyllochron_Cd = later_Cd;
+        double time_Cd = -1.0, area_m2 = 0.0, length_m = 0.0;
+        std::size_t leaves = 0;
+        for (const double bbch : stages) {
+          const VineStage stage = vine_stage(variety, bbch);
+          const std::vector<ShootNode> nodes = grow_shoot(variety, stage, 1.0);
+          double area_now_m2 = 0.0;
+          for (const ShootNode& node : nodes) area_now_m2 += node.leaf_area_m2;
+          ASSERT_GE(stage.thermal_time_Cd, time_Cd) << later_Cd << " " << bbch;
+          ASSERT_GE(nodes.size(), leaves) << later_Cd << " " << bbch;
+          ASSERT_GE(area_now_m2, area_m2) << later_Cd << " " << bbch;
+          ASSERT_GE(shoot_length_m(nodes), length_m) << later_Cd << " " << bbch;
+          time_Cd = stage.thermal_time_Cd, area_m2 = area_now_m2;
+          leaves = nodes.size(), length_m = shoot_length_m(nodes);
+        }
+      }
+    }
+  }
+}
+
 TEST(VineShoot, TrainedCabernetHasTheMeasuredLeaves) {
   // assets/vines/cabernet_sauvignon.yaml has the source: 14.0 shoots/m of 1.30 m with 24.0 nodes;
   // leaves of 2280 and 1050 cm2 a shoot, 4.72 m2/m.

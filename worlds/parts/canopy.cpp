@@ -34,8 +34,6 @@ const ParameterTable<CanopyParams>& canopy_table() {
   using P = CanopyParams;
   static const ParameterTable<P> table =
       ParameterTable<P>()
-          .number("canopy_width_m", "m", &P::width_m, above(0.0, 10.0),
-                  "mean width of the foliage across the row")
           .number("canopy_base_m", "m", &P::base_m, between(0.0, 10.0),
                   "lowest leaves above ground")
           .number("canopy_top_m", "m", &P::top_m, above(0.0, 30.0), "highest leaves above ground")

@@ -28,8 +28,8 @@ struct CanopyParams {
   int ring_points = 12;  ///< of a hull section, even, >= 6
 };
 
-/// `canopy_width_m`, `canopy_base_m`, `canopy_top_m`, `canopy_variation`, `canopy_step_m`.
-/// The base must be below the top.
+/// `canopy_base_m`, `canopy_top_m`, `canopy_variation`, `canopy_step_m`; the width is
+/// VinePlanting's. The base must be below the top.
 const ParameterTable<CanopyParams>& canopy_table();
 
 /// Canopy figures for the row map.

@@ -32,7 +32,9 @@ const ParameterTable<TrellisParams>& trellis_table() {
           .number("trunk_radius_m", "m", &P::trunk_radius_m, above(0.0, 0.5),
                   "radius of vine stems")
           .number("arm_height_m", "m", &P::arm_height_m, above(0.0, 10.0),
-                  "height of the vines' arms and of the first wire");
+                  "height of the vines' arms and of the first wire; default: 0.75 m, of a pergola "
+                  "0.1 m "
+                  "below its roof");
   return table;
 }
 
@@ -52,7 +54,7 @@ TriangleMesh make_trunks(const mapping::RowCurve& row, const mapping::GroundHeig
       bend[1] = random.uniform(-0.035, 0.035);
     }
     const float shade = static_cast<float>(random.uniform(0.75, 1.3));
-    const double r = params.trunk_radius_m * girth, top = params.arm_height_m;
+    const double r = params.trunk_radius_m * girth, top = params.arm_m();
     const auto point = [&](double share, int bend, double radius) {
       const Eigen::Vector3d p(bend < 0 ? 0.0 : bend_m[bend][0], bend < 0 ? 0.0 : bend_m[bend][1],
                               share * top);
@@ -117,7 +119,7 @@ TriangleMesh make_wires(const mapping::RowCurve& row, const mapping::GroundHeigh
                         double start_m, double end_m, const TrellisParams& params) {
   TriangleMesh mesh;
   const std::vector<double> stations = spread_posts(start_m, end_m, params.post_spacing_m);
-  const double first = params.arm_height_m, last = params.post_height_m - 0.05;
+  const double first = params.arm_m(), last = params.post_height_m - 0.05;
   constexpr int kWires = 4;
   for (int w = 0; w < kWires; ++w) {
     const double height_m = first + (last - first) * w / (kWires - 1);

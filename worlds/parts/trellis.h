@@ -2,6 +2,7 @@
 /// Meshes of a row without leaves: trunks with their arms, posts, wires.
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "engine/api/mesh.h"
@@ -20,7 +21,10 @@ struct TrellisParams {
   double end_post_radius_m = 0.06;                ///< wood, at the ends
   double end_post_lean_rad = rad_from_deg(12.0);  ///< outward
   double trunk_radius_m = 0.028;
-  double arm_height_m = 0.75;  ///< of the horizontal arms (cordon) and the first wire
+  std::optional<double> arm_height_m;  ///< absent: 0.75 m, of a pergola just below its roof
+
+  /// Of the horizontal arms (cordon) and the first wire.
+  double arm_m() const { return arm_height_m.value_or(0.75); }
 };
 
 /// `posts`, `post_spacing_m`, `post_height_m`, `end_post_lean_deg`, `trunk_radius_m`,

@@ -222,7 +222,7 @@ class Planter {
     }
     add("wire/" + row_name, SurfaceClass::kWire,
         [&] { return make_wires(row.curve, ground_, start_m, end_m, trellis); });
-    if (!planting_.growth || planting_.growth->pruning != Pruning::kPergola) return;
+    if (!is_pergola(planting_)) return;
     const RoofParams roof{roof_height_m(planting_.space), planting_.space.width_m};
     add("roof_wire/" + row_name, SurfaceClass::kWire,
         [&] { return make_roof_wires(row.curve, ground_, start_m, end_m, trellis, roof); });
@@ -239,12 +239,43 @@ class Planter {
   double leaf_area_m2_ = 0.0;  ///< of the run
 };
 
+// Of a pergola, where the user gives no value; chosen.
+constexpr double kArmBelowRoof_m = 0.1, kPergolaWidth_m = 2.0;
+
+double roof_m(const VinePlanting& planting) {
+  return roof_height_m({.top_m = planting.canopy.top_m});
+}
+
+std::string find_fault_in_pergola(const VinePlanting& planting) {
+  const TrellisParams& trellis = planting.trellis;
+  const double roof = roof_m(planting), top = planting.canopy.top_m;
+  const auto height_of_roof = [&] {
+    return fmt::format("the height of a pergola's roof, {:.6g} m below canopy_top_m = {:.6g} m",
+                       top - roof, top);
+  };
+  if (trellis.arm_height_m && *trellis.arm_height_m > roof) {
+    return fmt::format("arm_height_m = {:.6g} m, must be <= {:.6g} m, {}", *trellis.arm_height_m,
+                       roof, height_of_roof());
+  }
+  if (roof <= kArmBelowRoof_m) {
+    return fmt::format("canopy_top_m = {:.6g} m, must be > {:.6g} m for a pergola", top,
+                       top - roof + kArmBelowRoof_m);
+  }
+  if (trellis.posts && trellis.post_height_m < roof) {
+    return fmt::format("post_height_m = {:.6g} m, must be >= {:.6g} m, {}", trellis.post_height_m,
+                       roof, height_of_roof());
+  }
+  return "";
+}
+
 }  // namespace
 
 const ParameterTable<VinePlanting>& planting_table() {
   using P = VinePlanting;
   static const ParameterTable<P> table =
       ParameterTable<P>()
+          .number("canopy_width_m", "m", &P::canopy_width_m, above(0.0, 10.0),
+                  "mean width of the foliage across the row; default: 0.55 m, of a pergola 2 m")
           .include(&P::canopy, canopy_table())
           .include(&P::trellis, trellis_table())
           .number("leaf_cards_per_m", "1/m", &P::leaf_cards_per_m, between(10.0, 2000.0),
@@ -259,17 +290,31 @@ const ParameterTable<VinePlanting>& planting_table() {
               "vines that grow organ by organ with the season, within the canopy's width and top; "
               "absent: cards of leaves, in summer")
           .rule([](const P& p) -> std::string {
-            if (!p.growth || p.trellis.arm_height_m < p.canopy.top_m) return "";
+            if (is_pergola(p)) return find_fault_in_pergola(p);
+            if (!p.growth || p.trellis.arm_m() < p.canopy.top_m) return "";
             return fmt::format(
                 "arm_height_m = {} m, must be < canopy_top_m = {} m for growing vines",
-                p.trellis.arm_height_m, p.canopy.top_m);
+                p.trellis.arm_m(), p.canopy.top_m);
           });
   return table;
 }
 
+bool is_pergola(const VinePlanting& planting) {
+  return planting.growth && planting.growth->pruning == Pruning::kPergola;
+}
+
+double canopy_width_m(const VinePlanting& planting) {
+  return planting.canopy_width_m.value_or(is_pergola(planting) ? kPergolaWidth_m
+                                                               : planting.canopy.width_m);
+}
+
 VinePlanting settle_growth(VinePlanting planting) {
+  planting.canopy.width_m = canopy_width_m(planting);
   if (!planting.growth) return planting;
-  planting.space = {planting.trellis.arm_height_m, planting.canopy.width_m, planting.canopy.top_m};
+  if (is_pergola(planting) && !planting.trellis.arm_height_m) {
+    planting.trellis.arm_height_m = roof_m(planting) - kArmBelowRoof_m;
+  }
+  planting.space = {planting.trellis.arm_m(), planting.canopy.width_m, planting.canopy.top_m};
   // A stretch that is long enough for percentiles.
   constexpr double kLength_m = 12.0;
   constexpr int kVines = 12;
@@ -322,7 +367,12 @@ void plant_vine_rows(WorldModel& world, const std::vector<VineRow>& rows,
                      const mapping::GroundHeight& ground, const VinePlanting& planting,
                      MeshStore& store) {
   Planter planter(world, ground, planting, store);
-  for (std::size_t i = 0; i < rows.size(); ++i) planter.plant(i, rows[i]);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    VineRow row = rows[i];
+    // Arms and foliage of a single vine end with its row.
+    row.vine_spacing_m = std::min(row.vine_spacing_m, row.curve.length_m());
+    planter.plant(i, row);
+  }
 }
 
 }  // namespace vinerow::worlds

@@ -34,6 +34,7 @@ struct VineRow {
 };
 
 struct VinePlanting {
+  std::optional<double> canopy_width_m;  ///< of `canopy`, set by settle_growth(); absent: default
   CanopyParams canopy;
   TrellisParams trellis;
   double leaf_cards_per_m = 260.0;  ///< near level
@@ -45,11 +46,18 @@ struct VinePlanting {
   bool has_leaves = true;            ///< likewise
 };
 
-/// With growing vines, the space for them is that of `canopy`, which becomes the extent of their
-/// leaves: 0.1 m wide from arms to posts without leaves. Call it before the rows are mapped.
+bool is_pergola(const VinePlanting& planting);
+
+/// Given or default, before settle_growth().
+double canopy_width_m(const VinePlanting& planting);
+
+/// Sets what the user has not given. With growing vines, the space for them is that of `canopy`,
+/// which becomes the extent of their leaves: 0.1 m wide from arms to posts without leaves. Call it
+/// before the rows are mapped.
 VinePlanting settle_growth(VinePlanting planting);
 
-/// canopy_table(), trellis_table(), `leaf_cards_per_m`, `plant_variants`, `plant_seed`, `vines`.
+/// `canopy_width_m`, canopy_table(), trellis_table(), `leaf_cards_per_m`, `plant_variants`,
+/// `plant_seed`, `vines`.
 const ParameterTable<VinePlanting>& planting_table();
 
 /// Distance by which the map extends a row beyond its ends: half the canopy's width if end posts

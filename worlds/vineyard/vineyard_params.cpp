@@ -1,5 +1,7 @@
 #include "worlds/vineyard/vineyard_params.h"
 
+#include <fmt/format.h>
+
 #include "engine/api/parameter_table.h"
 
 namespace vinerow::worlds {
@@ -47,7 +49,15 @@ const ParameterTable<VineyardParams>& vineyard_table() {
                  "neighbouring vineyards, meadows, tracks and trees in pictures only; nothing "
                  "collides with them; absent: none")
           .include(&P::map, mapping::map_table())
-          .include(&P::obstacles, obstacles_table());
+          .include(&P::obstacles, obstacles_table())
+          .rule([](const P& p) -> std::string {
+            const double width_m = canopy_width_m(p.planting);
+            if (!is_pergola(p.planting) || width_m <= p.pitch_m) return "";
+            return fmt::format(
+                "canopy_width_m = {:.6g} m, must be <= pitch_m = {:.6g} m for a "
+                "pergola",
+                width_m, p.pitch_m);
+          });
   return table;
 }
 

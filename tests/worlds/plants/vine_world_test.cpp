@@ -232,12 +232,83 @@ TEST(VineWorld, AnOrganHasOneMeshForLight) {
 TEST(VineWorld, ArmsAboveTheTrimmingAreRefused) {
   ParameterSet parameters = parameters_at(75);
   parameters.set("arm_height_m", 2.5);
-  try {
-    test::make_world("vineyard", parameters);
-    FAIL();
-  } catch (const ConfigError& error) {
-    EXPECT_STREQ(error.what(),
-                 "arm_height_m = 2.5 m, must be < canopy_top_m = 2 m for growing vines");
+  EXPECT_EQ(test::config_error_of([&] { test::make_world("vineyard", parameters); }),
+            "arm_height_m = 2.5 m, must be < canopy_top_m = 2 m for growing vines");
+}
+
+ParameterSet pergola_at(double bbch) {
+  ParameterSet parameters = parameters_at(bbch);
+  ParameterSet vines = parameters.make_group("vines");
+  vines.set("bbch", bbch).set("pruning", std::string("pergola"));
+  parameters.set("vines", std::vector<ParameterSet>{vines});
+  return parameters;
+}
+
+/// A pergola without further values: shoots, leaves and bunches lie on the roof, 0.25 m below the
+/// canopy's top at 2 m, on both sides; a vehicle drives below.
+TEST(VineWorld, APergolaCarriesItsShootsOnTheRoof) {
+  const auto world = test::make_world("vineyard", pergola_at(75));
+  for (const std::string organ : {"shoots/row_01", "canopy/row_01", "bunches/row_01"}) {
+    std::vector<double> heights;
+    double left_m = 0.0, right_m = 0.0;
+    const auto& line = world->rows->rows[1].line_W;
+    const Eigen::Vector3d along = (line.back() - line.front()).normalized();
+    for (const MeshInstance& instance : world->meshes) {
+      if (!instance.name.starts_with(organ) || !instance.name.ends_with("#lod0")) continue;
+      for (const Eigen::Vector3f& v : instance.mesh->vertices) {
+        const Eigen::Vector3d p = instance.X_WM * v.cast<double>() - line.front();
+        heights.push_back(p.z());
+        left_m = std::max(left_m, along.x() * p.y() - along.y() * p.x());
+        right_m = std::min(right_m, along.x() * p.y() - along.y() * p.x());
+      }
+    }
+    ASSERT_FALSE(heights.empty()) << organ;
+    std::sort(heights.begin(), heights.end());
+    EXPECT_GT(heights[heights.size() / 50], 1.4) << organ;
+    EXPECT_NEAR(heights[heights.size() / 2], 1.75, 0.2) << organ;
+    if (organ.starts_with("bunches")) continue;  // on the third node
+    EXPECT_GT(left_m, 0.8) << organ;
+    EXPECT_LT(right_m, -0.8) << organ;
+  }
+}
+
+TEST(VineWorld, APergolaThatContradictsItselfIsRefused) {
+  const auto fault = [](const char* key, double value) {
+    ParameterSet parameters = pergola_at(75);
+    parameters.set(key, value);
+    return test::config_error_of([&] { test::make_world("vineyard", parameters); });
+  };
+  const std::string roof = "the height of a pergola's roof, 0.25 m below canopy_top_m = 2 m";
+  EXPECT_EQ(fault("arm_height_m", 1.9), "arm_height_m = 1.9 m, must be <= 1.75 m, " + roof);
+  EXPECT_EQ(fault("post_height_m", 1.0), "post_height_m = 1 m, must be >= 1.75 m, " + roof);
+  EXPECT_EQ(fault("canopy_width_m", 3.0),
+            "canopy_width_m = 3 m, must be <= pitch_m = 2.5 m for a pergola");
+  EXPECT_EQ(fault("pitch_m", 1.5),
+            "canopy_width_m = 2 m, must be <= pitch_m = 1.5 m for a pergola");
+  ParameterSet low = pergola_at(75);
+  low.set("canopy_base_m", 0.1).set("canopy_top_m", 0.3);
+  EXPECT_EQ(test::config_error_of([&] { test::make_world("vineyard", low); }),
+            "canopy_top_m = 0.3 m, must be > 0.35 m for a pergola");
+}
+
+/// One vine alone, whose place in the row is longer than the row: arms and foliage end with it.
+TEST(VineWorld, FoliageEndsWithTheRow) {
+  ParameterSet parameters = parameters_at(75);
+  parameters.set("vine_spacing_m", 50.0);
+  const auto world = test::make_world("vineyard", parameters);
+  for (const MeshInstance& instance : world->meshes) {
+    const bool is_plant = instance.name.starts_with("canopy") ||
+                          instance.name.starts_with("trunk") || instance.name.starts_with("shoots");
+    if (!is_plant) continue;
+    const std::size_t at = instance.name.find("row_");
+    const auto& line = world->rows->rows[std::stoul(instance.name.substr(at + 4, 2))].line_W;
+    const Eigen::Vector3d along = (line.back() - line.front()).normalized();
+    for (const Eigen::Vector3f& v : instance.mesh->vertices) {
+      const double s_m = along.dot(instance.X_WM * v.cast<double>() - line.front());
+      // Shoots lean.
+      ASSERT_GT(s_m, -1.0) << instance.name;
+      ASSERT_LT(s_m, 22.0 + 1.0) << instance.name;
+    }
   }
 }
 

@@ -61,7 +61,7 @@ std::vector<fs::path> find_files_of_run(const fs::path& folder) {
        it != fs::recursive_directory_iterator(); it.increment(ignored)) {
     const fs::path path = it->path().lexically_relative(folder);
     if (it->is_directory(ignored)) {
-      // What is deeper is nobody's of a run, and may be large.
+      // A run writes nothing deeper, and what is there may be large.
       const bool is_known = path == "frames" || path == "canopy" || path == "robot_description" ||
                             path.parent_path() == "robot_description";
       if (!is_known) it.disable_recursion_pending();

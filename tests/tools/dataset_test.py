@@ -425,7 +425,7 @@ class BadInput(InAFolder):
         self.refuse(changed(every_s=0.001), r"study.yaml:\d+: dataset.every_s = 0.001 s, must be at least the 0.0162 s of an "
                     r"exposure and a readout of 'rover/front'")
         limits = {"rover.sensors.front.depth_min_m": 9, "rover.sensors.front.depth_max_m": 3}
-        self.refuse({**STUDY, "set": limits}, r"vineyard_camera.yaml:\d+: rover.sensors.front: depth_min_m = 9, must be < "
+        self.refuse({**STUDY, "set": limits}, r"study.yaml:\d+: vehicles.rover.sensors.front.depth_min_m = 9, must be < "
                     r"depth_max_m = 3")
         self.refuse({**STUDY, "seeds": [1, 10**16]}, r"study.yaml:\d+: seed 10000000000000000 is too large to be also the "
                     r"world's plant_seed; choose smaller seeds, or set world.plant_seed")

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
@@ -157,7 +158,8 @@ void DatasetTask::add_plant_seed(std::size_t cell, const scenario::PartConfig& w
   for (const ParameterSpec& spec : world.parameters.specs()) {
     if (spec.name != "plant_seed" || spec.kind != ParameterKind::kInteger) continue;
     if (gives_plant_seed(open_, cell)) {
-      plant_seeds_.back() = static_cast<std::uint64_t>(world.parameters.integer(spec.name));
+      const auto given = std::get<std::int64_t>(*world.parameters.find(spec.name));
+      plant_seeds_.back() = static_cast<std::uint64_t>(given);
       continue;
     }
     const std::uint64_t seed = open_.design.seed_of(cell);

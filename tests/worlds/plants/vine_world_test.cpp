@@ -272,6 +272,19 @@ TEST(VineWorld, APergolaCarriesItsShootsOnTheRoof) {
   }
 }
 
+TEST(VineWorld, TrunksOfAPergolaEndJustBelowItsRoof) {
+  const auto world = test::make_world("vineyard", pergola_at(75));
+  double top_m = 0.0;
+  for (const MeshInstance& instance : world->meshes) {
+    if (!instance.name.starts_with("trunk/row_01") || !instance.name.ends_with("#lod0")) continue;
+    for (const Eigen::Vector3f& v : instance.mesh->vertices) {
+      const Eigen::Vector3d p = instance.X_WM * v.cast<double>();
+      top_m = std::max(top_m, p.z() - world->rows->rows[1].line_W.front().z());
+    }
+  }
+  EXPECT_NEAR(top_m, 1.65, 0.08);  // the arms are 3 cm thick and not quite straight
+}
+
 TEST(VineWorld, APergolaThatContradictsItselfIsRefused) {
   const auto fault = [](const char* key, double value) {
     ParameterSet parameters = pergola_at(75);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "engine/core/whole_file.h"
 
@@ -51,12 +52,10 @@ void remove_empty_folders(const std::vector<fs::path>& files, const fs::path& fo
   }
 }
 
-}  // namespace
-
-std::vector<fs::path> find_files_of_run(const fs::path& folder) {
+/// Relative to the folder.
+std::vector<fs::path> find_files(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code ignored;
-  if (!fs::is_regular_file(folder / kFirstFile, ignored)) return files;
   for (auto it = fs::recursive_directory_iterator(folder, ignored);
        it != fs::recursive_directory_iterator(); it.increment(ignored)) {
     const fs::path path = it->path().lexically_relative(folder);
@@ -72,16 +71,16 @@ std::vector<fs::path> find_files_of_run(const fs::path& folder) {
   return files;
 }
 
-void remove_run(const fs::path& folder) {
-  std::error_code ignored;
-  const std::vector<fs::path> files = find_files_of_run(folder);
-  for (const fs::path& file : files) fs::remove(folder / file, ignored);
-  remove_empty_folders(files, folder);
-}
+}  // namespace
 
 EarlierRun::EarlierRun(const fs::path& folder) : folder_(folder), aside_(folder / kAside) {
   remove();  // of a run that was killed
-  const std::vector<fs::path> files = find_files_of_run(folder);
+  const std::vector<fs::path> files = find_files(folder);
+  std::error_code ignored;
+  if (!fs::is_regular_file(folder / kFirstFile, ignored)) {
+    of_others_.insert(files.begin(), files.end());
+    return;
+  }
   move_files(files, folder, aside_);
   remove_empty_folders(files, folder);
 }
@@ -91,9 +90,17 @@ void EarlierRun::remove() {
   fs::remove_all(aside_, ignored);
 }
 
+void EarlierRun::remove_new() const {
+  std::error_code ignored;
+  std::vector<fs::path> files = find_files(folder_);
+  std::erase_if(files, [this](const fs::path& file) { return of_others_.contains(file); });
+  for (const fs::path& file : files) fs::remove(folder_ / file, ignored);
+  remove_empty_folders(files, folder_);
+}
+
 void EarlierRun::put_back() {
-  remove_run(folder_);
-  move_files(find_files_of_run(aside_), aside_, folder_);
+  remove_new();
+  move_files(find_files(aside_), aside_, folder_);
   remove();
 }
 

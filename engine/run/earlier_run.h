@@ -3,18 +3,14 @@
 /// they go; a new run that is refused puts them back.
 
 #include <filesystem>
-#include <vector>
+#include <set>
 
 namespace vinerow::run {
 
-/// Files of a run in a folder, relative to it: those that a run and the commands on its log write
-/// there. Empty if the folder does not hold a run, which writes scenario.resolved.yaml first.
-/// Products of jobs are not among them, because other runs may use them.
-std::vector<std::filesystem::path> find_files_of_run(const std::filesystem::path& folder);
-
-/// Removes them, and folders that they leave empty. Files of others stay.
-void remove_run(const std::filesystem::path& folder);
-
+/// Names are those that a run and the commands on its log write. Products of jobs are not among
+/// them, because other runs may use them. A folder holds a run if it has scenario.resolved.yaml,
+/// which a run writes first; in any other folder files of these names are somebody else's, as all
+/// others are, and stay.
 class EarlierRun {
  public:
   /// Moves the files of a run, if there is one, to a hidden folder in the same place.
@@ -25,11 +21,14 @@ class EarlierRun {
 
   /// Once the new run cannot be refused any more.
   void remove();
+  /// What the new run has written, before it starts again.
+  void remove_new() const;
   /// In place of the files of the new run.
   void put_back();
 
  private:
   std::filesystem::path folder_, aside_;
+  std::set<std::filesystem::path> of_others_;  ///< relative to the folder
 };
 
 }  // namespace vinerow::run

@@ -298,7 +298,7 @@ RunResult run_scenario(const scenario::Scenario& scenario, const Registry& regis
   std::unique_ptr<EventFile> events;
   EarlierRun earlier(options.out);
   for (bool runs = true; runs;) {
-    remove_run(options.out);
+    earlier.remove_new();
     write_whole_file(options.out / "scenario.resolved.yaml", session.scenario().resolved_yaml);
     Simulation& simulation = session.simulation();
     if (with_log) {

@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <set>
 
 #include "engine/core/error.h"
 #include "engine/record/cdr.h"
 #include "engine/record/log_reader.h"
+#include "engine/run/earlier_run.h"
 #include "engine/run/folder_lock.h"
 #include "engine/sensors/register_sensors.h"
 #include "tests/engine/record/raw_messages.h"
@@ -147,6 +149,30 @@ TEST_F(RunFiles, AFolderWithoutARunKeepsItsFiles) {
   run();
   for (const std::string& name : names) {
     EXPECT_TRUE(std::filesystem::exists(folder_ / name)) << name;
+  }
+}
+
+TEST_F(RunFiles, ARunThatIsRefusedOrStartsAgainRemovesItsOwnFilesAlone) {
+  const auto write = [&](const std::vector<std::string>& names) {
+    std::filesystem::create_directories(folder_ / "frames");
+    for (const std::string& name : names) std::ofstream(folder_ / name) << name;
+  };
+  const auto files = [&] {
+    std::set<std::string> found;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_)) {
+      if (entry.is_regular_file()) {
+        found.insert(entry.path().lexically_relative(folder_).string());
+      }
+    }
+    return found;
+  };
+  const std::set<std::string> mine = {"frames/a.png", "report.html"};
+  write({"frames/a.png", "report.html"});
+  EarlierRun none(folder_);
+  for (const bool again : {true, false}) {
+    write({"scenario.resolved.yaml", "log.mcap", "frames/b.png"});
+    again ? none.remove_new() : none.put_back();
+    EXPECT_EQ(files(), mine);
   }
 }
 

@@ -68,21 +68,47 @@ TEST(Scene, BulletEmbreeAndHeightFieldSeeTheSameSurface) {
   bullet.removeCollisionObject(objects[0].get());
 }
 
+/// The same ground as a height field and as a mesh.
+struct FieldAndMesh {
+  explicit FieldAndMesh(HeightField the_field)
+      : field_world{world_of(std::move(the_field))},
+        mesh_world{mesh_of(field())},
+        field_physics({}, field_world),
+        mesh_physics({}, mesh_world) {}
+  const HeightField& field() const { return *field_world.terrain; }
+  std::optional<RayHit> on_field(const Vector3d& p, const Vector3d& dir, double far_m) const {
+    return field_physics.scene().cast_ray(p, dir, far_m);
+  }
+  std::optional<RayHit> on_mesh(const Vector3d& p, const Vector3d& dir, double far_m) const {
+    return mesh_physics.scene().cast_ray(p, dir, far_m);
+  }
+
+  const WorldModel field_world, mesh_world;
+  const PhysicsWorld field_physics, mesh_physics;
+
+ private:
+  static WorldModel world_of(HeightField field) {
+    WorldModel world;
+    world.terrain = std::move(field);
+    return world;
+  }
+  static WorldModel mesh_of(const HeightField& field) {
+    WorldModel world;
+    world.meshes = {test::make_instance("ground", test::make_mesh_of(field), Vector3d::Zero(),
+                                        SurfaceClass::kTerrain)};
+    return world;
+  }
+};
+
 TEST(Scene, SlantedRaysAgreeBetweenTheHeightFieldAndItsMesh) {
-  WorldModel field_world;
-  field_world.terrain = test::make_hills(129, 0.25);
-  WorldModel mesh_world;
-  mesh_world.meshes = {test::make_instance("hills", test::make_mesh_of(*field_world.terrain),
-                                           Vector3d::Zero(), SurfaceClass::kTerrain)};
-  const PhysicsWorld field_physics({}, field_world);
-  const PhysicsWorld mesh_physics({}, mesh_world);
+  const FieldAndMesh ground(test::make_hills(129, 0.25));
   RandomStream random(2, "", "slanted");
   int hits = 0, different = 0;
   for (int k = 0; k < 20'000; ++k) {
     const Vector3d p(random.uniform(-25, 25), random.uniform(-25, 25), random.uniform(25, 35));
     const Vector3d dir = random_direction(random);
-    const auto own = field_physics.scene().cast_ray(p, dir, 60.0);
-    const auto embree = mesh_physics.scene().cast_ray(p, dir, 60.0);
+    const auto own = ground.on_field(p, dir, 60.0);
+    const auto embree = ground.on_mesh(p, dir, 60.0);
     if (own.has_value() != embree.has_value()) {
       ++different;  // rays that graze a ridge or the rim
       continue;
@@ -96,15 +122,9 @@ TEST(Scene, SlantedRaysAgreeBetweenTheHeightFieldAndItsMesh) {
 }
 
 TEST(Scene, RaysMeetASteepSlopeWhereItsMeshIsMet) {
-  WorldModel field_world;
-  field_world.terrain = test::make_terrain(129, 97, 0.25, [](double x, double y) {
+  const FieldAndMesh ground(test::make_terrain(129, 97, 0.25, [](double x, double y) {
     return 0.05 * std::sin(2.1 * x) * std::cos(1.7 * y) + 0.7 * x - 0.4 * y;
-  });
-  WorldModel mesh_world;
-  mesh_world.meshes = {test::make_instance("slope", test::make_mesh_of(*field_world.terrain),
-                                           Vector3d::Zero(), SurfaceClass::kTerrain)};
-  const PhysicsWorld field_physics({}, field_world);
-  const PhysicsWorld mesh_physics({}, mesh_world);
+  }));
   RandomStream random(6, "", "steep");
   int hits = 0, misses = 0, different = 0;
   for (int k = 0; k < 40'000; ++k) {
@@ -112,13 +132,13 @@ TEST(Scene, RaysMeetASteepSlopeWhereItsMeshIsMet) {
     const double x = random.uniform(-15, 15), y = random.uniform(-11, 11);
     const double off_m = random.uniform(-0.6, 0.6);
     if (std::abs(off_m) < 1e-3) continue;
-    const Vector3d p(x, y, field_world.terrain->height_m(x, y) + off_m);
+    const Vector3d p(x, y, ground.field().height_m(x, y) + off_m);
     const double bearing = random.uniform(-kPi, kPi);
     const Eigen::Vector2d level(std::cos(bearing), std::sin(bearing));
     const double rise = level.dot(Eigen::Vector2d(0.7, -0.4)) + random.uniform(-0.3, 0.3);
     const Vector3d dir = Vector3d(level.x(), level.y(), rise).normalized();
-    const auto own = field_physics.scene().cast_ray(p, dir, 60.0);
-    const auto embree = mesh_physics.scene().cast_ray(p, dir, 60.0);
+    const auto own = ground.on_field(p, dir, 60.0);
+    const auto embree = ground.on_mesh(p, dir, 60.0);
     ++(own ? hits : misses);
     if (own.has_value() != embree.has_value() ||
         (own && std::abs(own->distance_m - embree->distance_m) > 1e-4)) {
@@ -131,13 +151,7 @@ TEST(Scene, RaysMeetASteepSlopeWhereItsMeshIsMet) {
 }
 
 TEST(Scene, RaysThatRiseFromTheGroundMeetItWhereItsMeshIsMet) {
-  WorldModel field_world;
-  field_world.terrain = test::make_hills(129, 0.25);
-  WorldModel mesh_world;
-  mesh_world.meshes = {test::make_instance("hills", test::make_mesh_of(*field_world.terrain),
-                                           Vector3d::Zero(), SurfaceClass::kTerrain)};
-  const PhysicsWorld field_physics({}, field_world);
-  const PhysicsWorld mesh_physics({}, mesh_world);
+  const FieldAndMesh ground(test::make_hills(129, 0.25));
   RandomStream random(4, "", "rising");
   int hits = 0, different = 0;
   for (int k = 0; k < 20'000; ++k) {
@@ -145,11 +159,11 @@ TEST(Scene, RaysThatRiseFromTheGroundMeetItWhereItsMeshIsMet) {
     // From above and from below, so that both steep and gentle rays cross the surface.
     const double off_m = random.uniform(-0.5, 0.5);
     if (std::abs(off_m) < 1e-3) continue;
-    const Vector3d p(x, y, field_world.terrain->height_m(x, y) + off_m);
+    const Vector3d p(x, y, ground.field().height_m(x, y) + off_m);
     Vector3d dir = random_direction(random);
     dir.z() = std::abs(dir.z());
-    const auto own = field_physics.scene().cast_ray(p, dir, 60.0);
-    const auto embree = mesh_physics.scene().cast_ray(p, dir, 60.0);
+    const auto own = ground.on_field(p, dir, 60.0);
+    const auto embree = ground.on_mesh(p, dir, 60.0);
     if (own) ++hits;
     if (own.has_value() != embree.has_value() ||
         (own && std::abs(own->distance_m - embree->distance_m) > 1e-4)) {
@@ -161,14 +175,8 @@ TEST(Scene, RaysThatRiseFromTheGroundMeetItWhereItsMeshIsMet) {
 }
 
 TEST(Scene, ShortRaysMeetTheGroundWhereItsMeshIsMet) {
-  WorldModel field_world;
-  field_world.terrain = test::make_hills(129, 0.25);
-  const HeightField& field = *field_world.terrain;
-  WorldModel mesh_world;
-  mesh_world.meshes = {test::make_instance("hills", test::make_mesh_of(field), Vector3d::Zero(),
-                                           SurfaceClass::kTerrain)};
-  const PhysicsWorld field_physics({}, field_world);
-  const PhysicsWorld mesh_physics({}, mesh_world);
+  const FieldAndMesh ground(test::make_hills(129, 0.25));
+  const HeightField& field = ground.field();
   RandomStream random(5, "", "wheels");
   int hits = 0, different = 0;
   for (int k = 0; k < 20'000; ++k) {
@@ -179,8 +187,8 @@ TEST(Scene, ShortRaysMeetTheGroundWhereItsMeshIsMet) {
         Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-2, 0.2))
             .normalized();
     const double reach_m = random.uniform(0.0, 0.6);
-    const auto own = field_physics.scene().cast_ray(p, dir, reach_m);
-    const auto embree = mesh_physics.scene().cast_ray(p, dir, reach_m);
+    const auto own = ground.on_field(p, dir, reach_m);
+    const auto embree = ground.on_mesh(p, dir, reach_m);
     if (own.has_value() != embree.has_value()) {
       ++different;  // rays that end on the surface or at the rim
       continue;

@@ -11,6 +11,7 @@
 #include "engine/api/surface.h"
 #include "engine/sim/vehicle_runtime.h"
 #include "tests/scenarios/session_support.h"
+#include "tests/support/paths.h"
 #include "tools/parts/register_all.h"
 
 namespace vinerow::camera_run_test {
@@ -148,6 +149,35 @@ TEST(CameraRun, RefusesCamerasAndScannersInsideOfTheirVehicle) {
   }
   EXPECT_EQ(files, std::size(names));
   for (const std::string& name : names) EXPECT_EQ(test::read_text(out / name), "earlier " + name);
+}
+
+/// Around and above the fixed wing, looking at it, and in its fuselage.
+TEST(CameraRun, IsInsideOfTheFixedWingInItsFuselageAlone) {
+  const ScratchFolder folder("camera_plane");
+  const auto validate = [&](const std::string& place) {
+    return run_vinerow("validate " + folder.file("scenario.yaml", R"(
+vinerow: 1
+duration_s: 0.1
+world: {type: vineyard, row_count: 2, row_length_m: 10, relief_m: 0, leaf_cards_per_m: 10, plant_variants: 1}
+vehicles:
+  plane:
+    include: )" + std::string(VINEROW_SOURCE_DIR) + R"(/assets/vehicles/mh900_like.yaml
+    spawn: {alley: 0, offset_m: 6}
+    sensors:
+      eye: {type: camera, width_px: 16, height_px: 16, picture: depth, )" +
+                                                                      place + "}\n"));
+  };
+  for (const char* place : {"position_m: [-1.5, 0, 0.8], rotation_deg: [0, 28, 0]",
+                            "position_m: [0, 0.3, 0.6], rotation_deg: [0, 90, 0]",
+                            "position_m: [0, -0.3, 0.6], rotation_deg: [0, 90, 0]",
+                            "position_m: [0.2, 1.2, 0.1], rotation_deg: [0, 0, -90]",
+                            "position_m: [0.9, -0.6, 0.4], rotation_deg: [0, 20, 150]"}) {
+    EXPECT_EQ(validate(place).status, 0) << place;
+  }
+  const test::CommandResult inside = validate("position_m: [0, 0, 0]");
+  EXPECT_EQ(inside.status, 2);
+  EXPECT_NE(inside.output.find("the camera is inside of plane/body"), std::string::npos)
+      << inside.output;
 }
 
 }  // namespace

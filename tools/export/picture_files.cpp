@@ -1,12 +1,7 @@
 #include "tools/export/picture_files.h"
 
-#include <fmt/format.h>
-
 #include <string_view>
 
-#include "engine/core/whole_file.h"
-#include "engine/io/files/csv.h"
-#include "engine/io/files/output_folder.h"
 #include "engine/record/cdr.h"
 
 namespace vinerow::tools {
@@ -25,7 +20,8 @@ bool is_picture_type(const std::string& ros_type) {
   return ros_type == "sensor_msgs/msg/CompressedImage";
 }
 
-PictureFiles::PictureFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
+PictureFiles::PictureFiles(std::filesystem::path folder)
+    : files_(std::move(folder), "frame_id,format") {}
 
 bool PictureFiles::add(std::int64_t stamp_ns, std::int64_t logged_ns,
                        std::span<const std::uint8_t> message) {
@@ -37,22 +33,8 @@ bool PictureFiles::add(std::int64_t stamp_ns, std::int64_t logged_ns,
   in.read_octets(reinterpret_cast<std::uint8_t*>(bytes.data()), bytes.size());
   const char* const ending = ending_of(bytes);
   if (!in.ok() || ending == nullptr) return false;
-  const std::string name = fmt::format("{:015d}{}", stamp_ns, ending);
-  const std::filesystem::path file = folder_ / name;
-  if (count_ == 0) io::make_folder_of(file);
-  write_whole_file(file, bytes);
-  list_ += fmt::format("{},{},{},{},{}\n", static_cast<double>(stamp_ns) / 1e9,
-                       static_cast<double>(logged_ns) / 1e9, io::csv_text(frame),
-                       io::csv_text(format), io::csv_text((folder_.filename() / name).string()));
-  ++count_;
+  files_.add(stamp_ns, logged_ns, {frame, format}, bytes, ending);
   return true;
-}
-
-int PictureFiles::finish() {
-  const std::filesystem::path file = folder_.string() + ".csv";
-  io::make_folder_of(file);
-  write_whole_file(file, list_);
-  return count_;
 }
 
 }  // namespace vinerow::tools

@@ -56,7 +56,8 @@ constexpr std::array kHelpTexts = {
     HelpText{"info", kTables, "info runs/x/log.mcap", ""},
     HelpText{"export", kTables,
              "export runs/x --topic /rover/follower -o follower.csv\n"
-             "export runs/x --topic '/rover/*' --npz -o arrays",
+             "export runs/x --topic '/rover/*' --npz -o arrays\n"
+             "export runs/x --topic /rover/lidar -o drive.ply",
              ""},
     HelpText{"compare", kTables,
              "compare runs/before runs/after --fail-on regression\n"

@@ -1,0 +1,215 @@
+#!/usr/bin/env python3
+"""`vinerow export` of clouds, from logs written by hand: PLY read by OpenCV, PCD by the letter of its specification, poses by SciPy.
+
+    export_clouds_test.py VINEROW
+"""
+
+import csv
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import cv2
+import numpy
+from scipy.spatial.transform import Rotation, Slerp
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+
+from mcap_file import Cdr, Log  # noqa: E402
+
+VINEROW = sys.argv[1]
+# As the log has points, with an unused byte at the end.
+POINT = numpy.dtype({"names": ["x", "y", "z", "time", "ring"], "formats": ["<f4", "<f4", "<f4", "<f4", "<u2"],
+                     "offsets": [0, 4, 8, 12, 16], "itemsize": 20})  # fmt: skip
+DATATYPES = {"<f4": 7, "<u2": 4}
+PERIOD_S, ORIGIN_S = 0.1, 10.0
+
+
+def pcd(file: pathlib.Path) -> numpy.ndarray:
+    """https://pointclouds.org/documentation/tutorials/pcd_file_format.html"""
+    head, data = file.read_bytes().split(b"DATA binary\n", 1)
+    lines = dict(line.split(" ", 1) for line in head.decode().splitlines() if not line.startswith("#"))
+    kinds = {"F": "f", "U": "u", "I": "i"}
+    formats = [f"<{kinds[kind]}{size}" for kind, size in zip(lines["TYPE"].split(), lines["SIZE"].split(), strict=True)]
+    points = numpy.frombuffer(data, dtype=list(zip(lines["FIELDS"].split(), formats, strict=True)))
+    assert int(lines["POINTS"]) == int(lines["WIDTH"]) * int(lines["HEIGHT"]) == len(points)
+    assert lines["VERSION"] == "0.7" and set(lines["COUNT"].split()) == {"1"}
+    return points
+
+
+def ply_positions(file: pathlib.Path) -> numpy.ndarray:
+    return numpy.asarray(cv2.loadPointCloud(str(file))[0]).reshape(-1, 3)
+
+
+def positions(points: numpy.ndarray) -> numpy.ndarray:
+    return numpy.stack([points["x"], points["y"], points["z"]], axis=1)
+
+
+def cloud_message(stamp_ns: int, points: numpy.ndarray, frame: str = "rover/lidar") -> bytes:
+    message = Cdr().header(stamp_ns, frame).add("I", 1, len(points), len(POINT.names))
+    for name in POINT.names:
+        kind, offset = POINT.fields[name][:2]
+        message.text(name).add("I", offset).add("B", DATATYPES[kind.str]).add("I", 1)
+    message.add("?", False).add("I", POINT.itemsize, POINT.itemsize * len(points), points.nbytes)
+    message.data += points.tobytes()
+    return message.add("?", True).message()
+
+
+def odometry_message(stamp_ns: int, p, q) -> bytes:
+    message = Cdr().header(stamp_ns).text("rover/base_link").add("d", *p, *q, *[0.0] * 36)
+    return message.add("d", *[0.0] * (6 + 36)).message()
+
+
+def mounting_message(p, q, sensor: str = "rover/lidar") -> bytes:
+    return Cdr().add("I", 1).header(0, "rover/base_link").text(sensor).add("d", *p, *q).message()
+
+
+class ExportOfClouds(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = pathlib.Path(scratch.name)
+        self.log = self.folder / "log.mcap"
+        # A drive along a bend, uphill; poses every tenth of a second.
+        self.times = ORIGIN_S + PERIOD_S * numpy.arange(11)
+        self.way = numpy.array([[0.1 * i * i, 2.0 * i, 0.3 * i] for i in range(11)])
+        self.turns = Rotation.from_euler("zyx", [[8 * i, -3 * i, i] for i in range(11)], degrees=True)
+        self.p_BS, self.R_BS = numpy.array([0.4, -0.1, 0.7]), Rotation.from_euler("zyx", [20, 10, -5], degrees=True)
+        # What stands in the world, seen at a time of its own each.
+        random = numpy.random.default_rng(7)
+        self.count = 600
+        self.p_W = random.uniform([-5, 0, 0], [15, 25, 6], (self.count, 3))
+        self.seen_s = numpy.linspace(self.times[0], self.times[-1], self.count)
+        self.rings = random.integers(0, 16, self.count)
+
+    def write_log(self, frame="rover/lidar", mounted="rover/lidar"):
+        log = Log()
+        truth = log.channel("/rover/truth", "nav_msgs/msg/Odometry", "")
+        for t, p, q in zip(self.times, self.way, self.turns.as_quat(), strict=True):
+            log.message(truth, round(t * 1e9), odometry_message(round(t * 1e9), p, q))
+        static = log.channel("/tf_static", "tf2_msgs/msg/TFMessage", "")
+        log.message(static, 0, mounting_message(self.p_BS, self.R_BS.as_quat(), mounted))
+        lidar = log.channel("/rover/lidar", "sensor_msgs/msg/PointCloud2", CLOUD)
+        p_WB = numpy.stack([numpy.interp(self.seen_s, self.times, self.way[:, k]) for k in range(3)], axis=1)
+        R_WB = Slerp(self.times, self.turns)(numpy.clip(self.seen_s, self.times[0], self.times[-1]))
+        p_WS, R_WS = p_WB + R_WB.apply(self.p_BS), R_WB * self.R_BS
+        p_S = R_WS.inv().apply(self.p_W - p_WS)
+        for part in numpy.array_split(numpy.arange(self.count), 4):
+            stamp_ns = round(self.seen_s[part[-1]] * 1e9)
+            points = numpy.zeros(len(part), dtype=POINT)
+            for k, name in enumerate("xyz"):
+                points[name] = p_S[part, k]
+            points["time"], points["ring"] = self.seen_s[part] - stamp_ns / 1e9, self.rings[part]
+            log.message(lidar, stamp_ns, cloud_message(stamp_ns, points, frame))
+            self.last = points
+        other = log.channel("/rover/note", "std_msgs/msg/Header", "builtin_interfaces/Time stamp\nstring frame_id\n" + TIME)
+        log.message(other, 0, Cdr().header(0).message())
+        log.write(self.log)
+
+    def run_export(self, *arguments, status=0):
+        command = [VINEROW, "export", str(self.log), *map(str, arguments)]
+        run = subprocess.run(command, capture_output=True, encoding="utf-8", cwd=self.folder)
+        self.assertEqual(run.returncode, status, run.stderr)
+        return run
+
+    def refused(self, *arguments) -> str:
+        before = sorted(self.folder.rglob("*"))
+        text = self.run_export(*arguments, status=2).stderr
+        self.assertEqual(text.count("\n"), 1, text)
+        self.assertEqual(sorted(self.folder.rglob("*")), before)
+        return text
+
+    def test_each_cloud_is_a_file_of_all_its_fields(self):
+        self.write_log()
+        run = self.run_export("--topic", "/rover/*", "--pcd", "-o", "scans")
+        self.assertEqual(run.stdout, "scans/rover_lidar  4 clouds\n")
+        with open(self.folder / "scans" / "rover_lidar.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([(row["frame_id"], row["points"]) for row in rows], [("rover/lidar", "150")] * 4)
+        self.assertEqual(rows[-1]["file"], "rover_lidar/000011000000000.pcd")
+        points = pcd(self.folder / "scans" / rows[-1]["file"])
+        self.assertEqual(points.dtype.names, POINT.names)
+        for name in POINT.names:
+            numpy.testing.assert_array_equal(points[name], self.last[name])
+        self.run_export("--topic", "/rover/lidar", "--ply", "-o", "scans")
+        seen = ply_positions(self.folder / "scans" / "rover_lidar" / "000011000000000.ply")
+        numpy.testing.assert_array_equal(seen, positions(self.last))
+
+    def test_all_clouds_become_one_in_the_map_by_the_pose_at_each_points_time(self):
+        self.write_log()
+        run = self.run_export("--topic", "/rover/lidar", "-o", "all.pcd")
+        self.assertEqual(run.stdout, "all.pcd  600 points in the frame of the map, by /rover/truth\n")
+        self.assertNotIn("left out", run.stderr)
+        points = pcd(self.folder / "all.pcd")
+        error_m = numpy.abs(positions(points) - self.p_W).max()
+        print(f"points in the map: largest error {error_m:.1e} m")
+        self.assertLess(error_m, 2e-5)  # of single precision, at 20 m and at turns of 2 rad/s
+        numpy.testing.assert_allclose(points["time"], self.seen_s, atol=2e-8)
+        numpy.testing.assert_array_equal(points["ring"], self.rings)
+        self.run_export("--topic", "rover/lidar", "-o", "all.ply", "--poses", "rover/truth")
+        numpy.testing.assert_array_equal(ply_positions(self.folder / "all.ply"), positions(points))
+
+    def test_points_without_a_pose_are_left_out_and_counted(self):
+        self.seen_s = self.seen_s + 0.5  # the last poses are half a second before the last points
+        self.write_log()
+        run = self.run_export("--topic", "/rover/lidar", "-o", "all.pcd")
+        inside = self.seen_s <= self.times[-1]
+        self.assertIn(f"{self.count - inside.sum()} points before the first or after the last pose of /rover/truth were left out", run.stderr)
+        points = pcd(self.folder / "all.pcd")
+        self.assertEqual(len(points), inside.sum())
+        self.assertLess(numpy.abs(positions(points) - self.p_W[inside]).max(), 2e-5)
+
+    def test_a_span_selects_clouds(self):
+        self.write_log()
+        run = self.run_export("--topic", "/rover/lidar", "--from", "10.4", "--to", "10.8", "-o", "all.ply")
+        self.assertIn("300 points", run.stdout)
+
+    def test_what_is_missing_is_said_and_nothing_is_written(self):
+        self.write_log()
+        self.assertIn("topic '/rover/note' has no clouds, it is of type std_msgs/msg/Header", self.refused("--topic", "/rover/note", "--pcd"))
+        self.assertIn("none of the topics has clouds", self.refused("--topic", "/rover/n*", "--ply"))
+        self.assertIn("topic '/rover/note' has no clouds", self.refused("--topic", "/rover/note", "-o", "x.ply"))
+        self.assertIn("no topic '/rover/gone'", self.refused("--topic", "/rover/lidar", "-o", "x.ply", "--poses", "/rover/gone"))
+        self.assertIn("-o must be a .pcd or .ply file", self.refused("--topic", "/rover/lidar", "--ply", "--poses", "/rover/truth"))
+        self.assertIn("--pcd excludes --ply", self.refused("--topic", "/rover/lidar", "--ply", "--pcd"))
+        self.assertIn("-o is a .ply file, with --pcd it must be a folder or a .pcd file", self.refused("--topic", "/rover/lidar", "--pcd", "-o", "x.ply"))
+        self.assertIn("--ply cannot be printed to the terminal", self.refused("--topic", "/rover/lidar", "--ply", "-o", "-"))
+        self.assertIn("has no clouds between --from and --to", self.refused("--topic", "/rover/lidar", "--from", "10.3", "--to", "10.4", "-o", "x.ply"))
+        self.write_log(frame="rover/nose")
+        self.assertIn("has clouds in the frame 'rover/nose', which /tf_static does not place on a vehicle", self.refused("--topic", "/rover/lidar", "-o", "x.pcd"))
+
+
+TIME = """
+================================================================================
+MSG: builtin_interfaces/Time
+int32 sec
+uint32 nanosec
+"""
+CLOUD = (
+    """std_msgs/Header header
+uint32 height
+uint32 width
+sensor_msgs/PointField[] fields
+bool is_bigendian
+uint32 point_step
+uint32 row_step
+uint8[] data
+bool is_dense
+================================================================================
+MSG: sensor_msgs/PointField
+string name
+uint32 offset
+uint8 datatype
+uint32 count
+================================================================================
+MSG: std_msgs/Header
+builtin_interfaces/Time stamp
+string frame_id"""
+    + TIME
+)
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

@@ -17,7 +17,7 @@
 namespace vinerow::tools {
 namespace {
 
-/// Frame of the first cloud of a topic; "" if it has none.
+/// Frame of the first cloud of a topic; "" without clouds.
 std::string frame_of(record::McapReader& log, const TopicSource& source) {
   std::optional<std::string> frame;
   log.for_each_message(source.channels, [&](const record::McapMessage& message) {

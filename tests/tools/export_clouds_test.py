@@ -18,7 +18,7 @@ from scipy.spatial.transform import Rotation, Slerp
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
-from mcap_file import Cdr, Log  # noqa: E402
+from mcap_file import CLOUD, HEADER, Cdr, Log  # noqa: E402
 
 VINEROW = sys.argv[1]
 # As the log has points, with an unused byte at the end.
@@ -105,7 +105,7 @@ class ExportOfClouds(unittest.TestCase):
             points["time"], points["ring"] = self.seen_s[part] - stamp_ns / 1e9, self.rings[part]
             log.message(lidar, stamp_ns, cloud_message(stamp_ns, points, frame))
             self.last = points
-        other = log.channel("/rover/note", "std_msgs/msg/Header", "builtin_interfaces/Time stamp\nstring frame_id\n" + TIME)
+        other = log.channel("/rover/note", "std_msgs/msg/Header", "std_msgs/Header header\n" + HEADER)
         log.message(other, 0, Cdr().header(0).message())
         log.write(self.log)
 
@@ -181,35 +181,6 @@ class ExportOfClouds(unittest.TestCase):
         self.write_log(frame="rover/nose")
         self.assertIn("has clouds in the frame 'rover/nose', which /tf_static does not place on a vehicle", self.refused("--topic", "/rover/lidar", "-o", "x.pcd"))
 
-
-TIME = """
-================================================================================
-MSG: builtin_interfaces/Time
-int32 sec
-uint32 nanosec
-"""
-CLOUD = (
-    """std_msgs/Header header
-uint32 height
-uint32 width
-sensor_msgs/PointField[] fields
-bool is_bigendian
-uint32 point_step
-uint32 row_step
-uint8[] data
-bool is_dense
-================================================================================
-MSG: sensor_msgs/PointField
-string name
-uint32 offset
-uint8 datatype
-uint32 count
-================================================================================
-MSG: std_msgs/Header
-builtin_interfaces/Time stamp
-string frame_id"""
-    + TIME
-)
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])

@@ -19,7 +19,7 @@ import zlib
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
-from mcap_file import Cdr, Log  # noqa: E402
+from mcap_file import CLOUD, HEADER, Cdr, Log  # noqa: E402
 
 try:
     import numpy
@@ -29,16 +29,6 @@ except ImportError:
 
 VINEROW = sys.argv[1]
 
-HEADER = """
-================================================================================
-MSG: std_msgs/Header
-builtin_interfaces/Time stamp
-string frame_id
-================================================================================
-MSG: builtin_interfaces/Time
-int32 sec
-uint32 nanosec
-"""
 POINT = """
 ================================================================================
 MSG: geometry_msgs/Point
@@ -46,24 +36,6 @@ float64 x
 float64 y
 float64 z
 """
-
-CLOUD = """std_msgs/Header header
-uint32 height
-uint32 width
-sensor_msgs/PointField[] fields
-bool is_bigendian
-uint32 point_step
-uint32 row_step
-uint8[] data
-bool is_dense
-================================================================================
-MSG: sensor_msgs/PointField
-uint8 INT8=1
-string name
-uint32 offset
-uint8 datatype
-uint32 count
-""" + HEADER.lstrip("\n")
 
 KINDS = """std_msgs/Header header
 # a comment

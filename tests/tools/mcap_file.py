@@ -3,6 +3,36 @@
 import pathlib
 import struct
 
+# Definitions of messages, to be appended to others.
+HEADER = """
+================================================================================
+MSG: std_msgs/Header
+builtin_interfaces/Time stamp
+string frame_id
+================================================================================
+MSG: builtin_interfaces/Time
+int32 sec
+uint32 nanosec
+"""
+# sensor_msgs/PointCloud2.
+CLOUD = """std_msgs/Header header
+uint32 height
+uint32 width
+sensor_msgs/PointField[] fields
+bool is_bigendian
+uint32 point_step
+uint32 row_step
+uint8[] data
+bool is_dense
+================================================================================
+MSG: sensor_msgs/PointField
+uint8 INT8=1
+string name
+uint32 offset
+uint8 datatype
+uint32 count
+""" + HEADER.lstrip("\n")
+
 MAGIC = b"\x89MCAP0\r\n"
 
 

@@ -9,8 +9,10 @@
 
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
+#include "engine/core/random.h"
 #include "tools/dataset/annotate.h"
 #include "tools/dataset/mask.h"
+#include "tools/dataset/outline.h"
 #include "tools/dataset/splits.h"
 
 namespace vinerow::dataset::dataset_parts_test {
@@ -49,6 +51,54 @@ TEST(Mask, LongRunsAreWrittenAsPycocotoolsDoes) {
   });
   EXPECT_EQ(coco_counts(make_mask(pixels, 480), 640 * 480),
             R"(Tag0\9d500000000000000000V]`3eFkY^1o>)");
+}
+
+TEST(Outline, GoesAlongTheEdgesOfPixels) {
+  const auto pixels = pixels_where(6, 5, [](int x, int y) { return x >= 2 && x < 5 && y == 3; });
+  const std::vector<Eigen::Vector2i> expected = {{2, 3}, {5, 3}, {5, 4}, {2, 4}};
+  EXPECT_EQ(outline_of(make_mask(pixels, 5), 5), expected);
+}
+
+TEST(Outline, JoinsPiecesByALineThereAndBack) {
+  const auto pixels = pixels_where(6, 5, [](int x, int y) { return y == 1 && (x == 1 || x == 4); });
+  const std::vector<Eigen::Vector2i> expected = {{1, 1}, {2, 1}, {4, 1}, {5, 1}, {5, 2},
+                                                 {4, 2}, {4, 1}, {2, 1}, {2, 2}, {1, 2}};
+  EXPECT_EQ(outline_of(make_mask(pixels, 5), 5), expected);
+}
+
+/// Whether a place is inside of a polygon by the even-odd rule.
+bool is_inside(const std::vector<Eigen::Vector2i>& polygon, double x, double y) {
+  bool inside = false;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector2d a = polygon[i].cast<double>(),
+                          b = polygon[(i + 1) % polygon.size()].cast<double>();
+    if ((a.y() > y) == (b.y() > y)) continue;
+    if (x < a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) inside = !inside;
+  }
+  return inside;
+}
+
+/// Masks of noise have pieces, holes, and pixels that touch by their corners alone.
+TEST(Outline, HoldsExactlyThePixelsOfAnyMask) {
+  constexpr int kWidth = 17, kHeight = 13;
+  RandomStream random(1, "outline", "masks");
+  for (int mask = 0; mask < 200; ++mask) {
+    const double share = 0.05 + 0.9 * random.uniform();
+    const auto pixels =
+        pixels_where(kWidth, kHeight, [&](int, int) { return random.uniform() < share; });
+    if (pixels.empty()) continue;
+    const auto polygon = outline_of(make_mask(pixels, kHeight), kHeight);
+    const auto inside = pixels_where(
+        kWidth, kHeight, [&](int x, int y) { return is_inside(polygon, x + 0.5, y + 0.5); });
+    ASSERT_EQ(inside, pixels) << mask;
+    // Holes go round the other way: the area by Gauss is that of the pixels.
+    int twice = 0;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Eigen::Vector2i &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+      twice += a.x() * b.y() - a.y() * b.x();
+    }
+    ASSERT_EQ(twice, 2 * static_cast<int>(pixels.size())) << mask;
+  }
 }
 
 /// 3 settings of 10 seeds.

@@ -15,6 +15,7 @@ import sys
 import tempfile
 import unittest
 
+import cv2
 import numpy
 import vinerow
 import yaml
@@ -40,7 +41,7 @@ STUDY = {
                                            "world.vines.bbch": 65}}},
     },
     "seeds": [1, 2],
-    "dataset": {"camera": "rover/front", "every_s": 1, "formats": ["coco", "yolo", "kitti"], "classes": CLASSES,
+    "dataset": {"camera": "rover/front", "every_s": 1, "formats": ["coco", "yolo", "yolo_segment", "yolo_pose", "kitti"], "classes": CLASSES,
                 "validation_share": 0.3, "split_by": "seed", "licence": "CC0-1.0"},
 }
 
@@ -52,6 +53,17 @@ def run(study, folder, before=""):
     out = folder / "out"
     command = f"{before} '{VINEROW}' dataset '{file}' --out '{out}' --quiet"
     return subprocess.run(["sh", "-c", command], capture_output=True, text=True, timeout=600), out
+
+
+def even_odd(corners, shape):
+    """Pixels whose middle has an odd number of the polygon's edges to its right. Corners count from the first pixel's edge."""
+    y, x = numpy.mgrid[:shape[0], :shape[1]] + 0.5
+    inside = numpy.zeros(shape, bool)
+    for (x0, y0), (x1, y1) in zip(corners, numpy.roll(corners, -1, axis=0), strict=True):
+        if y0 != y1:
+            crosses = (y0 > y) != (y1 > y)
+            inside ^= crosses & (x < x0 + (y - y0) * (x1 - x0) / (y1 - y0))
+    return inside
 
 
 def pixels(file):
@@ -189,6 +201,58 @@ class Dataset(unittest.TestCase):
                 self.assertEqual(int(name) + 1, a["category_id"])
                 numpy.testing.assert_allclose([(x - w / 2) * 320, (y - h / 2) * 240, w * 320, h * 240], a["bbox"],
                                               atol=2e-3)
+
+    def test_yolo_polygons_hold_the_pixels_of_coco_masks(self):
+        data = yaml.safe_load((self.out / "yolo_segment" / "data.yaml").read_text())
+        self.assertEqual([data["names"][i] for i in range(len(CLASSES))], CLASSES)
+        pieces = 0
+        for row in self.rows:
+            picture = self.out / "yolo_segment" / data[row["part"]] / row["picture"]
+            self.assertEqual(picture.read_bytes(), (self.out / "images" / row["part"] / row["picture"]).read_bytes())
+            # Where YOLO looks for labels.
+            label = pathlib.Path(str(picture).replace("/images/", "/labels/")).with_suffix(".txt")
+            lines = [line.split() for line in label.read_text().splitlines()]
+            expected = self.annotations(self.instances, row)
+            self.assertEqual(len(lines), len(expected))
+            for (name, *numbers), a in zip(lines, expected, strict=True):
+                self.assertEqual(int(name) + 1, a["category_id"])
+                corners = numpy.array(numbers, float).reshape(-1, 2) * [320, 240]
+                left, top, width, height = (int(value) for value in a["bbox"])
+                numpy.testing.assert_allclose([corners.min(axis=0), corners.max(axis=0)], [[left, top], [left + width, top + height]], atol=1e-3)
+                mask = self.instances[row["part"]].annToMask(a).astype(bool)
+                box = mask[top:top + height, left:left + width]
+                numpy.testing.assert_array_equal(even_odd(corners - [left, top], box.shape), box)
+                # As pycocotools draws polygons; lines from piece to piece may add their pixels.
+                drawn = coco_mask.decode(coco_mask.merge(coco_mask.frPyObjects([corners.ravel().tolist()], *mask.shape))).astype(bool)
+                count = cv2.connectedComponents(mask.astype(numpy.uint8), connectivity=4)[0] - 1
+                if count == 1 and len(cv2.findContours(mask.astype(numpy.uint8), cv2.RETR_CCOMP, cv2.CHAIN_APPROX_NONE)[0]) == 1:
+                    numpy.testing.assert_array_equal(drawn, mask)
+                pieces = max(pieces, count)
+        self.assertGreater(pieces, 3)
+
+    def test_yolo_key_points_are_those_of_coco(self):
+        data = yaml.safe_load((self.out / "yolo_pose" / "data.yaml").read_text())
+        self.assertEqual(data["kpt_shape"], [2, 3])
+        count = 0
+        for row in self.rows:
+            picture = self.out / "yolo_pose" / data[row["part"]] / row["picture"]
+            self.assertTrue(picture.is_file())
+            label = pathlib.Path(str(picture).replace("/images/", "/labels/")).with_suffix(".txt")
+            lines = [line.split() for line in label.read_text().splitlines()]
+            expected = self.annotations(self.keypoints, row)
+            self.assertEqual(len(lines), len(expected))
+            for (name, *numbers), a in zip(lines, expected, strict=True):
+                category = self.keypoints[row["part"]].loadCats(a["category_id"])[0]
+                self.assertEqual(data["names"][int(name)], category["name"])
+                x, y, w, h = (float(number) for number in numbers[:4])
+                numpy.testing.assert_allclose([(x - w / 2) * 320, (y - h / 2) * 240, w * 320, h * 240], a["bbox"], atol=8e-3)
+                for (u, v, seen), (px, py, flag) in zip(numpy.reshape(a["keypoints"], (2, 3)), numpy.reshape(numbers[4:], (2, 3)).astype(float), strict=True):
+                    self.assertEqual(flag, seen)
+                    # COCO counts pixels from their middle, YOLO shares from the picture's edge.
+                    wanted = [u + 0.5, v + 0.5] if seen else [0, 0]
+                    numpy.testing.assert_allclose([px * 320, py * 240], wanted, atol=6e-3)
+                    count += bool(seen)
+        self.assertGreater(count, 20)
 
     def test_key_points_of_rows_are_their_ends(self):
         found = 0
@@ -414,7 +478,7 @@ class BadInput(InAFolder):
         self.refuse(changed(classes=["bunch", "bunch"]), r"study.yaml:\d+: dataset.classes has 'bunch' twice")
         self.refuse(changed(classes=[]), r"study.yaml:\d+: dataset.classes = \[\], must name at least one")
         self.refuse(changed(formats=["voc"]),
-                    r"study.yaml:\d+: dataset.formats has 'voc', each must be one of: coco, yolo, kitti")
+                    r"study.yaml:\d+: dataset.formats has 'voc', each must be one of: coco, yolo, yolo_segment, yolo_pose, kitti")
         self.refuse(changed(every_s=0.0105),
                     r"dataset.every_s = 0.0105 s, must be a multiple of the physics step of 0.001 s")
         self.refuse(changed(camera="rover/frnt"), r"dataset.camera = 'rover/frnt', must be a sensor of type camera: "

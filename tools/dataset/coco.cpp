@@ -5,6 +5,7 @@
 
 #include "engine/core/whole_file.h"
 #include "engine/io/files/output_folder.h"
+#include "tools/dataset/key_point_kind.h"
 #include "tools/dataset/mask.h"
 
 namespace vinerow::dataset {
@@ -17,21 +18,23 @@ double rounded(double value) {
   return std::round(100.0 * value) / 100.0 + 0.0;
 }
 
-/// Categories of the file of key points.
-enum class Kind { kTrunk = 1, kPost = 2, kRow = 3 };
+/// COCO counts categories from 1.
+int category_of(KeyPointKind kind) {
+  return static_cast<int>(kind) + 1;
+}
 
 Json key_point_categories() {
   Json categories = Json::array();
-  const auto add = [&](Kind kind, const char* name, const char* from, const char* to) {
-    categories.push_back({{"id", static_cast<int>(kind)},
-                          {"name", name},
+  const auto add = [&](KeyPointKind kind, const char* from, const char* to) {
+    categories.push_back({{"id", category_of(kind)},
+                          {"name", kKeyPointKindNames[static_cast<std::size_t>(kind)]},
                           {"supercategory", "vineyard"},
                           {"keypoints", {from, to}},
                           {"skeleton", Json::array({Json::array({1, 2})})}});
   };
-  add(Kind::kTrunk, "trunk", "foot", "head");
-  add(Kind::kPost, "post", "foot", "head");
-  add(Kind::kRow, "row", "start", "end");
+  add(KeyPointKind::kTrunk, "foot", "head");
+  add(KeyPointKind::kPost, "foot", "head");
+  add(KeyPointKind::kRow, "start", "end");
   return categories;
 }
 
@@ -84,12 +87,10 @@ void CocoFiles::add(const PictureRecord& picture) {
                               {"thing", thing.thing},
                               {"visible_share", rounded(thing.visible_share)}});
     if (!thing.ends) continue;
-    const Kind kind = classes_[static_cast<std::size_t>(thing.class_index)] == "trunk"
-                          ? Kind::kTrunk
-                          : Kind::kPost;
+    const KeyPointKind kind = kind_of(classes_[static_cast<std::size_t>(thing.class_index)]);
     part.key_points.push_back(with_key_points({{"id", part.key_points.size() + 1},
                                                {"image_id", picture.index},
-                                               {"category_id", static_cast<int>(kind)},
+                                               {"category_id", category_of(kind)},
                                                {"bbox", box},
                                                {"area", mask.area},
                                                {"segmentation", segmentation},
@@ -101,7 +102,7 @@ void CocoFiles::add(const PictureRecord& picture) {
     part.key_points.push_back(with_key_points(
         {{"id", part.key_points.size() + 1},
          {"image_id", picture.index},
-         {"category_id", static_cast<int>(Kind::kRow)},
+         {"category_id", category_of(KeyPointKind::kRow)},
          {"bbox", {rounded(row.left), rounded(row.top), rounded(row.width), rounded(row.height)}},
          {"area", rounded(row.width * row.height)},
          {"segmentation", Json::array()},

@@ -80,6 +80,14 @@ std::string files(const scenario::DatasetConfig& config) {
           "`keypoints_<part>.json` with foot and head of trunks and posts, ends of rows |\n";
     }
     if (format == "yolo") text += "| `data.yaml`, `labels/` | boxes for Ultralytics YOLO |\n";
+    if (format == "yolo_segment") {
+      text += "| `yolo_segment/` | the pictures with polygons for Ultralytics YOLO |\n";
+    }
+    if (format == "yolo_pose") {
+      text +=
+          "| `yolo_pose/` | the pictures with foot and head of trunks and posts, ends of rows, for "
+          "Ultralytics YOLO |\n";
+    }
     if (format == "kitti") {
       text +=
           "| `kitti/` | KITTI: pictures, labels with 3D boxes, calibration, depth, poses of each "

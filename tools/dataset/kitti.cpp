@@ -7,12 +7,12 @@
 #include <fstream>
 #include <iterator>
 #include <numbers>
-#include <system_error>
 
 #include "engine/core/check.h"
 #include "engine/core/whole_file.h"
 #include "engine/imaging/picture_codec.h"
 #include "engine/io/files/output_folder.h"
+#include "tools/dataset/shared_picture.h"
 
 namespace vinerow::dataset {
 namespace {
@@ -86,16 +86,7 @@ void KittiFiles::add(const PictureRecord& picture) {
   write_whole_file(training / "calib" / (stem + ".txt"), calibration(picture.camera));
   write_whole_file(training / "depth_2" / picture.name(),
                    kitti_depth(out_ / "depth" / to_string(picture.split) / picture.name()));
-  // The same file under a second name, where the file system can.
-  const std::filesystem::path source = out_ / "images" / to_string(picture.split) / picture.name();
-  const std::filesystem::path target = training / "image_2" / picture.name();
-  std::error_code failed;
-  std::filesystem::create_hard_link(source, target, failed);
-  if (failed) {
-    failed.clear();
-    std::filesystem::copy_file(source, target, failed);
-    if (failed) throw_cannot_write(fmt::format("'{}'", target.string()), failed.value());
-  }
+  share_picture(picture, out_, training / "image_2" / picture.name());
   poses_[picture.cell].push_back(picture.X_WC);
   sets_[static_cast<std::size_t>(picture.split)] += stem + "\n";
 }

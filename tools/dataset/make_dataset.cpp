@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
@@ -91,6 +92,10 @@ DatasetReport report_of(const DatasetTask& task, const std::vector<CellPictures>
   return report;
 }
 
+constexpr std::pair<const char*, YoloTask> kYoloFormats[] = {{"yolo", YoloTask::kDetect},
+                                                             {"yolo_segment", YoloTask::kSegment},
+                                                             {"yolo_pose", YoloTask::kPose}};
+
 void write_formats(const DatasetTask& task, const std::vector<CellPictures>& cells,
                    const std::filesystem::path& out) {
   const scenario::DatasetConfig& config = task.config();
@@ -103,14 +108,14 @@ void write_formats(const DatasetTask& task, const std::vector<CellPictures>& cel
     }
     coco.write(out / "annotations");
   }
-  std::vector<bool> parts(3, false);
-  for (const CellPictures& cell : cells) {
-    for (const PictureRecord& record : cell.records) {
-      parts[static_cast<std::size_t>(record.split)] = true;
-      if (task.writes("yolo")) write_yolo_labels(record, out);
+  for (const auto& [format, yolo_task] : kYoloFormats) {
+    if (!task.writes(format)) continue;
+    YoloFiles yolo(yolo_task, config.classes, out);
+    for (const CellPictures& cell : cells) {
+      for (const PictureRecord& record : cell.records) yolo.add(record);
     }
+    yolo.finish();
   }
-  if (task.writes("yolo")) write_yolo_data(config.classes, parts, out);
   if (task.writes("kitti")) {
     KittiFiles kitti(config.classes, out);
     for (const CellPictures& cell : cells) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
@@ -47,7 +48,41 @@ void FrameTarget::make() {
   }
 }
 
+void FrameTarget::make_ground() {
+  gl_.GenFramebuffers(1, &ground_framebuffer_);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, ground_framebuffer_);
+  gl_.GenRenderbuffers(1, &ground_depth_);
+  gl_.BindRenderbuffer(GL_RENDERBUFFER, ground_depth_);
+  gl_.RenderbufferStorageMultisample(GL_RENDERBUFFER, 0, GL_DEPTH24_STENCIL8, pattern_.width(),
+                                     pattern_.height());
+  gl_.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
+                              ground_depth_);
+  gl_.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(kUnitGroundSeen));
+  gl_.GenTextures(1, &ground_);
+  gl_.BindTexture(GL_TEXTURE_2D, ground_);
+  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, pattern_.width(), pattern_.height(), 0, GL_RGBA,
+                 GL_UNSIGNED_BYTE, nullptr);
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, ground_, 0);
+  gl_.ActiveTexture(GL_TEXTURE0 + kUnitImage);
+}
+
+void FrameTarget::begin_ground() {
+  if (ground_framebuffer_ == 0) make_ground();
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, ground_framebuffer_);
+  gl_.Viewport(0, 0, pattern_.width(), pattern_.height());
+}
+
 void FrameTarget::release() {
+  if (ground_framebuffer_ != 0) {
+    gl_.DeleteFramebuffers(1, &ground_framebuffer_);
+    gl_.DeleteRenderbuffers(1, &ground_depth_);
+    gl_.DeleteTextures(1, &ground_);
+    ground_framebuffer_ = 0;
+  }
   if (framebuffer_ == 0) return;
   const GLuint textures[] = {depth_, albedo_, normal_};
   gl_.DeleteFramebuffers(1, &framebuffer_);
@@ -66,7 +101,6 @@ void FrameTarget::begin(const SamplePattern& pattern) {
     make();
   }
   resume();
-  gl_.Viewport(0, 0, pattern_.columns(), pattern_.rows());
   gl_.DepthMask(GL_TRUE);
   gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   gl_.ClearColor(0.5f, 0.5f, 0.5f, 1.0f);
@@ -79,19 +113,25 @@ void FrameTarget::begin_foliage() const {
 
 void FrameTarget::resume() const {
   gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+  gl_.Viewport(0, 0, pattern_.columns(), pattern_.rows());
 }
 
 void FrameTarget::sum_row(const std::vector<std::uint8_t>& drawn, int y,
-                          std::vector<int>& sums) const {
-  std::fill(sums.begin(), sums.end(), 0);
+                          std::vector<std::uint32_t>& sums) const {
+  std::fill(sums.begin(), sums.end(), 0u);
   const std::size_t stride = static_cast<std::size_t>(pattern_.stride()) * 4;
   // Tap by tap, because compilers vectorize that.
   for (const SamplePattern::Tap& tap : pattern_.taps()) {
     const auto first = static_cast<std::ptrdiff_t>(pattern_.first_of(0, y)) + tap.offset;
     const std::uint8_t* __restrict from = &drawn[4 * static_cast<std::size_t>(first)];
-    int* __restrict sum = sums.data();
+    std::uint32_t* __restrict sum = sums.data();
+    const int shift = std::countr_zero(tap.weight);
     for (int x = 0; x < pattern_.width(); ++x, from += stride, sum += 4) {
-      for (int c = 0; c < 4; ++c) sum[c] += tap.weight * from[c] * from[c];
+      for (int c = 0; c < 4; ++c) {
+        // The square of a byte fits into 16 bits, whose products are quick.
+        const auto square = static_cast<std::uint16_t>(from[c] * from[c]);
+        sum[c] += static_cast<std::uint32_t>(square) << shift;
+      }
     }
   }
 }
@@ -110,7 +150,7 @@ Image FrameTarget::read() const {
   constexpr std::size_t kRowsAtOnce = 32;
   for_chunks(static_cast<std::size_t>(height), kRowsAtOnce,
              [&](std::size_t, std::size_t begin, std::size_t end) {
-               std::vector<int> sums(static_cast<std::size_t>(width) * 4);
+               std::vector<std::uint32_t> sums(static_cast<std::size_t>(width) * 4);
                for (std::size_t y = begin; y < end; ++y) {
                  sum_row(drawn, static_cast<int>(y), sums);
                  std::uint8_t* to = &image.rgb[y * width * 3];

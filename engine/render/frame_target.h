@@ -26,6 +26,10 @@ class FrameTarget {
   void begin(const SamplePattern& pattern);
   /// Binds the buffers for albedo and normal of leaves, which share the depth buffer.
   void begin_foliage() const;
+  /// Binds the buffers for the ground's colours, with a pixel for each of the picture's. All of
+  /// them must be drawn; the colours are in texture unit kUnitGroundSeen. @pre the pattern is
+  /// staggered
+  void begin_ground();
   /// Binds the buffers of begin() again. Depth, albedo and normal of leaves are in texture units
   /// kUnitDepth, kUnitAlbedo and kUnitNormal.
   void resume() const;
@@ -37,14 +41,17 @@ class FrameTarget {
 
  private:
   void make();
+  void make_ground();
   void release();
   /// Sums of squares of a row's pixels, RGBA. @param drawn  RGBA of the drawn pixels
-  void sum_row(const std::vector<std::uint8_t>& drawn, int y, std::vector<int>& sums) const;
+  void sum_row(const std::vector<std::uint8_t>& drawn, int y,
+               std::vector<std::uint32_t>& sums) const;
 
   const Gl& gl_;
   SamplePattern pattern_;
   GLuint framebuffer_ = 0, colour_ = 0, depth_ = 0;
   GLuint foliage_framebuffer_ = 0, albedo_ = 0, normal_ = 0;
+  GLuint ground_framebuffer_ = 0, ground_ = 0, ground_depth_ = 0;
 };
 
 }  // namespace vinerow::render

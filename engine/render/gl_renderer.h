@@ -66,7 +66,13 @@ class GlRenderer final : public Renderer {
   /// Sets the stencil of the visible parts of vehicles to their numbers, from 1, and leaves 0
   /// elsewhere.
   void mark_vehicles(const std::vector<Drawable>& links, const std::vector<int>& vehicle_of_link);
-  void draw_ground(const Frame& frame, const Frustum& frustum);
+  void draw_ground(const Frame& frame, const Frustum& frustum, const SamplePattern& pattern,
+                   const Eigen::Matrix4d& clip_from_world);
+  /// Programs that draw the ground.
+  struct GroundPrograms {
+    const Program &meshes, &fine, &coarse, &country;
+  };
+  void draw_ground(const Frame& frame, const Frustum& frustum, const GroundPrograms& programs);
   void make_tufts(const Frame& frame, const Frustum& frustum);
   void draw_tufts(const Program& program);
   void draw_hedges(const Camera& camera, const Frustum& frustum);
@@ -102,8 +108,8 @@ class GlRenderer final : public Renderer {
   Eigen::Vector4f land_rect_ = {0, 0, 0, 0};
   bool has_land_ = false;
   std::unique_ptr<ShadowMaps> shadows_;
-  Program sky_, ground_, fine_ground_, country_, surface_, foliage_, foliage_light_, grass_,
-      ribbon_, shadow_solid_, shadow_cards_;
+  Program sky_, ground_, fine_ground_, country_, ground_gaps_, ground_seen_, surface_, foliage_,
+      foliage_light_, grass_, ribbon_, shadow_solid_, shadow_cards_;
   GridOverlay grid_;
   Program hedge_, stem_;
   Program grid_map_, grid_ground_, grid_grass_;  ///< made by prepare_grid

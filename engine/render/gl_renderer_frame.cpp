@@ -285,29 +285,62 @@ void GlRenderer::draw_tufts(const Program& program) {
   draw_mesh(tufts_);
 }
 
-void GlRenderer::draw_ground(const Frame& frame, const Frustum& frustum) {
-  const Program& ground = grid_on_ground_ ? grid_ground_ : ground_;
-  gl_.UseProgram(ground.id);
-  if (grid_on_ground_) grid_.set_place(ground.grid_rect, ground.grid_size);
-  gl_.Disable(GL_CULL_FACE);
-  for (const Drawable& mesh : ground_meshes_) {
-    if (!settings_.cull || frustum.may_see(mesh.box_W)) draw_drawable(ground, mesh);
+void GlRenderer::draw_ground(const Frame& frame, const Frustum& frustum,
+                             const SamplePattern& pattern, const Eigen::Matrix4d& clip_from_world) {
+  if (grid_on_ground_) {
+    draw_ground(frame, frustum, {grid_ground_, grid_ground_, grid_ground_, country_});
+    return;
   }
+  const GroundPrograms programs{ground_, fine_ground_, ground_, country_};
+  if (!pattern.staggered()) {
+    draw_ground(frame, frustum, programs);
+    return;
+  }
+  // Its colours change little from sample to sample and cost most of all: they are computed once a
+  // pixel, where its middle shows the ground.
+  target_.begin_ground();
+  gl_.DepthFunc(GL_ALWAYS);
+  gl_.UseProgram(ground_gaps_.id);
+  gl_.Disable(GL_CULL_FACE);
+  gl_.BindVertexArray(empty_array_);
+  gl_.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  ++statistics_.draw_calls;
+  gl_.DepthFunc(GL_LEQUAL);
+  upload_frame_block(frame, pattern.middles(), clip_from_world);
+  draw_ground(frame, frustum, programs);
+  target_.resume();
+  upload_frame_block(frame, pattern, pattern.drawn_from_clip() * clip_from_world);
+  draw_ground(frame, frustum, {ground_seen_, ground_seen_, ground_seen_, ground_seen_});
+}
+
+void GlRenderer::draw_ground(const Frame& frame, const Frustum& frustum,
+                             const GroundPrograms& programs) {
+  gl_.Disable(GL_CULL_FACE);
   const Eigen::Matrix4f identity = Eigen::Matrix4f::Identity();
-  gl_.UniformMatrix4fv(ground.world_from_model, 1, GL_FALSE, identity.data());
-  gl_.UseProgram(fine_ground_.id);
-  gl_.UniformMatrix4fv(fine_ground_.world_from_model, 1, GL_FALSE, identity.data());
+  const auto use = [&](const Program& program) {
+    gl_.UseProgram(program.id);
+    if (program.grid_rect >= 0) grid_.set_place(program.grid_rect, program.grid_size);
+    gl_.UniformMatrix4fv(program.world_from_model, 1, GL_FALSE, identity.data());
+  };
+  use(programs.meshes);
+  for (const Drawable& mesh : ground_meshes_) {
+    if (!settings_.cull || frustum.may_see(mesh.box_W)) draw_drawable(programs.meshes, mesh);
+  }
+  use(programs.coarse);
+  use(programs.fine);
   gl_.Disable(GL_CULL_FACE);
   for (const GpuMesh& chunk : chunks_) {
     if (settings_.cull && !frustum.may_see(chunk.bounds_M)) continue;
     const double seen = calc_seen_distance(frame.camera, frame.height, chunk.bounds_M);
     const int level = pick_terrain_level(seen, terrain_->cell_m);
     const double cell_m = terrain_->cell_m * (1 << level);
-    if (!grid_on_ground_ && cell_m <= kFineGround_m) {
-      gl_.UseProgram(fine_ground_.id);
-      gl_.Uniform1f(fine_ground_.cell_octave, static_cast<float>(std::log2(cell_m)));
+    if (cell_m <= kFineGround_m) {
+      gl_.UseProgram(programs.fine.id);
+      if (programs.fine.cell_octave >= 0) {
+        gl_.Uniform1f(programs.fine.cell_octave, static_cast<float>(std::log2(cell_m)));
+      }
     } else {
-      gl_.UseProgram(ground.id);
+      gl_.UseProgram(programs.coarse.id);
     }
     const GpuMesh& indices = chunk_indices_[level];
     gl_.BindVertexArray(chunk.vertex_array);
@@ -316,8 +349,7 @@ void GlRenderer::draw_ground(const Frame& frame, const Frustum& frustum) {
     ++statistics_.draw_calls;
     statistics_.triangles += indices.index_count / 3;
   }
-  gl_.UseProgram(country_.id);
-  gl_.UniformMatrix4fv(country_.world_from_model, 1, GL_FALSE, identity.data());
+  use(programs.country);
   for (const GpuMesh& sector : surroundings_) {
     if (!settings_.cull || frustum.may_see(sector.bounds_M)) draw_mesh(sector);
   }
@@ -471,7 +503,7 @@ Image GlRenderer::draw(const Frame& frame) {
   if (pattern.staggered()) cover_unused(pattern);
   draw_objects(frame, frustum, vehicles);
   draw_hedges(frame.camera, frustum);
-  draw_ground(frame, frustum);
+  draw_ground(frame, frustum, pattern, clip_from_world);
   draw_sky();
   mark_vehicles(vehicles, vehicle_of_link);
   const std::vector<SeenMark> seen =

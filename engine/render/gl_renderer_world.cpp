@@ -83,6 +83,8 @@ void GlRenderer::make_programs(const Scenery& scenery) {
   ground_ = make_program("ground", shaders::ground(false, has_land_));
   fine_ground_ = make_program("fine_ground", shaders::ground(false, has_land_, true));
   country_ = make_program("country", shaders::country());
+  ground_gaps_ = make_program("ground_gaps", shaders::ground_gaps());
+  ground_seen_ = make_program("ground_seen", shaders::ground_seen());
   surface_ = make_program("surface", shaders::surface());
   foliage_ = make_program("foliage", shaders::foliage());
   foliage_light_ = make_program("foliage_light", shaders::foliage_light());

@@ -17,6 +17,7 @@ SamplePattern::SamplePattern(int width, int height, int samples)
       height_(height),
       staggered_(samples == 2 && std::max(width + height, 2 * height) < kMaxDrawn) {
   if (staggered_) {
+    lod_bias_ = std::log2(spacing_px());
     columns_ = width + height + 1;
     rows_ = 2 * height + 1;
     taps_ = {{0, 4}, {-columns_, 1}, {1 - columns_, 1}, {columns_ - 1, 1}, {columns_, 1}};

@@ -19,6 +19,10 @@ Pair sky();
 /// Terrain, optionally with the occupancy grid and with the scenery's fields and tracks.
 /// @param fine  for triangles of a few metres: what changes slowly is computed at their corners
 Pair ground(bool with_grid = false, bool with_land = false, bool fine = false);
+/// Where the ground may be seen, for FrameTarget::begin_ground(): depth of what is before it.
+Pair ground_gaps();
+/// The ground by the colours that it has there.
+Pair ground_seen();
 Pair country();        ///< the land beyond the terrain
 Pair surface();        ///< posts, trunks, vehicles, anything opaque
 Pair foliage();        ///< albedo and normal of alpha-tested leaf cards
@@ -35,6 +39,8 @@ Pair shadow_cards();
 /// Declarations and functions shared by the shaders: frame block, light, haze, tone.
 const std::string& frame_block();
 const std::string& light_functions();
+/// The same without shadows, also for vertex shaders.
+const std::string& tone_functions();
 /// The haze alone, also for vertex shaders.
 const std::string& haze_functions();
 const std::string& grass_colour();

@@ -51,39 +51,12 @@ vec4 haze_before(vec3 p) {
   return text;
 }
 
-const std::string& light_functions() {
+const std::string& tone_functions() {
   static const std::string text = haze_functions() +
                                   fmt::format("const vec3 kGammaRoots = vec3({}, {}, {});\n",
                                               kGammaRoots[0], kGammaRoots[1], kGammaRoots[2]) +
                                   R"(
-uniform sampler2DArrayShadow shadow_maps;
-
 const float kOneOverPi = 0.31830989;
-
-// Share of the sun's disc seen from p: 0 in shadow, 1 in light. The point is moved along its normal
-// by about a texel and a half, against shadows of a surface on itself.
-float sun_visibility(vec3 p, vec3 n, float lift) {
-  if (shadow_info.z < 0.5) return 1.0;
-  float slope = 1.0 - clamp(dot(n, sun_direction.xyz), 0.0, 1.0);
-  vec3 q = p + n * (shadow_info.x * (0.6 + 1.6 * slope)) + sun_direction.xyz * (0.02 + lift);
-  vec3 c = (near_from_world * vec4(q, 1.0)).xyz;
-  float layer = 0.0;
-  vec2 edge = abs(c.xy - 0.5);
-  if (max(edge.x, edge.y) > 0.495) {
-    q = p + n * (shadow_info.y * (0.6 + 1.6 * slope)) + sun_direction.xyz * (0.03 + lift);
-    c = (far_from_world * vec4(q, 1.0)).xyz;
-    layer = 1.0;
-  }
-  // Four taps around the point, corners of a turned square: each drawn pixel takes one diagonal, and
-  // rows take turns, so that the mean over two rows is that of all four. No loop, which llvmpipe
-  // runs slowly.
-  vec2 diagonal = (int(gl_FragCoord.y) & 1) == 0 ? vec2(0.4, 1.0) : vec2(1.0, -0.4);
-  diagonal *= 1.15 / 2048.0;
-  float sum = texture(shadow_maps, vec4(c.xy + diagonal, layer, c.z)) +
-              texture(shadow_maps, vec4(c.xy - diagonal, layer, c.z));
-  edge = abs(c.xy - 0.5);
-  return max(edge.x, edge.y) > 0.499 ? 1.0 : 0.5 * sum;
-}
 
 vec3 ambient(vec3 n) {
   float up = 0.5 + 0.5 * n.z;
@@ -114,6 +87,46 @@ vec3 finish_in(vec3 radiance, vec4 haze) {
 // Light from p at the eye, after the haze in between.
 vec3 finish(vec3 radiance, vec3 p) {
   return finish_in(radiance, haze_before(p));
+}
+)";
+  return text;
+}
+
+const std::string& light_functions() {
+  static const std::string text = tone_functions() + R"(
+uniform sampler2DArrayShadow shadow_maps;
+
+// Share of the sun's disc seen from p: 0 in shadow, 1 in light. The point is moved along its normal
+// by about a texel and a half, against shadows of a surface on itself.
+float sun_visibility(vec3 p, vec3 n, float lift) {
+  if (shadow_info.z < 0.5) return 1.0;
+  float slope = 1.0 - clamp(dot(n, sun_direction.xyz), 0.0, 1.0);
+  vec3 q = p + n * (shadow_info.x * (0.6 + 1.6 * slope)) + sun_direction.xyz * (0.02 + lift);
+  vec3 c = (near_from_world * vec4(q, 1.0)).xyz;
+  float layer = 0.0;
+  vec2 edge = abs(c.xy - 0.5);
+  if (max(edge.x, edge.y) > 0.495) {
+    q = p + n * (shadow_info.y * (0.6 + 1.6 * slope)) + sun_direction.xyz * (0.03 + lift);
+    c = (far_from_world * vec4(q, 1.0)).xyz;
+    layer = 1.0;
+  }
+  // Four taps around the point, corners of a turned square. No loop, which llvmpipe runs slowly.
+  const float radius = 1.15 / 2048.0;
+#ifdef ALL_TAPS
+  vec2 diagonal = radius * vec2(0.4, 1.0), other = radius * vec2(1.0, -0.4);
+  float share = 0.25 * (texture(shadow_maps, vec4(c.xy + diagonal, layer, c.z)) +
+                        texture(shadow_maps, vec4(c.xy - diagonal, layer, c.z)) +
+                        texture(shadow_maps, vec4(c.xy + other, layer, c.z)) +
+                        texture(shadow_maps, vec4(c.xy - other, layer, c.z)));
+#else
+  // Each drawn pixel takes one diagonal, and rows take turns, so that the mean over two rows is that
+  // of all four.
+  vec2 diagonal = radius * ((int(gl_FragCoord.y) & 1) == 0 ? vec2(0.4, 1.0) : vec2(1.0, -0.4));
+  float share = 0.5 * (texture(shadow_maps, vec4(c.xy + diagonal, layer, c.z)) +
+                       texture(shadow_maps, vec4(c.xy - diagonal, layer, c.z)));
+#endif
+  edge = abs(c.xy - 0.5);
+  return max(edge.x, edge.y) > 0.499 ? 1.0 : share;
 }
 )";
   return text;

@@ -54,6 +54,9 @@ void main() {
 
 namespace {
 
+/// The ground has one drawn pixel in each of the picture's, so that shadows need all of their taps.
+const char* const kAllTaps = "#define ALL_TAPS\n";
+
 const char* const kGroundVertex = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -167,7 +170,7 @@ const char* const kApplyTrack = R"(
 }  // namespace
 
 Pair ground(bool with_grid, bool with_land, bool fine) {
-  const std::string begin = frame_block() + (fine ? "#define SLOW_AT_VERTICES\n" : "");
+  const std::string begin = frame_block() + kAllTaps + (fine ? "#define SLOW_AT_VERTICES\n" : "");
   const std::string fragment = begin + light_functions() + grass_colour() + untiled_noise() +
                                pixel_octave() + kGroundInputs + (with_grid ? grid_tint() : "") +
                                (with_land ? land_use() : "") + R"(
@@ -212,8 +215,57 @@ void main() {
   return {begin + haze_functions() + untiled_noise() + kGroundVertex, fragment};
 }
 
+Pair ground_gaps() {
+  // Where other things hide the ground it gets the colour of shaded turf, of so little weight that
+  // it counts only where no pixel beside shows any ground: in gaps between leaves.
+  const std::string vertex = frame_block() + tone_functions() + R"(
+flat out vec4 trace;
+void main() {
+  const float weight = 8.0 / 255.0;
+  const vec3 turf = vec3(0.045, 0.050, 0.022);
+  trace = weight * vec4(to_screen(turf * ambient(vec3(0.0, 0.0, 1.0)) * kOneOverPi), 1.0);
+  gl_Position = vec4(vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0, 0.0, 1.0);
+}
+)";
+  const std::string fragment = R"(#version 330 core
+flat in vec4 trace;
+out vec4 colour;
+uniform sampler2D frame_depth;
+void main() {
+  // The middle of a pixel in the staggered pattern (sample_pattern.h).
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  int height = textureSize(frame_depth, 0).y >> 1;
+  gl_FragDepth = texelFetch(frame_depth, ivec2(pixel.x + height - pixel.y, 2 * pixel.y + 1), 0).r;
+  colour = trace;
+}
+)";
+  return {vertex, fragment};
+}
+
+Pair ground_seen() {
+  const std::string vertex = frame_block() + R"(
+layout(location = 0) in vec3 position;
+uniform mat4 world_from_model;
+void main() {
+  gl_Position = clip_from_world * (world_from_model * vec4(position, 1.0));
+}
+)";
+  const std::string fragment = R"(#version 330 core
+out vec4 colour;
+uniform sampler2D ground_seen;
+void main() {
+  // A middle has its own colour, a corner the mean of the four around it.
+  vec2 size = vec2(textureSize(ground_seen, 0)), drawn = gl_FragCoord.xy - 0.5;
+  vec2 place = vec2(drawn.x + 0.5 * drawn.y - size.y, 0.5 * drawn.y);
+  vec4 seen = texture(ground_seen, place / size);
+  colour = vec4(seen.rgb / seen.a, 1.0);
+}
+)";
+  return {vertex, fragment};
+}
+
 Pair country() {
-  const std::string fragment = frame_block() + light_functions() + grass_colour() +
+  const std::string fragment = frame_block() + kAllTaps + light_functions() + grass_colour() +
                                untiled_noise() + pixel_octave() + kGroundInputs + kPatchwork + R"(
 void main() {
   vec3 n = normalize(n_W);

@@ -17,6 +17,7 @@ enum TextureUnit : int {
   kUnitDepth = 10,
   kUnitAlbedo = 11,
   kUnitNormal = 12,
+  kUnitGroundSeen = 13,
 };
 
 struct SamplerUnit {
@@ -25,11 +26,11 @@ struct SamplerUnit {
 };
 
 inline constexpr SamplerUnit kSamplerUnits[] = {
-    {"shadow_maps", kUnitShadow},  {"sky_table", kUnitSky},     {"noise_tile", kUnitNoise},
-    {"ground_tile", kUnitGround},  {"row_mask", kUnitMask},     {"leaf_cards", kUnitLeaves},
-    {"image", kUnitImage},         {"grid_cells", kUnitGrid},   {"land_tile", kUnitLand},
-    {"field_table", kUnitFields},  {"frame_depth", kUnitDepth}, {"frame_albedo", kUnitAlbedo},
-    {"frame_normal", kUnitNormal},
+    {"shadow_maps", kUnitShadow},  {"sky_table", kUnitSky},          {"noise_tile", kUnitNoise},
+    {"ground_tile", kUnitGround},  {"row_mask", kUnitMask},          {"leaf_cards", kUnitLeaves},
+    {"image", kUnitImage},         {"grid_cells", kUnitGrid},        {"land_tile", kUnitLand},
+    {"field_table", kUnitFields},  {"frame_depth", kUnitDepth},      {"frame_albedo", kUnitAlbedo},
+    {"frame_normal", kUnitNormal}, {"ground_seen", kUnitGroundSeen},
 };
 
 }  // namespace vinerow::render

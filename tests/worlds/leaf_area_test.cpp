@@ -110,6 +110,28 @@ TEST(ShelterByLeaves, GrowsWithTheSeason) {
   }
 }
 
+/// Every vehicle checks the wind that it meets.
+TEST(ShelterByLeaves, IsAWindThatVehiclesAccept) {
+  for (const double bbch : {0.0, 15.0, 75.0, 97.0}) {
+    const auto world = test::make_world("vineyard", sheltered(vineyard_at(bbch)));
+    EXPECT_NO_THROW(validate(world->wind)) << bbch;
+  }
+}
+
+TEST(ShelterByLeaves, OfDenseTreesStaysInTheRangeOfTheParameter) {
+  ParameterSet parameters = test::world_parameters("orchard");
+  parameters.set("field_width_m", 10.0).set("plant_rows", 2.0).set("row_width_m", 3.0);
+  parameters.set("field_length_m", 20.0).set("row_length_m", 7.0);
+  ParameterSet leaves = parameters.make_group("leaves");
+  leaves.set("crop", std::string("olive")).set("leaf_area_per_m3", 20.0);
+  parameters.set("leaves", Groups{leaves});
+  const auto world = test::make_world("orchard", sheltered(parameters));
+  // Goudriaan for these: 0.28 (LAI^2 h / w)^(1/3) with LAI > 10, h = 3.6 m, w = 0.022 m is over 7.
+  EXPECT_GT(leaf_area_index(*world), 10.0);
+  EXPECT_EQ(world->wind.shelter_attenuation, 5.0);
+  EXPECT_NO_THROW(validate(world->wind));
+}
+
 TEST(ShelterByLeaves, NeedsPlantsWhoseLeavesAreKnown) {
   ParameterSet cards = test::world_parameters("vineyard");
   EXPECT_EQ(test::config_error_of([&] { test::make_world("vineyard", sheltered(cards)); }),

@@ -102,8 +102,13 @@ void settle_shelter(WorldModel& world) {
     rows_m += length_m(row.line_W);
   }
   if (leaves.area_m2 <= 0.0 || rows_m <= 0.0) return;
-  world.wind.shelter_attenuation = shelter_attenuation(leaf_area_index(world), top_m / rows_m,
-                                                       leaves.width_area_m3 / leaves.area_m2);
+  // The most that a world may be given: a denser canopy leaves less than a twelfth of the wind at
+  // half its height anyway.
+  constexpr double kMost = 5.0;
+  const double attenuation = shelter_attenuation(leaf_area_index(world), top_m / rows_m,
+                                                 leaves.width_area_m3 / leaves.area_m2);
+  world.wind.shelter_attenuation = std::min(attenuation, kMost);
+  world.wind.shelter_by_leaves = false;  // from here on it is given
 }
 
 }  // namespace vinerow::worlds

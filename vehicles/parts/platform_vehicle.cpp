@@ -53,6 +53,13 @@ Eigen::Vector3d PlatformVehicle::specific_force_B() const {
   return platform_->state().specific_force_B;
 }
 
+Eigen::Vector3d PlatformVehicle::air_velocity_B() const {
+  const physics::BodyState& body = platform_->state().body;
+  Eigen::Vector3d air_W = body.v_WB_W;
+  if (const WindProbe* wind = platform_->wind()) air_W -= wind->wind_W();
+  return body.X_WB.q.conjugate() * air_W;
+}
+
 void PlatformVehicle::read_links(std::vector<Pose>& X_WL) const {
   const WheeledPlatformState& state = platform_->state();
   X_WL[0] = state.body.X_WB;

@@ -23,6 +23,7 @@ class PlatformVehicle : public Vehicle {
   void after_physics(Time now, Duration dt) override;
   void read_truth(Odometry& truth) const override;
   Eigen::Vector3d specific_force_B() const override;
+  Eigen::Vector3d air_velocity_B() const override;
   std::span<const double> actuator_states() const override { return actuator_states_; }
   void read_links(std::vector<Pose>& X_WL) const override;
   void publish(Time now) override;

@@ -58,7 +58,9 @@ class WindProbe {
   /// At the position of the last sample; before the first at W's origin.
   double air_density_kgm3() const { return density_kgm3_; }
 
-  /// Components of the last sample, in W, m/s, after shelter; their sum is the sample.
+  /// The last sample, in W, m/s.
+  const Eigen::Vector3d& wind_W() const { return wind_W_; }
+  /// Its components, after shelter; their sum is the sample.
   const Eigen::Vector3d& mean_W() const { return mean_W_; }
   const Eigen::Vector3d& gust_W() const { return gust_W_; }
   const Eigen::Vector3d& turbulence_W() const { return turbulence_W_; }

@@ -264,6 +264,10 @@ void Quadrotor::read_truth(Odometry& truth) const {
   truth.w_WB_B = q_BW * body().w_WB_W;
 }
 
+Vector3d Quadrotor::air_velocity_B() const {
+  return body().X_WB.q.conjugate() * (body().v_WB_W - wind_W_);
+}
+
 void Quadrotor::read_links(std::vector<Pose>& X_WL) const {
   X_WL[0] = body().X_WB;
   for (std::size_t i = 0; i < kRotors; ++i) {

@@ -58,6 +58,7 @@ class Quadrotor final : public Vehicle {
   void after_physics(Time now, Duration dt) override;
   void read_truth(Odometry& truth) const override;
   Eigen::Vector3d specific_force_B() const override { return specific_force_B_; }
+  Eigen::Vector3d air_velocity_B() const override;
   std::span<const double> actuator_states() const override { return actuator_states_; }
   std::string_view crash() const override { return crash_; }
   void read_links(std::vector<Pose>& X_WL) const override;

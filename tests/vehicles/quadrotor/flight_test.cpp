@@ -190,6 +190,8 @@ TEST(QuadrotorFlight, DriftsWithTheWind) {
   rig.run(0.01);
   const double force = 0.30 * 4.0 + 0.5 * 1.225 * 0.04 * 16.0;
   EXPECT_NEAR(rig.body().v_WB_W.x(), -force / 2.0 * 0.01, 2e-5);
+  // Air data sensors feel the wind, not the ground's speed.
+  EXPECT_NEAR(rig.vehicle.air_velocity_B().x(), 4.0, 0.01);
   rig.run(30.0);
   EXPECT_NEAR(rig.body().v_WB_W.x(), -4.0, 0.05);
 }

@@ -93,6 +93,13 @@ TEST(AirDrag, RefusesNegativeAreas) {
   }
 }
 
+TEST(WindblownRover, TellsItsVelocityThroughTheAir) {
+  Rig rig(south_wind(20.0), windy_rover());
+  rig.run(1.0);
+  // It stands and looks east: the wind comes from its right.
+  EXPECT_NEAR((rig.rovers[0]->air_velocity_B() - Vector3d(0, -20, 0)).norm(), 0.0, 0.4);
+}
+
 TEST(WindblownRover, StandsAgainstTheWindByItsTyres) {
   const double speed_mps = 20.0;
   Rig rig(south_wind(speed_mps), windy_rover());

@@ -151,23 +151,28 @@ void plant_tree_row(WorldModel& world, int row_number, const mapping::RowCurve& 
     }));
     for (int level = 0; level < 3 && !is_bare; ++level) {
       const std::string mesh_name = fmt::format("crown/{}#lod{}", key, level);
-      MeshInstance& leaves = add("crown", SurfaceClass::kCanopy, store.get(mesh_name, [&] {
+      const auto mesh = store.get(mesh_name, [&] {
         return params.leaves ? make_tree_leaves(*params.leaves, space, level, random(mesh_name))
                              : make_crown_foliage(crown.centre, crown.half_axes_m,
                                                   tree_foliage_detail(params.leaf_cards, level),
                                                   random(mesh_name));
-      }));
+      });
+      // A young tree has less than one of the large leaves that are seen from afar.
+      if (mesh->triangles.empty()) continue;
+      MeshInstance& leaves = add("crown", SurfaceClass::kCanopy, mesh);
       leaves.name += fmt::format("#lod{}", level);
       leaves.collides = false;
       if (!params.leaves) leaves.material = leaf_material();
       if (!params.leaves || level > 0) leaves.light = Light::kPasses;
     }
     if (!params.leaves) continue;
-    MeshInstance& twigs =
-        add("twigs", SurfaceClass::kTrunk,
-            store.get("twigs/" + key, [&] { return make_twigs(space, random("twigs." + key)); }));
-    twigs.collides = false;
-    twigs.label = Label::kWood;  // a tree has one trunk
+    const auto shoots =
+        store.get("twigs/" + key, [&] { return make_twigs(space, random("twigs." + key)); });
+    if (!shoots->triangles.empty()) {
+      MeshInstance& twigs = add("twigs", SurfaceClass::kTrunk, shoots);
+      twigs.collides = false;
+      twigs.label = Label::kWood;  // a tree has one trunk
+    }
     const auto fruit = store.get(
         "fruit/" + key, [&] { return make_fruit(*params.leaves, space, random("fruit." + key)); });
     if (fruit->triangles.empty()) continue;

@@ -177,6 +177,21 @@ TEST(TreeLeaves, ABareTreeHasTwigsAndNoHull) {
   EXPECT_GT(twigs, 0);
 }
 
+TEST(TreeLeaves, JustPlantedTreesHaveNoMeshWithoutTriangles) {
+  for (const double width_m : {0.5, 0.1}) {
+    ParameterSet parameters = test::world_parameters("orchard");
+    parameters.set("plant_rows", 1.0).set("row_length_m", 12.0).set("row_width_m", width_m);
+    parameters.set("tree_spacing_m", 1.0).set("tree_height_m", 1.4);
+    ParameterSet leaves = parameters.make_group("leaves");
+    leaves.set("bbch", 10.0);
+    parameters.set("leaves", std::vector<ParameterSet>{leaves});
+    const std::shared_ptr<const WorldModel> world = test::make_world("orchard", parameters);
+    for (const MeshInstance& instance : world->meshes) {
+      EXPECT_FALSE(instance.mesh->triangles.empty()) << instance.name;
+    }
+  }
+}
+
 TEST(TreeLeaves, AStageThatRunsBesideOthersIsRefused) {
   for (const double bbch : {20.0, 35.0, 50.0}) {
     ParameterSet parameters = test::world_parameters("orchard");

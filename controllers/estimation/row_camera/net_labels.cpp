@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
@@ -81,6 +84,12 @@ const Picture& NetLabels::find(const Picture& colours) {
     throw ConfigError(
         fmt::format("model '{}' gives scores of {} classes, but model_classes lists {}", model_,
                     scores.classes, classes_.size()));
+  }
+  // Of these no class would be the best, and the first one would label the whole picture.
+  const auto is_nan = [](float score) { return std::isnan(score); };
+  if (std::any_of(scores.values.begin(), scores.values.end(), is_nan)) {
+    throw ConfigError(fmt::format(
+        "model '{}' gives scores that are not numbers: its weights may be damaged", model_));
   }
   labels_.width = colours.width;
   labels_.height = colours.height;

@@ -36,6 +36,7 @@ class NetLabels {
   /// @param colours  RGB8
   /// @returns labels, MONO8; valid until the next call
   /// @throws ConfigError if the model does not take this size, or gives another number of classes
+  /// or scores that are NaN
   const Picture& find(const Picture& colours);
 
  private:

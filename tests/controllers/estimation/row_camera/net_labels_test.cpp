@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "controllers/estimation/row_camera/net_labels.h"
 #include "engine/core/error.h"
 #include "tests/support/paths.h"
@@ -98,6 +100,12 @@ TEST_F(NetLabelsTest, RefusesWhatDoesNotFit) {
   EXPECT_THAT([&] { net.find(three_colours()); },
               ThrowsMessage<ConfigError>(
                   HasSubstr("gives scores of 3 classes, but model_classes lists 2")));
+  // All scores are sums with red.
+  params_.classes = {"sky", "ground", "post"};
+  params_.mean[0] = std::numeric_limits<double>::quiet_NaN();
+  NetLabels damaged(params_, "rover.estimator");
+  EXPECT_THAT([&] { damaged.find(three_colours()); },
+              ThrowsMessage<ConfigError>(HasSubstr("gives scores that are not numbers")));
   params_.model = net_file("missing.onnx");
   EXPECT_THAT([&] { NetLabels(params_, "rover.estimator"); },
               ThrowsMessage<ConfigError>(

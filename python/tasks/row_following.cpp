@@ -266,11 +266,15 @@ class Spraying final : public RowTask {
     if (judgement.terminated || session.over() || elapsed_s_ >= next_count_s_) {
       next_count_s_ += kCountPeriod_s;
       const auto results = sprayer_->results();
-      const double covered = results.at("covered_share") * rows_;
+      // NaN where there is no canopy: vines in winter, and before the first row.
+      const auto share = [&results](const char* name) {
+        const double value = results.at(name);
+        return std::isfinite(value) ? value : 0.0;
+      };
+      const double covered = share("covered_share") * rows_;
       judgement.reward += prices_.cover_reward * (covered - covered_rows_);
       covered_rows_ = covered;
-      const double worked = results.at("worked_covered_share");
-      worked_share_ = std::isfinite(worked) ? worked : 0.0;
+      worked_share_ = share("worked_covered_share");
     }
     return judgement;
   }

@@ -232,6 +232,16 @@ class Rewards(unittest.TestCase):
         self.assertGreater(info["covered_rows"], 0.01)
         self.assertAlmostEqual(total, 100.0 * info["covered_rows"] - 0.5 * 0.02 * steps, places=6)
 
+    def test_spraying_bare_vines_costs_its_time(self):
+        env = Env("spraying", factors={}, options={"steering_price": 0.0}, overrides={"world.vines.bbch": 0})
+        env.reset(seed=1)
+        total = 0.0
+        for _ in range(100):  # two seconds at half a unit of price
+            _, reward, _, _, info = env.step([-0.2, 0.0])
+            total += reward
+        self.assertEqual(info["covered_rows"], 0.0)
+        self.assertAlmostEqual(total, -1.0)
+
 
 class Autoreset(unittest.TestCase):
     def test_same_step(self):

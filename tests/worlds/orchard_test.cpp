@@ -59,6 +59,22 @@ TEST(Orchard, CrownsStayInsideTheRowsWidth) {
   }
 }
 
+TEST(Orchard, TheCrownOfASingleTreeEndsWithItsRow) {
+  ParameterSet parameters = test::world_parameters("orchard");
+  parameters.set("row_length_m", 4.0).set("row_start_y_m", 10.0).set("tree_spacing_m", 20.0);
+  const auto world = test::make_world("orchard", parameters);
+  int crowns = 0;
+  for (const MeshInstance& instance : world->meshes) {
+    if (!instance.name.starts_with("crown_hull")) continue;
+    ++crowns;
+    for (const Eigen::Vector3f& v : instance.mesh->vertices) {
+      const double y = (instance.X_WM * v.cast<double>()).y();
+      ASSERT_LE(std::abs(y - 12.0), 2.0) << instance.name;
+    }
+  }
+  EXPECT_EQ(crowns, 9);
+}
+
 TEST(Orchard, ATreeHasOneTrunkAndItsTwigsAreWood) {
   ParameterSet parameters = test::world_parameters("orchard");
   parameters.set("leaves", std::vector<ParameterSet>{parameters.make_group("leaves")});

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -102,7 +103,8 @@ OrchardParams read_orchard(const ParameterSet& parameters) {
   layout.refinement_per_m2 = params.refinement_per_m2.value_or(layout.refinement_per_m2);
   validate(layout);
   params.trees.crown_width_m = layout.row_width_m;
-  params.trees.crown_length_m = 0.95 * params.tree_spacing_m;
+  // The crown of a single tree ends with its row.
+  params.trees.crown_length_m = 0.95 * std::min(params.tree_spacing_m, layout.row_length_m);
   return params;
 }
 

@@ -200,6 +200,8 @@ TriangleMesh make_twigs(const CrownSpace& crown, RandomStream random) {
   // Chosen: 25 shoots of 0.25 to 0.5 m in a cubic metre, which leave the boughs outward and turn
   // up.
   constexpr double kTwigs_per_m3 = 25.0, kRadius_m = 0.004;
+  // Those of young trees do not reach far beyond their crown.
+  const double longest_m = 0.6 * crown.half_axes_m.minCoeff();
   const Eigen::Vector3f bark(0.11f, 0.085f, 0.065f);
   const auto count = static_cast<int>(std::lround(kTwigs_per_m3 * volume_m3(crown)));
   TriangleMesh mesh;
@@ -207,7 +209,7 @@ TriangleMesh make_twigs(const CrownSpace& crown, RandomStream random) {
     const Vector3d base = point_in(crown, 0.7, random);
     const Vector3d out = (base - crown.centre).normalized();
     const Vector3d along = (out + 0.5 * random_direction(random)).normalized();
-    const double length_m = random.uniform(0.25, 0.5);
+    const double length_m = std::min(random.uniform(0.25, 0.5), longest_m);
     const Vector3d middle = base + 0.5 * length_m * along;
     const Vector3d end = middle + 0.5 * length_m * (along + 0.6 * Vector3d::UnitZ()).normalized();
     const std::array<TubePoint, 3> twig = {TubePoint{base, kRadius_m},

@@ -192,6 +192,17 @@ TEST(TreeLeaves, JustPlantedTreesHaveNoMeshWithoutTriangles) {
   }
 }
 
+TEST(TreeLeaves, TwigsOfAYoungTreeStayNearItsCrown) {
+  // A crown of half a metre each way; shoots of the year are as long as that at most.
+  const CrownSpace crown{{0.0, 0.0, 1.2}, {0.25, 0.25, 0.25}};
+  for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
+    const TriangleMesh twigs = make_twigs(crown, RandomStream(seed, "", "twigs"));
+    for (const Eigen::Vector3f& v : twigs.vertices) {
+      EXPECT_LT((v.cast<double>() - crown.centre).norm(), 0.25 * 1.4);
+    }
+  }
+}
+
 TEST(TreeLeaves, AStageThatRunsBesideOthersIsRefused) {
   for (const double bbch : {20.0, 35.0, 50.0}) {
     ParameterSet parameters = test::world_parameters("orchard");

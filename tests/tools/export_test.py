@@ -258,6 +258,10 @@ class Export(unittest.TestCase):
         refused = self.run_export("--topic", "/rover/front", "-o", folder / "one.csv", status=2).stderr
         self.assertIn("topic '/rover/front' has pictures, -o must be a folder", refused)
         self.assertEqual(self.arrays("/rover/front")["data"].shape, (3, len(png)))
+        both = self.log.parent / "both"
+        self.run_export("--topic", "/rover/front", "--csv", "--npz", "-o", both)
+        self.assertEqual((both / "rover_front/000001000000000.png").read_bytes(), png)
+        self.assertTrue((both / "rover_front.npz").exists())
 
     def test_a_sequence_of_messages_gives_a_row_for_each_element(self):
         log = Log()

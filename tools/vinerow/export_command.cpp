@@ -132,12 +132,17 @@ void export_topics(ExportArguments arguments) {
     const std::string stem = file_stem(topic, taken);
     if (cloud_format && one_file) {
       write_map_cloud(log, topic, source, arguments, *cloud_format);
-    } else if (cloud_format) {
+      return true;
+    }
+    if (cloud_format) {
       ScanFiles clouds(folder / stem, *cloud_format);
       add_messages(log, topic, source, arguments, clouds);
       fmt::print("{}  {} clouds\n", (folder / stem).string(), clouds.finish());
-    } else if (is_picture_type(type) && !arguments.npz) {
-      // Pictures are files, unless arrays are requested.
+      return true;
+    }
+    // Pictures are files, not columns of bytes; arrays of them only where those are requested.
+    const bool as_files = is_picture_type(type) && arguments.csv;
+    if (as_files) {
       if (one_file) {
         throw ConfigError(fmt::format(
             "export: topic '{}' has pictures, -o must be a folder for them or a .npz file", topic));
@@ -145,18 +150,18 @@ void export_topics(ExportArguments arguments) {
       PictureFiles pictures(folder / stem);
       add_messages(log, topic, source, arguments, pictures);
       fmt::print("{}  {} pictures\n", (folder / stem).string(), pictures.finish());
-    } else {
-      const MessageTable table = table_of(log, topic, source, arguments);
-      const auto file = [&](const char* ending) {
-        return one_file ? arguments.out : folder / (stem + ending);
-      };
-      if (arguments.out == "-") {
-        fmt::print("{}", csv_of(table, topic));
-        return true;
-      }
-      if (arguments.csv) write_table(table, file(".csv"), csv_of(table, topic));
-      if (arguments.npz) write_table(table, file(".npz"), npz_of(table, topic));
+      if (!arguments.npz) return true;
     }
+    const MessageTable table = table_of(log, topic, source, arguments);
+    const auto file = [&](const char* ending) {
+      return one_file ? arguments.out : folder / (stem + ending);
+    };
+    if (arguments.out == "-") {
+      fmt::print("{}", csv_of(table, topic));
+      return true;
+    }
+    if (arguments.csv && !as_files) write_table(table, file(".csv"), csv_of(table, topic));
+    if (arguments.npz) write_table(table, file(".npz"), npz_of(table, topic));
     return true;
   };
   bool has_any = false;

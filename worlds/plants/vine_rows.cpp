@@ -56,6 +56,30 @@ std::vector<Chunk> cut_run(const VineRow& row, const Run& run, double chunk_m) {
   return chunks;
 }
 
+/// Largest distance of a row from the chord of a chunk, in its middle.
+double largest_sag_m(const VineRow& row, const std::vector<Chunk>& chunks) {
+  double largest_m = 0.0;
+  for (const Chunk& chunk : chunks) {
+    const Eigen::Vector2d chord_middle =
+        0.5 * (row.curve.point_W(chunk.start_m) + row.curve.point_W(chunk.end_m));
+    const Eigen::Vector2d middle = row.curve.point_W(0.5 * (chunk.start_m + chunk.end_m));
+    largest_m = std::max(largest_m, (middle - chord_middle).norm());
+  }
+  return largest_m;
+}
+
+/// Organs of a chunk grow along a straight line: where the row bends, chunks are so short that its
+/// trunks, posts and hull stay with them.
+std::vector<Chunk> cut_bent_run(const VineRow& row, const Run& run, double chunk_m) {
+  constexpr double kSag_m = 0.03, kShorter = 0.8;
+  std::vector<Chunk> chunks = cut_run(row, run, chunk_m);
+  while (largest_sag_m(row, chunks) > kSag_m && chunk_m > row.vine_spacing_m) {
+    chunk_m *= kShorter;
+    chunks = cut_run(row, run, chunk_m);
+  }
+  return chunks;
+}
+
 MeshInstance make_instance(std::string name, std::shared_ptr<const TriangleMesh> mesh,
                            SurfaceClass surface) {
   MeshInstance instance;
@@ -79,7 +103,8 @@ class Planter {
     for (const Run& run : find_runs(row)) {
       std::vector<CanopyStretch> stretches;
       leaf_area_m2_ = 0.0;
-      for (const Chunk& chunk : cut_run(row, run, planting_.chunk_m)) {
+      const auto cut = planting_.growth ? cut_bent_run : cut_run;
+      for (const Chunk& chunk : cut(row, run, planting_.chunk_m)) {
         const std::string chunk_name = fmt::format("{}/chunk_{:02}", row_name, chunk_number++);
         const std::string shape_key = shape_of(chunk, chunk_name);
         stretches.push_back({chunk.start_m, chunk.end_m, &shapes_.at(shape_key)});

@@ -38,8 +38,8 @@ struct VinePlanting {
   CanopyParams canopy;
   TrellisParams trellis;
   double leaf_cards_per_m = 260.0;  ///< near level
-  double chunk_m = 7.2;             ///< approximate length of a chunk
-  int variants = 6;                 ///< of chunks that are reused
+  double chunk_m = 7.2;  ///< approximate length of a chunk; less where growing vines bend
+  int variants = 6;      ///< of chunks that are reused
   std::uint64_t seed = 1;
   std::optional<VineGrowth> growth;  ///< absent: cards of leaves
   VineSpace space;                   ///< of growing vines; set by settle_growth()

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "engine/api/foliage.h"
 #include "engine/api/map.h"
 #include "engine/core/error.h"
 #include "engine/core/random.h"
+#include "engine/math/polyline.h"
 #include "engine/physics/static_scene.h"
 #include "tests/worlds/world_fixture.h"
 
@@ -322,6 +324,33 @@ TEST(VineWorld, FoliageEndsWithTheRow) {
       ASSERT_GT(s_m, -1.0) << instance.name;
       ASSERT_LT(s_m, 22.0 + 1.0) << instance.name;
     }
+  }
+}
+
+/// Leaves of a bent row grow on both sides of its line all along it. Chunks of 7.2 m would leave a
+/// circle of this radius by 7.2^2 / (8 21) = 0.31 m in their middle.
+TEST(VineWorld, LeavesFollowABentRow) {
+  ParameterSet parameters = parameters_at(75);
+  parameters.set("row_bend_deg", 60.0);
+  const auto world = test::make_world("vineyard", parameters);
+  std::vector<Eigen::Vector2d> line;
+  for (const Eigen::Vector3d& p : world->rows->rows[1].line_W) line.push_back(p.head<2>());
+  const Polyline row(line);
+  std::map<int, std::pair<double, int>> sums;  // by metre of the row
+  for (const MeshInstance& instance : world->meshes) {
+    if (!instance.name.starts_with("canopy/row_01") || !instance.name.ends_with("#lod0")) continue;
+    for (const Eigen::Vector3f& v : instance.mesh->vertices) {
+      const auto nearest =
+          row.nearest(Eigen::Vector2d((instance.X_WM * v.cast<double>()).head<2>()));
+      auto& [sum_m, count] = sums[static_cast<int>(row.s_m(nearest))];
+      sum_m += nearest.signed_distance_m;
+      ++count;
+    }
+  }
+  ASSERT_GE(sums.size(), 20u);
+  for (const auto& [metre, sum] : sums) {
+    if (sum.second < 1000) continue;  // beyond the ends
+    EXPECT_NEAR(sum.first / sum.second, 0.0, 0.08) << metre;
   }
 }
 

@@ -281,7 +281,7 @@ class VineGrower {
   /// Trimmed sides.
   void keep_inside(Vector3d& p) const {
     if (growth_.pruning == Pruning::kPergola) return;
-    const double half_m = 0.5 * space_.width_m - 0.03;
+    const double half_m = std::max(0.0, 0.5 * space_.width_m - 0.03);
     p.y() = std::clamp(p.y(), -half_m, half_m);
   }
 

@@ -312,6 +312,15 @@ TEST(VineTraining, WiresHoldTheShoots) {
   EXPECT_LT(p95_m, 0.2);
 }
 
+TEST(VineTraining, LeavesOfTheNarrowestCanopyStayInIt) {
+  VineGrowth growth;
+  VineSpace space;
+  space.width_m = 0.02;
+  for (const LeafOrgan& leaf : grow(growth, space).leaves) {
+    ASSERT_LE(std::abs(leaf.junction.y()), 0.01);
+  }
+}
+
 TEST(VineTraining, YoungVinesAreSmallAndPergolasHaveARoof) {
   VineGrowth growth;
   growth.young_share = 1.0;

@@ -154,7 +154,7 @@ class RowCamera final : public Estimator {
     if (!marks_.has_camera() && info_.has_value()) marks_.set_camera(info_.value());
     if (!marks_.has_camera() || !picture_.is_newer_than(seen_)) return;
     const PastState past = trace_.at(picture_.stamp());
-    const int used = filter_.correct(marks_.find(usable_picture()), past.x);
+    const int used = filter_.correct(marks_in(usable_picture(), past.x), past.x);
     if (used >= kFew) {
       last_seen_ = now;
       is_lost_ = false;
@@ -163,6 +163,12 @@ class RowCamera final : public Estimator {
       events_.report_event(Event::Level::kWarning,
                            "no row has been seen for 5 s: dead reckoning alone");
     }
+  }
+
+  const std::vector<RowMark>& marks_in(const Picture& picture, const RowCameraFilter::State& past) {
+    return params_.marks.source == RowMarksParams::Source::kLabels
+               ? marks_.find_feet(picture)
+               : marks_.find_strips(picture, past.head<3>(), filter_.rows());
   }
 
   /// What the marks are found in.
@@ -229,9 +235,8 @@ PartSpec row_camera_spec() {
   spec.name = "row_camera";
   spec.description =
       "Place and heading between mapped rows from a camera's picture (feet of trunks and posts, "
-      "whose "
-      "labels may come from a neural network, or borders of bare strips), wheels and a rate gyro; "
-      "no satellites.";
+      "whose labels may come from a neural network, or bare strips of soil), wheels and a rate "
+      "gyro; no satellites.";
   row_camera_table().add_to(spec);
   spec.default_rate_Hz = 40.0;
   spec.reads = {"<camera>_semantic or <camera>", "<camera>_info", "<imu>", "<wheels>",

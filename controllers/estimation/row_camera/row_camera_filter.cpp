@@ -86,9 +86,8 @@ int RowCameraFilter::correct(const std::vector<RowMark>& marks, const State& pas
     const auto& points = line.points();
     const auto at = static_cast<std::size_t>(nearest.segment);
     const Vector2d along = (points[at + 1] - points[at]).normalized();
-    Vector2d n(-along.y(), along.x());
-    if (n.dot(past.head<2>() - nearest.point) < 0.0) n = -n;
-    const double residual = mark.before_row_m - n.dot(p - nearest.point);
+    const Vector2d n(-along.y(), along.x());
+    const double residual = -n.dot(p - nearest.point);
     if (std::abs(residual) > params_.mark_gate_m) continue;
     const Eigen::Vector3d h(n.x(), n.y(), n.dot(Vector2d(-turned.y(), turned.x())));
     // Huber's weight: beyond one and a half sigma an error counts by its size alone.

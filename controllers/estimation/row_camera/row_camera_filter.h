@@ -4,12 +4,11 @@
 ///
 /// State: x, y, heading, bias of the gyro. Prediction: the speed of the wheels along the heading,
 /// which turns by the rate less the bias; for a distance d and an angle a the noise is
-/// q^2 d + s^2 |a| along each axis, since turning skids. A
-/// mark at p_B, expected at the distance b before a row's line on the vehicle's side, has the
+/// q^2 d + s^2 |a| along each axis, since turning skids. A mark at p_B on a row's line has the
 /// residual
-///   r = b - n.(p + R p_B - q)
-/// with the nearest point q of the line and the line's normal n towards the vehicle. Its variance
-/// is mark_std^2 + (n.R s_B)^2 with the range's error s_B along the line of sight, which matters
+///   r = -n.(p + R p_B - q)
+/// with the nearest point q of the line and the line's normal n. Its variance is
+/// mark_std^2 + (n.R s_B)^2 with the range's error s_B along the line of sight, which matters
 /// little for rows that the camera looks along. All marks of a picture have common errors
 /// (mounting, tilt, the ground's shape): together they weigh no more than `marks_per_picture`
 /// independent ones.
@@ -53,6 +52,7 @@ class RowCameraFilter {
   /// @param past  state at the time of the picture  @returns number of marks that were used
   int correct(const std::vector<RowMark>& marks, const State& past);
 
+  const PolylineIndex& rows() const { return rows_; }
   const State& state() const { return x_; }
   const Eigen::Matrix4d& covariance() const { return P_; }
 

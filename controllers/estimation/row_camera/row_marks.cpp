@@ -1,9 +1,10 @@
 #include "controllers/estimation/row_camera/row_marks.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
-#include "engine/api/lens.h"
 #include "engine/api/parameter_table.h"
 #include "engine/api/surface.h"
 
@@ -13,32 +14,15 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr float kSoilRun_m = 0.12f;  // that much soil in a row of pixels is a strip
-constexpr int kBins = 64;            // of the histogram of redness, which lies within +-kReddest
-constexpr float kReddest = 0.25f;
+// Strips of soil, in profiles across the rows.
+constexpr double kStep_m = 0.02, kPitch_m = 0.25;  // of a profile; from one to the next
+constexpr double kSearch_m = 0.5;                  // on each side of where the row is expected
+constexpr double kFlank = 0.5;  // of the strip's half width, on each side: what it is held against
+constexpr float kContrast = 0.5f;  // least difference of the shares of soil
+constexpr float kPlateau = 0.1f;   // below the largest one: as good
 
-/// Threshold between two classes of a histogram with the largest variance between them (Otsu 1979).
-float split(const std::array<int, kBins>& histogram) {
-  double total = 0.0, sum = 0.0;
-  for (int i = 0; i < kBins; ++i) {
-    total += histogram[i];
-    sum += static_cast<double>(i) * histogram[i];
-  }
-  double below = 0.0, below_sum = 0.0, best = -1.0;
-  int best_bin = kBins / 2;
-  for (int i = 0; i + 1 < kBins; ++i) {
-    below += histogram[i];
-    below_sum += static_cast<double>(i) * histogram[i];
-    const double above = total - below;
-    if (below <= 0.0 || above <= 0.0) continue;
-    const double apart = below_sum / below - (sum - below_sum) / above;
-    const double variance = below * above * apart * apart;
-    if (variance > best) {
-      best = variance;
-      best_bin = i;
-    }
-  }
-  return kReddest * (2.0f * static_cast<float>(best_bin + 1) / kBins - 1.0f);
+int steps(double length_m) {
+  return static_cast<int>(std::lround(length_m / kStep_m));
 }
 
 }  // namespace
@@ -50,8 +34,8 @@ const ParameterTable<RowMarksParams>& row_marks_table() {
           .choice(
               "marks", &P::source,
               {{"labels", P::Source::kLabels}, {"colours", P::Source::kColours}},
-              "labels: feet of trunks and posts in a picture of labels; colours: borders of the "
-              "bare strip under the plants in a colour picture")
+              "labels: feet of trunks and posts in a picture of labels; colours: the bare strip "
+              "under the plants in a colour picture")
           .number("nearest_m", "m", &P::nearest_m, between(0.0, 100.0),
                   "marks are used from this distance ahead of the vehicle's origin")
           .number("farthest_m", "m", &P::farthest_m, between(0.1, 100.0),
@@ -59,7 +43,7 @@ const ParameterTable<RowMarksParams>& row_marks_table() {
           .integer("foot_px", &P::foot_px, between(1, 100),
                    "a trunk or post has at least so many pixels above its foot; less is taken for "
                    "an error of the labels (marks: labels)")
-          .number("strip_half_width_m", "m", &P::strip_half_width_m, between(0.0, 2.0),
+          .number("strip_half_width_m", "m", &P::strip_half_width_m, between(0.1, 2.0),
                   "half width of the bare strip (marks: colours)")
           .degrees("tilt_std_deg", &P::tilt_std_rad, between(0.0, 20.0),
                    "1 sigma of the angle between the body and the ground ahead");
@@ -70,15 +54,14 @@ RowMarks::RowMarks(const RowMarksParams& params, const Pose& X_BS, double height
     : params_(params), X_BS_(X_BS), height_m_(height_m) {}
 
 void RowMarks::set_camera(const CameraInfo& info) {
-  const Lens lens(info);
-  width_ = lens.width();
-  height_ = lens.height();
+  lens_ = Lens(info);
+  width_ = lens_.width();
+  height_ = lens_.height();
   ground_B_.assign(static_cast<std::size_t>(width_) * height_, std::nullopt);
-  redness_.resize(ground_B_.size());
   marks_.reserve(static_cast<std::size_t>(width_ + 2 * height_));
   for (int y = 0; y < height_; ++y) {
     for (int x = 0; x < width_; ++x) {
-      const auto dir_C = lens.direction(x, y);
+      const auto dir_C = lens_.direction(x, y);
       if (!dir_C) continue;
       const Vector3d dir_B = X_BS_.q * Vector3d(dir_C->z(), -dir_C->x(), -dir_C->y());
       if (dir_B.z() >= 0.0) continue;
@@ -89,28 +72,21 @@ void RowMarks::set_camera(const CameraInfo& info) {
   }
 }
 
-const std::vector<RowMark>& RowMarks::find(const Picture& picture) {
-  marks_.clear();
-  const bool is_labels = params_.source == RowMarksParams::Source::kLabels;
-  const bool fits = static_cast<int>(picture.width) == width_ &&
-                    static_cast<int>(picture.height) == height_ && picture.format == format();
-  if (!fits || width_ == 0) return marks_;
-  if (is_labels) {
-    find_feet(picture);
-  } else {
-    find_strips(picture);
-  }
-  return marks_;
+bool RowMarks::fits(const Picture& picture) const {
+  return width_ > 0 && static_cast<int>(picture.width) == width_ &&
+         static_cast<int>(picture.height) == height_ && picture.format == format();
 }
 
-void RowMarks::add(const Point& ground_B, double before_row_m) {
-  const Vector2d sight_B = ground_B.cast<double>() - X_BS_.p.head<2>();
+void RowMarks::add(const Vector2d& ground_B) {
+  const Vector2d sight_B = ground_B - X_BS_.p.head<2>();
   const double range_std_m =
       sight_B.squaredNorm() / (X_BS_.p.z() + height_m_) * params_.tilt_std_rad;
-  marks_.push_back({ground_B.cast<double>(), before_row_m, range_std_m * sight_B.normalized()});
+  marks_.push_back({ground_B, range_std_m * sight_B.normalized()});
 }
 
-void RowMarks::find_feet(const Picture& labels) {
+const std::vector<RowMark>& RowMarks::find_feet(const Picture& labels) {
+  marks_.clear();
+  if (!fits(labels)) return marks_;
   const auto label = [&](int x, int y) { return static_cast<Label>(labels.data[index(x, y)]); };
   const auto stands = [&](int x, int y) {
     return label(x, y) == Label::kWood || label(x, y) == Label::kPost;
@@ -125,60 +101,114 @@ void RowMarks::find_feet(const Picture& labels) {
     while (tall_px < params_.foot_px && y >= tall_px && stands(x, y - tall_px)) ++tall_px;
     if (tall_px < params_.foot_px) continue;
     const auto& ground_B = ground_B_[index(x, y)];
-    if (ground_B) add(*ground_B, 0.0);
+    if (ground_B) add(ground_B->cast<double>());
   }
+  return marks_;
 }
 
-void RowMarks::rate_colours(const Picture& colours) {
-  std::array<int, kBins> histogram{};
-  for (std::size_t i = 0; i < ground_B_.size(); ++i) {
-    if (!ground_B_[i]) continue;
-    const int red = colours.data[3 * i], green = colours.data[3 * i + 1];
-    redness_[i] = static_cast<float>(red - green) / static_cast<float>(std::max(red + green, 1));
-    const float share = 0.5f * (redness_[i] / kReddest + 1.0f);
-    const int bin = std::clamp(static_cast<int>(share * kBins), 0, kBins - 1);
-    ++histogram[static_cast<std::size_t>(bin)];
-  }
-  threshold_ = split(histogram);
+const std::vector<RowMark>& RowMarks::find_strips(const Picture& colours, const Vector3d& expected,
+                                                  const PolylineIndex& rows) {
+  marks_.clear();
+  if (!fits(colours)) return marks_;
+  profiles_.clear();
+  colours_.clear();
+  const Eigen::Matrix2d R_BW = Eigen::Rotation2Dd(-expected.z()).toRotationMatrix();
+  const auto look = [&](const PolylineIndex::Nearest& at) {
+    const Polyline& line = rows.lines()[static_cast<std::size_t>(at.line)];
+    const auto from = static_cast<std::size_t>(at.segment);
+    const double begin_m = line.s_m()[from], end_m = line.s_m()[from + 1];
+    const Vector2d start_B = R_BW * (line.points()[from] - expected.head<2>());
+    const Vector2d along_B = R_BW * (line.points()[from + 1] - line.points()[from]).normalized();
+    for (double s_m = std::ceil(begin_m / kPitch_m) * kPitch_m; s_m < end_m; s_m += kPitch_m) {
+      take_profile(colours, start_B + (s_m - begin_m) * along_B, {-along_B.y(), along_B.x()});
+    }
+  };
+  // By reference: a copy of it would take heap.
+  rows.visit_within(expected.head<2>(), params_.farthest_m, std::ref(look));
+  const SoilClasses classes = split_soil(colours_);
+  if (!classes.differ()) return marks_;
+  for (const Profile& profile : profiles_) find_strip(profile, classes);
+  return marks_;
 }
 
-/// From column `first` outwards: where soil begins and goes on. @param side  1 left, -1 right
-void RowMarks::look_along(int row, int first, int step, int side) {
-  float begin_m = 0.0f;
-  int begin = -1;
-  for (int x = first; x >= 0 && x < width_; x += step) {
-    const auto& ground_B = ground_B_[index(x, row)];
-    if (!ground_B) {
-      begin = -1;
-      continue;
-    }
-    const float across_m = static_cast<float>(side) * ground_B->y();
-    if (redness_[index(x, row)] < threshold_) {
-      begin = -1;
-      continue;
-    }
-    if (begin < 0) {
-      begin = x;
-      begin_m = across_m;
-    }
-    if (across_m - begin_m < kSoilRun_m) continue;
-    add(*ground_B_[index(begin, row)], params_.strip_half_width_m);
-    return;
-  }
+/// A strip with its flanks, from its middle on, in steps.
+int RowMarks::reach_of_strip() const {
+  return steps((1.0 + kFlank) * params_.strip_half_width_m);
 }
 
-void RowMarks::find_strips(const Picture& colours) {
-  rate_colours(colours);
-  for (int y = 0; y < height_; ++y) {
-    // Columns to the left and to the right of the vehicle's own axis.
-    int middle = -1;
-    for (int x = 0; x < width_ && middle < 0; ++x) {
-      if (ground_B_[index(x, y)] && ground_B_[index(x, y)]->y() < 0.0f) middle = x;
+std::optional<std::size_t> RowMarks::pixel_at(const Vector2d& ground_B) const {
+  const Vector3d ray_B(ground_B.x() - X_BS_.p.x(), ground_B.y() - X_BS_.p.y(),
+                       -height_m_ - X_BS_.p.z());
+  const Vector3d ray_S = X_BS_.q.conjugate() * ray_B;
+  if (ray_S.x() <= 0.0) return std::nullopt;
+  const auto pixel = lens_.project({-ray_S.y(), -ray_S.z(), ray_S.x()});
+  if (!pixel) return std::nullopt;
+  const double u = std::round(pixel->x()), v = std::round(pixel->y());
+  if (!(u >= 0.0 && u < width_ && v >= 0.0 && v < height_)) return std::nullopt;
+  const std::size_t at = index(static_cast<int>(u), static_cast<int>(v));
+  if (!ground_B_[at]) return std::nullopt;
+  return at;
+}
+
+/// The part in view of a line across a row.
+void RowMarks::take_profile(const Picture& colours, const Vector2d& row_B,
+                            const Vector2d& across_B) {
+  const int reach = steps(kSearch_m) + reach_of_strip();
+  Profile profile{row_B, across_B, -reach, colours_.size(), 0};
+  for (int i = -reach; i <= reach; ++i) {
+    const auto pixel = pixel_at(row_B + i * kStep_m * across_B);
+    if (pixel) {
+      colours_.push_back(soil_colour(&colours.data[3 * *pixel]));
+    } else if (colours_.size() > profile.begin) {
+      break;
+    } else {
+      profile.first = i + 1;
     }
-    if (middle < 0) continue;
-    look_along(y, middle - 1, -1, 1);
-    look_along(y, middle, 1, -1);
   }
+  profile.count = static_cast<int>(colours_.size() - profile.begin);
+  if (profile.count > 0) profiles_.push_back(profile);
+}
+
+void RowMarks::find_strip(const Profile& profile, const SoilClasses& classes) {
+  const int half = steps(params_.strip_half_width_m);
+  const int flank = reach_of_strip() - half, search = steps(kSearch_m);
+  sums_.assign(1, 0.0f);
+  for (int i = 0; i < profile.count; ++i) {
+    const float colour = colours_[profile.begin + static_cast<std::size_t>(i)];
+    sums_.push_back(sums_.back() + classes.share(colour));
+  }
+  const auto soil_between = [&](int from, int to) {
+    return sums_[static_cast<std::size_t>(to - profile.first)] -
+           sums_[static_cast<std::size_t>(from - profile.first)];
+  };
+  const auto contrast = [&](int middle) {
+    const int left = middle - half, right = middle + half + 1;
+    const float flanks = soil_between(left - flank, left) + soil_between(right, right + flank);
+    return soil_between(left, right) / static_cast<float>(right - left) -
+           flanks / static_cast<float>(2 * flank);
+  };
+  const int last = profile.first + profile.count - 1;
+  const int from = std::max(-search, profile.first + half + flank);
+  const int to = std::min(search, last - half - flank);
+  int best = from;
+  float most = kContrast;
+  for (int middle = from; middle <= to; ++middle) {
+    const float here = contrast(middle);
+    if (here > most) {
+      most = here;
+      best = middle;
+    }
+  }
+  // At an end, the strip may lie beyond it.
+  if (best <= from || best >= to) return;
+  // A strip of another width has no peak, but a plateau: its middle.
+  double sum = 0.0, count = 0.0;
+  for (int middle = from; middle <= to; ++middle) {
+    if (contrast(middle) < most - kPlateau) continue;
+    sum += middle;
+    count += 1.0;
+  }
+  add(profile.row_B + sum / count * kStep_m * profile.across_B);
 }
 
 }  // namespace vinerow::controllers

@@ -4,31 +4,33 @@
 /// labels   picture of labels: the feet of trunks and posts. In each column, from below, the first
 ///          pixel of wood or of a post whose lower neighbour is ground stands on the row's line.
 ///          The labels may come from a net (net_labels.h), which makes errors of single pixels.
-/// colours  picture in colours: the border of the bare strip under the plants. In each row of
-///          pixels, from the middle outwards, soil begins `strip_half_width_m` before the row's
-///          line where the colour turns from green to brown. Brown is what has more red against
-///          green than a threshold that splits the ground's pixels best (Otsu 1979), so that it
-///          follows the light. It needs grass in the alleys and bare soil under the plants.
+/// colours  picture in colours: the middle of the bare strip under the plants. Across each row of
+///          the map, near where it is expected, profiles of the ground's share of soil
+///          (soil_colour.h) are taken from the picture every 25 cm. The strip is where soil within
+///          2 `strip_half_width_m` exceeds that of its flanks most. Both borders must be in view:
+///          what widens or narrows a strip on both sides, as a wrong width does, cancels. It needs
+///          grass in the alleys and bare soil under the plants.
 ///
 /// Pixels become points by the ray through them and the ground under the wheels, a plane parallel
 /// to the body. On bent ground and when the body nods, points are off along the line of sight: by
 /// d^2 / h times the angle, for a point at the distance d from a camera at the height h.
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "controllers/estimation/row_camera/soil_colour.h"
+#include "engine/api/lens.h"
 #include "engine/api/messages/camera.h"
 #include "engine/api/parameter_table_fwd.h"
+#include "engine/math/polyline_index.h"
 #include "engine/math/pose.h"
 
 namespace vinerow::controllers {
 
 struct RowMark {
-  Eigen::Vector2d p_B = Eigen::Vector2d::Zero();  ///< m, on the ground
-  double before_row_m = 0.0;  ///< distance from the row's line, towards the alley
+  Eigen::Vector2d p_B = Eigen::Vector2d::Zero();          ///< m, on the ground, on a row's line
   Eigen::Vector2d range_std_B = Eigen::Vector2d::Zero();  ///< 1 sigma along the line of sight, m
 };
 
@@ -53,35 +55,49 @@ class RowMarks {
   void set_camera(const CameraInfo& info);
   bool has_camera() const { return !ground_B_.empty(); }
 
-  /// What find() needs: pictures of labels or in colours.
+  /// What the source needs: pictures of labels or in colours.
   Picture::Format format() const {
     return params_.source == RowMarksParams::Source::kLabels ? Picture::Format::kMono8
                                                              : Picture::Format::kRgb8;
   }
 
-  /// Marks of a picture of that camera. Valid until the next call; empty if the picture has another
-  /// size or format.
-  const std::vector<RowMark>& find(const Picture& picture);
+  /// Marks of a picture of that camera, by the source. Valid until the next call; empty if the
+  /// picture has another size or format.
+  const std::vector<RowMark>& find_feet(const Picture& labels);
+  /// @param expected  x, y, heading of the vehicle when the picture was taken
+  const std::vector<RowMark>& find_strips(const Picture& colours, const Eigen::Vector3d& expected,
+                                          const PolylineIndex& rows);
 
  private:
   using Point = Eigen::Vector2f;
+  /// Colours across a row at equal steps, from the step `first` on.
+  struct Profile {
+    Eigen::Vector2d row_B, across_B;
+    int first;
+    std::size_t begin;  ///< in colours_
+    int count;
+  };
   std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
            static_cast<std::size_t>(x);
   }
-  void find_feet(const Picture& labels);
-  void find_strips(const Picture& colours);
-  void look_along(int row, int first, int step, int side);
-  void rate_colours(const Picture& colours);
-  void add(const Point& ground_B, double before_row_m);
+  bool fits(const Picture& picture) const;
+  int reach_of_strip() const;
+  std::optional<std::size_t> pixel_at(const Eigen::Vector2d& ground_B) const;
+  void take_profile(const Picture& colours, const Eigen::Vector2d& row_B,
+                    const Eigen::Vector2d& across_B);
+  void find_strip(const Profile& profile, const SoilClasses& classes);
+  void add(const Eigen::Vector2d& ground_B);
 
   RowMarksParams params_;
   Pose X_BS_;
   double height_m_;
+  Lens lens_{CameraInfo{}};
   int width_ = 0, height_ = 0;
   std::vector<std::optional<Point>> ground_B_;  ///< of each pixel, within the range
-  std::vector<float> redness_;                  ///< of each pixel that shows ground
-  float threshold_ = 0.0f;
+  std::vector<Profile> profiles_;
+  std::vector<float> colours_;  ///< of all profiles
+  std::vector<float> sums_;     ///< of soil, along a profile
   std::vector<RowMark> marks_;
 };
 

@@ -105,7 +105,7 @@ ALLOWED = {
     "tools/pictures": ["engine", "worlds", "controllers"],
     "tools/replay": ["engine", "tools/export"],
     "tools/report": ["engine", MODEL, "tools/parts", "tools/export", "tools/pictures", "tools/replay"],
-    "tools/study/plots": [CORE, MATH, "tools/export", "tools/pictures", "tools/report"],
+    "tools/study/plots": [CORE, MATH, "engine/io/files", "tools/pictures", "tools/report"],
     "tools/study": ["engine", "tools/parts", "tools/report", "tools/study/plots"],
     "tools/photos": ["engine"],
     "tools/dataset": ["engine", "tools/export", "tools/study"],

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "tools/export/utf8.h"
+#include "engine/io/files/utf8.h"
 
 namespace vinerow::tools {
 namespace {
@@ -25,7 +25,7 @@ std::vector<CloudField> read_fields(record::CdrReader& in) {
   for (std::size_t i = 0; i < count && in.ok(); ++i) {
     CloudField field;
     in.read(field.name);
-    field.name = valid_utf8(field.name);
+    field.name = io::valid_utf8(field.name);
     field.offset = in.read<std::uint32_t>();
     const auto kind = kind_of(in.read<std::uint8_t>());
     const bool is_one_number = in.read<std::uint32_t>() == 1;

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "tools/export/utf8.h"
+#include "engine/io/files/utf8.h"
 
 namespace vinerow::tools {
 
@@ -175,7 +175,7 @@ void MessageTable::decode_named_values(CdrReader& in) {
   std::vector<std::string> names(in.read_count(min_bytes(RosKind::kText)));
   for (std::string& name : names) {
     in.read(name);
-    name = valid_utf8(name);
+    name = io::valid_utf8(name);
   }
   const std::size_t count = in.read_count(min_bytes(RosKind::kFloat64));
   for (std::size_t i = 0; i < count && in.ok(); ++i) {
@@ -243,7 +243,7 @@ void MessageTable::take(CdrReader& in, std::size_t place, int row, std::uint32_t
   leaves_.push_back({place, row, count, text ? texts_.size() : numbers_.size()});
   for (std::uint32_t i = 0; i < count && in.ok(); ++i) {
     if (text) {
-      texts_.push_back(valid_utf8(in.read_text()));
+      texts_.push_back(io::valid_utf8(in.read_text()));
     } else {
       take_number(in, kind, numbers_);
     }

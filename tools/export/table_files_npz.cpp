@@ -3,10 +3,10 @@
 #include <cstring>
 #include <limits>
 
+#include "engine/io/files/utf8.h"
 #include "engine/record/crc32.h"
 #include "tools/export/table_cells.h"
 #include "tools/export/table_files.h"
-#include "tools/export/utf8.h"
 
 // Sources: NEP 1, "A Simple File Format for NumPy Arrays", version 1.0; PKWARE,
 // "APPNOTE.TXT", 6.3.10, sections 4.3.7, 4.3.12, 4.3.16.
@@ -157,7 +157,7 @@ std::string text_array(const MessageTable& table, const TableCells& cells, std::
   const TableColumn& column = table.columns()[c];
   std::size_t longest = 1;
   for (const std::string& text : column.texts) {
-    longest = std::max(longest, code_points_of(text).size());
+    longest = std::max(longest, io::code_points_of(text).size());
   }
   const std::size_t width = column.width();
   zip.check(static_cast<std::uint64_t>(table.rows().size()) * width * longest * sizeof(char32_t));
@@ -165,7 +165,7 @@ std::string text_array(const MessageTable& table, const TableCells& cells, std::
   for (const std::size_t row : cells.order()) {
     for (std::size_t i = 0; i < width; ++i) {
       std::u32string points;
-      if (i < column.counts[row]) points = code_points_of(cells.text(c, row, i));
+      if (i < column.counts[row]) points = io::code_points_of(cells.text(c, row, i));
       points.resize(longest);
       for (const char32_t point : points) append_little(data, static_cast<std::uint32_t>(point));
     }

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "tools/export/utf8.h"
+#include "engine/io/files/utf8.h"
 
 namespace vinerow::tools {
 namespace {
@@ -23,7 +23,7 @@ std::string without_noncharacters(std::string text) {
 std::string escaped(const std::string& text) {
   std::string out;
   out.reserve(text.size());
-  for (const char c : without_noncharacters(valid_utf8(text))) {
+  for (const char c : without_noncharacters(io::valid_utf8(text))) {
     switch (c) {
       case '&':
         out += "&amp;";

@@ -3,12 +3,14 @@
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/parser.h>
 
+#include <algorithm>
 #include <fstream>
 #include <map>
 #include <sstream>
 #include <system_error>
 
 #include "engine/core/error.h"
+#include "engine/io/files/utf8.h"
 #include "engine/io/files/yaml.h"
 
 namespace vinerow::io {
@@ -28,6 +30,9 @@ class TreeBuilder : public YAML::EventHandler {
 
   /// Start line of the innermost open list or mapping; 0 if no list or mapping is open.
   int open_line() const { return open_.empty() ? 0 : open_.back().node.mark.line; }
+
+  /// Line of the last value or key that was read.
+  int last_line() const { return last_line_; }
 
   void OnDocumentStart(const YAML::Mark&) override {}
   void OnDocumentEnd() override {}
@@ -85,6 +90,7 @@ class TreeBuilder : public YAML::EventHandler {
     node.kind = kind;
     node.mark = mark_of(mark);
     node.folder = folder_;
+    last_line_ = node.mark.line;
     count(mark);
     return node;
   }
@@ -146,10 +152,19 @@ class TreeBuilder : public YAML::EventHandler {
   std::map<YAML::anchor_t, YamlNode> anchors_;
   YamlNode root_;
   int node_count_ = 0;
+  int last_line_ = 1;
 };
 
 /// Checks for faults that the YAML parser accepts or describes badly.
 void check_characters(const std::string& text, const std::string& file_name) {
+  const std::string valid = valid_utf8(text);
+  const auto wrong = std::mismatch(text.begin(), text.end(), valid.begin(), valid.end()).first;
+  if (wrong != text.end()) {
+    const auto line = 1 + static_cast<int>(std::count(text.begin(), wrong, '\n'));
+    fail_at({file_name, line}, fmt::format("holds the byte 0x{:02x}, which is not UTF-8; save the "
+                                           "file in this encoding",
+                                           static_cast<unsigned char>(*wrong)));
+  }
   int line = 1;
   bool in_indentation = true;
   bool indented_by_tab = false;
@@ -181,7 +196,6 @@ std::string explain_yaml_fault(const YAML::Exception& fault, int open_line) {
   if (open_line > 0 && fault.msg == YAML::ErrorMsg::END_OF_MAP_FLOW) return not_closed("{", "}");
   if (open_line > 0 && fault.msg == YAML::ErrorMsg::END_OF_SEQ_FLOW) return not_closed("[", "]");
   if (fault.msg == YAML::ErrorMsg::FLOW_END) return "a '}' or ']' without its opening bracket";
-  if (fault.msg == YAML::ErrorMsg::EOF_IN_SCALAR) return "a quotation mark is not closed";
   if (fault.msg == YAML::ErrorMsg::MAP_VALUE) {
     return "a ':' is not allowed here: is a text with ': ' not in quotes?";
   }
@@ -196,7 +210,8 @@ std::string explain_yaml_fault(const YAML::Exception& fault, int open_line) {
 YamlNode parse_yaml(const std::string& text, const std::string& file_name,
                     const std::filesystem::path& folder) {
   check_characters(text, file_name);
-  std::istringstream stream(text);
+  // The end mark makes the parser refuse a quotation mark that no other closes.
+  std::istringstream stream(text + "\n...\n");
   TreeBuilder builder(file_name, folder);
   try {
     YAML::Parser parser(stream);
@@ -209,6 +224,10 @@ YamlNode parse_yaml(const std::string& text, const std::string& file_name,
     }
     return root;
   } catch (const YAML::Exception& fault) {
+    if (fault.msg == YAML::ErrorMsg::DOC_IN_SCALAR) {
+      fail_at({file_name, builder.last_line()},
+              "is not valid YAML: a quotation mark from here on is not closed");
+    }
     const int line = fault.mark.is_null() ? 0 : fault.mark.line + 1;
     fail_at({file_name, line},
             fmt::format("is not valid YAML: {}", explain_yaml_fault(fault, builder.open_line())));

@@ -368,6 +368,13 @@ TEST(ScenarioFault, SyntaxErrorsNameTheLine) {
             "in quotes?");
   EXPECT_EQ(fault_of(std::string("vinerow: 1\nname: a\x01z\n")),
             "scenario:2: holds the control character 0x01; a scenario is plain text");
+  const std::string not_closed = "is not valid YAML: a quotation mark from here on is not closed";
+  EXPECT_EQ(fault_of(with_line(6, "    type: \"test_vehicle")), "scenario:6: " + not_closed);
+  EXPECT_EQ(fault_of("vinerow: 1\ndescription: 'hello"), "scenario:2: " + not_closed);
+  EXPECT_EQ(fault_of("vinerow: 1\ndescription: 'hello\n"), "scenario:2: " + not_closed);
+  EXPECT_EQ(fault_of("vinerow: 1\ndescription: '"), "scenario:2: " + not_closed);
+  EXPECT_EQ(fault_of("vinerow: 1\n# Pf\xe4hle\n"),  // Latin-1
+            "scenario:2: holds the byte 0xe4, which is not UTF-8; save the file in this encoding");
   EXPECT_EQ(fault_of("vinerow: 1\n---\nvinerow: 1\n"),
             "scenario:3: starts a second document ('---'); a file holds one");
   EXPECT_EQ(fault_of(with_line(7, "    <<: {wheel_radius_m: 0.2}")),

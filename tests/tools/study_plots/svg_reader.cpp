@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "tools/export/utf8.h"
+#include "engine/io/files/utf8.h"
 #include "tools/study/plots/text_fit.h"
 
 namespace vinerow::study::testing {
@@ -186,7 +186,7 @@ std::vector<Element> Document::named(const std::string& name) const {
 
 Document read_xml(const std::string& text) {
   Document document;
-  if (tools::valid_utf8(text) != text) {
+  if (io::valid_utf8(text) != text) {
     document.fault = "no UTF-8";
     return document;
   }

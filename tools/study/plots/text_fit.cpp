@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "tools/export/utf8.h"
+#include "engine/io/files/utf8.h"
 
 namespace vinerow::study {
 namespace {
@@ -43,11 +43,11 @@ void append_utf8(char32_t letter, std::string& out) {
 }  // namespace
 
 double widest_px(const std::string& text, double size_px) {
-  return width_of(tools::code_points_of(text), size_px);
+  return width_of(io::code_points_of(text), size_px);
 }
 
 std::string shortened(const std::string& text, double width_px, double size_px) {
-  const std::u32string letters = tools::code_points_of(text);
+  const std::u32string letters = io::code_points_of(text);
   if (width_of(letters, size_px) <= width_px) return text;
   std::string out;
   double used = letter_width(U'…') * size_px;

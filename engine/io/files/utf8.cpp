@@ -1,9 +1,9 @@
-#include "tools/export/utf8.h"
+#include "engine/io/files/utf8.h"
 
 #include <algorithm>
 #include <cstdint>
 
-namespace vinerow::tools {
+namespace vinerow::io {
 namespace {
 
 constexpr char32_t kReplacement = 0xFFFD;
@@ -50,4 +50,4 @@ std::string valid_utf8(std::string_view text) {
   return valid;
 }
 
-}  // namespace vinerow::tools
+}  // namespace vinerow::io

@@ -70,6 +70,9 @@ class Message(dict[str, Any]):
         except KeyError:
             raise AttributeError(f"{self.type} has no field '{field}'; it has {', '.join(self)}") from None
 
+    def __reduce__(self) -> Any:
+        return Message, (self.type,), None, None, iter(self.items())  # pickle and copy set no type otherwise
+
     def to_pandas(self) -> Any:
         """Messages of a log as a pandas.DataFrame; see Log.frame()."""
         pandas = optional.package("pandas", "to_pandas()")

@@ -4,11 +4,13 @@
     session_test.py VINEROW PLUGIN      (PYTHONPATH has the built package)
 """
 
+import copy
 import gc
 import json
 import math
 import os
 import pathlib
+import pickle
 import signal
 import subprocess
 import sys
@@ -164,6 +166,14 @@ class Values(unittest.TestCase):
             self.assertIn("did you mean 'TURN'", str(refusal({"kind": "TURNS"})))
             self.assertIn("has no field 'yw'; did you mean 'yaw'", str(refusal({"yw": 0.0})))
             self.assertIn(".alley must be an int, not float", str(refusal({"alley": 0.5})))
+
+    def test_a_value_is_pickled_and_copied_as_one_for_another_process(self):
+        with free_rover() as session:
+            session.step(0)
+            value = session.signal("rover/truth").value
+        for again in (pickle.loads(pickle.dumps(value)), copy.copy(value), copy.deepcopy(value)):
+            self.assertEqual(repr(again), repr(value))
+            self.assertEqual((again.type, again.pose.position.tobytes()), ("Odometry", value.pose.position.tobytes()))
 
     def test_events_crashes_and_phases(self):
         with vinerow.open(SCENARIOS / "cooperative_small.yaml", {"duration_s": 10}) as session:

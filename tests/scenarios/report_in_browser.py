@@ -84,6 +84,11 @@ TRIAL = """<script>(function () {
     dialog.querySelector('img').click();
     told.closes = !dialog.open;
   }
+  told.broken = [...document.querySelectorAll('table.facts td:first-child')].map((cell) => {
+    const words = document.createRange();
+    words.selectNodeContents(cell);
+    return /^\\w{1,10}$/.test(cell.textContent) && words.getClientRects().length > 1 ? cell.textContent : '';
+  }).filter((word) => word);
   const slider = document.querySelector('.vr-slider');
   if (slider) told.slider = slider.clientWidth;
   console.log('TRIAL ' + JSON.stringify(told) + ' END');
@@ -142,7 +147,32 @@ def telephone_faults(browser: str, page: pathlib.Path, folder: pathlib.Path) -> 
             faults.append(f"{page.name}: the replay's slider is {told['slider']} px long in a window of {width}")
         elif told["width"] > width:
             faults.append(f"{page.name} is {told['width']} px wide in a window of {width}: {told['beyond']}")
+        elif told["beyond"] or told["broken"]:
+            faults.append(f"{page} in a window of {width}: beyond it {told['beyond']}, broken words {told['broken']}")
     return faults
+
+
+LONG_NAMES = """
+vinerow: 1
+duration_s: 1
+world: {type: orchard}
+vehicles:
+  a_very_long_name_of_the_only_rover_of_a_careful_farmer_in_burgundy:
+    type: diff_drive_rover
+    spawn: {alley: 0, offset_m: 2}
+    planner: {type: coverage}
+    controller: {type: path_follower, rate_Hz: 40}
+criteria:
+  - {metric: a_very_long_name_of_the_only_rover_of_a_careful_farmer_in_burgundy.distance_m, min: 100}
+"""
+
+
+def long_names_page(vinerow: str, folder: pathlib.Path) -> pathlib.Path:
+    """Report of a failed run whose names are wider than a telephone."""
+    scenario = folder / "long_names.yaml"
+    scenario.write_text(LONG_NAMES, encoding="utf-8")
+    subprocess.run([vinerow, "run", scenario, "--quiet", "--no-pictures", "--out", folder / "long_names"])
+    return folder / "long_names" / "report.html"
 
 
 def event_faults(run: pathlib.Path, document: str) -> list[str]:
@@ -195,6 +225,7 @@ def main() -> int:
             faults.append("the first screen shows no verdict")
     try:
         faults += telephone_faults(browser, run / "report.html", folder)
+        faults += telephone_faults(browser, long_names_page(vinerow, folder), folder)
         if subprocess.run([vinerow, "replay", run]).returncode == 0:
             faults += telephone_faults(browser, run / "replay.html", folder)
         told = try_page(browser, run / "report.html", folder, WIDTH)

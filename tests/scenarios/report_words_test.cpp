@@ -250,6 +250,7 @@ TEST(ReportVerdict, SaysInASentenceWhatFailed) {
       {"metric": "rover.slip_max", "kind": "max", "value": null, "limit": 1, "met": false},
       {"metric": "rover.contact_count", "kind": "max", "value": 0, "limit": 0, "met": true}]})"));
   EXPECT_EQ(failed.kind, Verdict::Kind::kFailed);
+  EXPECT_THAT(criteria_table(folder_of(both)), Not(HasSubstr("..")));  // definitions are sentences
   EXPECT_EQ(failed.headline, "Failed: 4 of 5 requirements missed");
   EXPECT_EQ(failed.sentence,
             "Rover: max lateral error on legs is 0.13 m, at most 0.1 m is "
@@ -263,6 +264,10 @@ TEST(ReportVerdict, SaysInASentenceWhatFailed) {
   const Verdict broken = make_verdict(
       folder_of(R"({"exit_status": 3, "error": "rover.controller wrote NaN", "criteria": []})"));
   EXPECT_EQ(broken.kind, Verdict::Kind::kBrokenOff);
+  EXPECT_EQ(broken.sentence, "Rover.controller wrote NaN.");
+  const Verdict timed = make_verdict(folder_of(
+      R"({"exit_status": 3, "error": "t = 20.050000 s: rover.controller: wrote NaN", "criteria": []})"));
+  EXPECT_EQ(timed.sentence, "At t = 20.050000 s: rover.controller: wrote NaN.");
   const Verdict open = make_verdict(folder_of(R"({"exit_status": 0, "criteria": []})"));
   EXPECT_EQ(open.kind, Verdict::Kind::kOpen);
 }

@@ -84,7 +84,8 @@ std::string key_numbers(const RunFolder& run, const std::vector<VehicleLog>& veh
   std::string names;
   for (const std::string& name : run.vehicles) names += (names.empty() ? "" : ", ") + name;
   out += card(std::to_string(run.vehicles.size()),
-              (run.vehicles.size() == 1 ? "vehicle: " : "vehicles: ") + escaped(names));
+              (run.vehicles.size() == 1 ? "vehicle" : "vehicles") +
+                  (names.empty() ? "" : ": " + escaped(names)));
   const double distance_m = sum_of(run, "distance_m");
   if (std::isfinite(distance_m)) {
     out += card(distance_m < 995.0 ? fmt::format("{:.0f} m", distance_m)

@@ -61,13 +61,13 @@ nav a:hover { color: var(--ink); text-decoration: underline; }
 section { scroll-margin-top: 44px; }
 h1 { font-size: 30px; line-height: 1.2; margin: 0; overflow-wrap: anywhere; }
 h2 { font-size: 23px; margin: 52px 0 14px; padding-top: 10px; border-top: 1px solid var(--line); }
-h3 { font-size: 19px; margin: 34px 0 10px; }
+h3 { font-size: 19px; margin: 34px 0 10px; overflow-wrap: anywhere; }
 h4 { font-size: 16px; margin: 0 0 2px; }
 p.lead { margin: 2px 0 12px; color: var(--soft); font-size: 17px; max-width: 62em; }
 code { font: 13px "DejaVu Sans Mono", Menlo, Consolas, monospace; color: var(--soft); overflow-wrap: anywhere; }
 .verdict { display: flex; gap: 16px; align-items: center; border-radius: 8px; padding: 8px 20px; margin: 0 0 12px; border: 1px solid; }
 .verdict strong { font-size: 23px; line-height: 1.25; display: block; }
-.verdict p { margin: 0; color: var(--ink); }
+.verdict div { min-width: 0; overflow-wrap: anywhere; } .verdict p { margin: 0; color: var(--ink); }
 .verdict p.remark { color: var(--soft); font-size: 14px; }
 .verdict .mark { font-size: 40px; line-height: 1; font-weight: 700; }
 .verdict.met { background: var(--good-soft); border-color: var(--good); color: var(--good); }
@@ -76,14 +76,14 @@ code { font: 13px "DejaVu Sans Mono", Menlo, Consolas, monospace; color: var(--s
 .cards { display: grid; grid-template-columns: repeat(auto-fit, minmax(140px, 1fr)); gap: 10px; margin: 0 0 12px; }
 .card { background: var(--card); border: 1px solid var(--line); border-radius: 8px; padding: 9px 14px; min-width: 0; overflow: hidden; }
 .card b { font-size: 21px; line-height: 1.25; display: block; white-space: nowrap; }
-.card > span { font-size: 13.5px; color: var(--soft); display: block; line-height: 1.3; }
+.card > span { font-size: 13.5px; color: var(--soft); display: block; line-height: 1.3; overflow-wrap: anywhere; }
 .hero { display: grid; grid-template-columns: 1fr; gap: 14px; margin: 0 0 8px; }
 @media (min-width: 860px) { .hero.both { grid-template-columns: 1.15fr 1fr; } }
 figure { margin: 0; }
 .hero figure { background: var(--card); border: 1px solid var(--line); border-radius: 8px; overflow: hidden; }
 .hero img { width: 100%; height: auto; display: block; }
 .hero figcaption { padding: 5px 12px 7px; margin: 0; } .hero .legend { margin: 0; }
-figcaption { font-size: 13.5px; color: var(--soft); margin-top: 4px; line-height: 1.4; }
+figcaption { font-size: 13.5px; color: var(--soft); margin-top: 4px; line-height: 1.4; overflow-wrap: anywhere; }
 .figures { display: grid; margin: 0 0 20px; grid-template-columns: repeat(auto-fit, minmax(min(100%, 470px), 1fr)); gap: 26px 26px; }
 .wide { grid-column: 1 / -1; }
 figure.plot, figure.picture { background: var(--card); border: 1px solid var(--line); border-radius: 8px; padding: 12px 14px; position: relative; }
@@ -137,7 +137,7 @@ td.none { color: var(--soft); }
 .badge { display: inline-block; padding: 0 9px; border-radius: 10px; font-size: 13px; font-weight: 600; background: var(--grid); color: var(--soft); white-space: nowrap; }
 .badge.met { background: var(--good-soft); color: var(--good); } .badge.failed { background: var(--bad-soft); color: var(--bad); }
 .badge.stopped { background: var(--warn-soft); color: var(--warn); }
-details { margin: 0 0 12px; } summary { cursor: pointer; padding: 4px 0; }
+details { margin: 0 0 12px; } summary { cursor: pointer; padding: 4px 0; overflow-wrap: anywhere; }
 figure.map { margin: 0 0 20px; }
 pre { background: var(--card); border: 1px solid var(--line); border-radius: 8px; padding: 14px 16px; overflow-x: auto; font: 12.5px/1.45 "DejaVu Sans Mono", Menlo, Consolas, monospace; max-height: 70vh; }
 .readout { position: absolute; pointer-events: none; background: var(--card); color: var(--ink); border: 1px solid var(--line); border-radius: 6px; padding: 4px 9px; font-size: 12.5px; line-height: 1.4; box-shadow: 0 2px 8px #0003; display: none; white-space: nowrap; z-index: 3; }
@@ -175,7 +175,7 @@ ul.sources { padding-left: 0; list-style: none; } ul.sources li { margin: 0 0 8p
   main { padding: 12px 12px 48px; } nav div { padding: 7px 12px; }
   h1 { font-size: 25px; } p.lead { font-size: 16px; }
   .verdict { padding: 8px 12px; gap: 10px; } .verdict strong { font-size: 20px; } .verdict .mark { font-size: 30px; }
-  .cards { grid-template-columns: repeat(auto-fit, minmax(150px, 1fr)); } .card { padding: 7px 10px; } .card b { font-size: 18px; }
+  .cards { grid-template-columns: repeat(auto-fit, minmax(150px, 1fr)); } .card { padding: 7px 10px; } .card b { font-size: 18px; white-space: normal; }
   figure.plot { padding: 10px 8px; } figure.picture, .hero figure, figure.plot, .figures { min-width: 0; }
   .gallery { grid-template-columns: 1fr 1fr; gap: 10px; } .gallery figcaption { font-size: 12.5px; }
   svg.plot, svg.map, svg.canopy { overflow: visible; } figure.plot { overflow-x: clip; }
@@ -185,7 +185,7 @@ ul.sources { padding-left: 0; list-style: none; } ul.sources li { margin: 0 0 8p
   .wide-chart svg { width: 720px; }
   .legend { overflow-wrap: anywhere; } .legend span { white-space: normal; }
   table { font-size: 13.5px; } th, td { padding: 5px 7px; }
-  table.facts td:first-child, table.facts.setup td:first-child { width: 64px; } table.facts td { overflow-wrap: anywhere; }
+  table.facts td:first-child, table.facts.setup td:first-child { width: 96px; } table.facts td { overflow-wrap: anywhere; }
   table.criteria thead { display: none; }
   table.criteria tr { display: flex; flex-wrap: wrap; align-items: baseline; border-bottom: 1px solid var(--line); padding: 4px 0; }
   table.criteria td { border: 0; padding: 1px 7px; text-align: left; } table.criteria td:nth-child(1) { order: 2; }
@@ -193,7 +193,7 @@ ul.sources { padding-left: 0; list-style: none; } ul.sources li { margin: 0 0 8p
   table.criteria td:nth-child(3) { order: 3; } table.criteria td:nth-child(4) { order: 4; } table.criteria td:nth-child(5) { order: 5; }
   table.criteria td:nth-child(5) { color: var(--soft); } table.criteria td:nth-child(4):empty { display: none; }
   table.events thead { display: none; } table.events tr { display: block; border-bottom: 1px solid var(--line); padding: 4px 0; }
-  table.events td { display: inline-block; border: 0; padding: 1px 7px; } table.events td.words { display: block; }
+  table.events td { display: inline-block; border: 0; padding: 1px 7px; } table.events td.words { display: block; } table.events code { white-space: normal; }
   table.events td.num::after { content: " s"; }
   dialog.picture { flex-direction: column; } dialog.picture figure { width: 100%; } dialog.picture .before, dialog.picture .after { position: absolute; bottom: 0; }
   dialog.picture .before { left: 0; } dialog.picture .after { right: 0; }

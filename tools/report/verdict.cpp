@@ -164,8 +164,9 @@ Verdict make_verdict(const RunFolder& run) {
   const bool broke_off = run.number("exit_status") == 3.0;
   const bool failed = run.number("exit_status") == 1.0 || missed > 0;
   if (broke_off) {
+    const std::string error = run.text("error");  // begins with the time: "t = 20.050000 s: ..."
     verdict = {Verdict::Kind::kBrokenOff, "The simulation broke off",
-               sentence_case(run.text("error")) + ".", ""};
+               (error.starts_with("t = ") ? "At " + error : sentence_case(error)) + ".", ""};
   } else if (failed) {
     verdict.kind = Verdict::Kind::kFailed;
     const std::string phases = failed_phases(run);
@@ -223,8 +224,7 @@ std::string criteria_table(const RunFolder& run) {
                          : "<span class=\"badge failed\">failed</span>",
          fmt::format("<td class=\"what\"><details><summary>{}</summary><p>{}{} "
                      "<code>{}</code></p></details></td>",
-                     title, escaped(meaning.definition.empty() ? "" : meaning.definition + "."),
-                     with_citations(source), escaped(metric)),
+                     title, escaped(meaning.definition), with_citations(source), escaped(metric)),
          number_cell(number_of(c.value("value", Json()))), escaped(unit),
          fmt::format("<td class=\"num\">{}</td>", limit_text(judged))});
   }

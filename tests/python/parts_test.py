@@ -166,6 +166,24 @@ class Runs(unittest.TestCase):
                     session.step(1e6)
                     self.assertIn(session.digest, text)
 
+    def test_later_commands_load_the_plug_ins_of_the_run(self):
+        with tempfile.TemporaryDirectory() as folder:
+            plugin, scenario, run = (pathlib.Path(folder) / name for name in ("until.py", "parts.yaml", "run"))
+            plugin.write_text((HERE / "good_parts.py").read_text())
+            tree = rover(plugin, controller={"type": "until", "must_mps": 0.5})
+            for given in ([], ["--plugin", plugin]):
+                scenario.write_text(json.dumps({**tree, "plugins": []} if given else tree))
+                done = command("run", scenario, *given, "--quiet", "--no-pictures", "--no-report", "--out", run)
+                self.assertIn(done.returncode, (0, 1), done.stderr)
+                summary = json.loads((run / "summary.json").read_text())
+                repeated = command("run", run / "scenario.resolved.yaml", "--quiet", "--no-pictures", "--out", run / "again")
+                self.assertIn(f"digest   {summary['digest']}\n", repeated.stdout, repeated.stderr)
+                for words in (["report", run, "--plugin", plugin], ["replay", run], ["replay", run / "log.mcap"], ["replay", run, "--plugin", plugin],
+                              ["video", run, "-o", run / "a.mp4", "--to", 0.1], ["render", run, "--time", 1]):
+                    self.assertNotIn("unknown controller", command(*words).stderr)
+            plugin.unlink()
+            self.assertIn("until.py': no such file", command("replay", run).stderr)
+
     def test_list_and_schema_have_the_parameters(self):
         done = command("list", "until", "--plugin", HERE / "good_parts.py")
         self.assertEqual(done.returncode, 0, done.stderr)

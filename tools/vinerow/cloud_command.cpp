@@ -108,7 +108,7 @@ void make_cloud(const CloudArguments& arguments) {
   Registry registry;
   scenario::Scenario scenario;
   if (arguments.scenario.file.empty()) {
-    registry = make_registry(arguments.scenario.plugins);
+    registry = registry_of_run(log, arguments.scenario.plugins);
     scenario = playback::scenario_of_log(log, registry, arguments.scenario.overrides);
   } else {
     scenario = load(arguments.scenario, registry);

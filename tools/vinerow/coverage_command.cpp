@@ -42,7 +42,9 @@ void add_coverage_command(CLI::App& app, int& exit_status) {
       "parcel to use instead of the scenario's: x y of each corner in m, east and north of "
       "the origin");
   command->add_option("--cell", arguments->cell_m, "size of the cells, m")->check(positive());
-  command->add_option("--plugin", arguments->plugins, "load a plug-in whose parts the run used")
+  command
+      ->add_option("--plugin", arguments->plugins,
+                   "load a plug-in in addition to those the run names")
       ->allow_extra_args(false);
   command->callback([arguments, &exit_status] {
     const std::filesystem::path log = log_of(arguments->run);
@@ -51,7 +53,7 @@ void add_coverage_command(CLI::App& app, int& exit_status) {
     if (arguments->cell_m > 0.0) choice.cell_m = arguments->cell_m;
     const std::filesystem::path out =
         arguments->out.empty() ? log.parent_path() / "coverage.png" : arguments->out;
-    const Registry registry = make_registry(arguments->plugins);
+    const Registry registry = registry_of_run(arguments->run, arguments->plugins);
     const auto files = write_coverage(log, registry, choice, out);
     if (files.empty()) {
       throw ConfigError(fmt::format(

@@ -66,7 +66,9 @@ void add_picture_arguments(CLI::App& command, PictureArguments& arguments) {
       ->check(CLI::Range(16, 8192));
   command.add_option("--height", arguments.height, "height of the frames, pixels")
       ->check(CLI::Range(16, 8192));
-  command.add_option("--plugin", arguments.plugins, "load a plug-in whose parts the run used")
+  command
+      .add_option("--plugin", arguments.plugins,
+                  "load a plug-in in addition to those the run names")
       ->allow_extra_args(false);
 }
 

@@ -31,7 +31,7 @@ void add_render_command(CLI::App& app, int& exit_status) {
   command->add_flag("--digest", arguments->digest,
                     "print the MD5 sum of each frame's pixels before its name");
   command->callback([arguments, &exit_status] {
-    const Registry registry = make_registry(arguments->pictures.plugins);
+    const Registry registry = registry_of_run(arguments->pictures.log, arguments->pictures.plugins);
     playback::PictureOptions options = picture_options(arguments->pictures);
     if (!arguments->times_s.empty()) options.times_s = arguments->times_s;
     if (arguments->every_s > 0.0) options.every_s = arguments->every_s;

@@ -20,11 +20,13 @@ void add_replay_command(CLI::App& app, int& exit_status) {
   command->add_option("run", arguments->run, "folder of a run, or its log.mcap")->required();
   command->add_option("--out", arguments->out,
                       "page to write (default: replay.html next to the log)");
-  command->add_option("--plugin", arguments->plugins, "load a plug-in whose parts the run used")
+  command
+      ->add_option("--plugin", arguments->plugins,
+                   "load a plug-in in addition to those the run names")
       ->allow_extra_args(false);
   command->callback([arguments, &exit_status] {
     if (!has_replay()) throw ConfigError("no replay: " + replay_absence());
-    const Registry registry = make_registry(arguments->plugins);
+    const Registry registry = registry_of_run(arguments->run, arguments->plugins);
     const ReplayRun run = read_replay_run(arguments->run, registry);
     const std::string page = replay_page(run.input());
     const std::filesystem::path folder = std::filesystem::is_directory(arguments->run)

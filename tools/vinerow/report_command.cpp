@@ -4,7 +4,6 @@
 #include "engine/core/files.h"
 #include "engine/core/whole_file.h"
 #include "engine/io/files/output_folder.h"
-#include "engine/sim/plugin_loader.h"
 #include "tools/report/plot_files.h"
 #include "tools/report/report.h"
 #include "tools/vinerow/subcommands.h"
@@ -43,11 +42,7 @@ void add_report_command(CLI::App& app, int& exit_status) {
     if (!std::filesystem::is_directory(arguments->run)) {
       throw ConfigError(fmt::format("{}: is not a folder", arguments->run.string()));
     }
-    Registry registry = make_registry(arguments->plugins);
-    const std::filesystem::path scenario = arguments->run / "scenario.resolved.yaml";
-    if (std::filesystem::is_regular_file(scenario)) {
-      for (const auto& plugin : scenario::load_plugin_list(scenario)) load_plugin(plugin, registry);
-    }
+    const Registry registry = registry_of_run(arguments->run, arguments->plugins);
     const std::filesystem::path out =
         arguments->out.empty() ? arguments->run / "report.html" : arguments->out;
     write_report(arguments->run, registry, out);

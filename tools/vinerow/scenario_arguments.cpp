@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <limits>
 
 #include "engine/core/error.h"
+#include "engine/io/files/yaml.h"
 #include "engine/sim/plugin_loader.h"
 #include "tools/parts/register_all.h"
 #include "tools/vinerow/subcommands.h"
@@ -21,6 +23,14 @@ std::uint64_t read_seed(const std::string& text) {
         fmt::format("--seed = '{}', must be a whole number from 0 to {}", text, kLargest));
   }
   return static_cast<std::uint64_t>(seed);
+}
+
+/// Whether a plug-in is one of those given by --plugin, which are loaded already.
+bool is_among(const std::vector<std::filesystem::path>& given,
+              const std::filesystem::path& plugin) {
+  return std::any_of(given.begin(), given.end(), [&](const std::filesystem::path& other) {
+    return std::filesystem::equivalent(other, plugin);
+  });
 }
 
 }  // namespace
@@ -52,12 +62,33 @@ Registry make_registry(const std::vector<std::filesystem::path>& plugins) {
   return registry;
 }
 
+Registry registry_of_run(const std::filesystem::path& run_or_log,
+                         const std::vector<std::filesystem::path>& plugins) {
+  Registry registry = make_registry(plugins);
+  const std::filesystem::path scenario =
+      log_of(run_or_log).parent_path() / "scenario.resolved.yaml";
+  if (!std::filesystem::is_regular_file(scenario)) return registry;
+  for (const auto& plugin : scenario::load_plugin_list(scenario)) {
+    if (!is_among(plugins, plugin)) load_plugin(plugin, registry);
+  }
+  return registry;
+}
+
 scenario::Scenario load(const ScenarioArguments& arguments, Registry& registry) {
   registry = make_registry(arguments.plugins);
-  for (const auto& plugin : scenario::load_plugin_list(arguments.file, arguments.overrides))
+  scenario::Overrides overrides = arguments.overrides;
+  io::YamlNode plugins = io::yaml_list();
+  for (const auto& plugin : scenario::load_plugin_list(arguments.file, overrides)) {
+    if (is_among(arguments.plugins, plugin)) continue;
     load_plugin(plugin, registry);
-  scenario::Scenario scenario =
-      scenario::load_scenario(arguments.file, registry, arguments.overrides);
+    plugins.items.push_back(io::yaml_text(plugin.string()));
+  }
+  for (const auto& plugin : arguments.plugins) {
+    plugins.items.push_back(io::yaml_text(std::filesystem::absolute(plugin).string()));
+  }
+  // The resolved scenario names those of --plugin too, so it gives the same run without them.
+  if (!arguments.plugins.empty()) overrides.sets.push_back("plugins=" + io::to_yaml(plugins));
+  scenario::Scenario scenario = scenario::load_scenario(arguments.file, registry, overrides);
   for (const std::string& warning : scenario.warnings) {
     fmt::print(stderr, "vinerow: warning: {}\n", warning);
   }

@@ -68,6 +68,9 @@ std::filesystem::path log_of(const std::filesystem::path& run_or_log);
 
 /// Registry with the built-in parts and the parts of the plug-ins.
 Registry make_registry(const std::vector<std::filesystem::path>& plugins);
+/// The same for a run's folder or log, and the plug-ins that its resolved scenario names.
+Registry registry_of_run(const std::filesystem::path& run_or_log,
+                         const std::vector<std::filesystem::path>& plugins);
 /// Loads plug-ins, then the scenario against them. @throws ConfigError
 scenario::Scenario load(const ScenarioArguments& arguments, Registry& registry);
 

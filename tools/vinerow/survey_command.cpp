@@ -162,7 +162,7 @@ int take_pictures(const SurveyArguments& arguments, const PictureSet& pictures,
 /// Pictures of a survey that was flown. @returns exit status
 int take_flown_pictures(const SurveyArguments& arguments) {
   const std::filesystem::path log = log_of(arguments.log);
-  Registry registry = make_registry(arguments.scenario.plugins);
+  const Registry registry = registry_of_run(log, arguments.scenario.plugins);
   const scenario::Scenario scenario =
       playback::scenario_of_log(log, registry, arguments.scenario.overrides);
   const PictureSet pictures = pictures_of_log(log, registry, arguments.vehicle, arguments.sensor);

@@ -29,7 +29,7 @@ struct VideoArguments {
 
 /// @returns the exit status
 int make_video(const VideoArguments& arguments) {
-  const Registry registry = make_registry(arguments.pictures.plugins);
+  const Registry registry = registry_of_run(arguments.pictures.log, arguments.pictures.plugins);
   const std::filesystem::path log = log_of(arguments.pictures.log);
   playback::PictureOptions options = picture_options(arguments.pictures);
   if (options.cameras.size() > 1) {

@@ -365,6 +365,11 @@ class Misuse(unittest.TestCase):
                             lambda: VectorEnv(1, autoreset_mode="sometimes"))
         self.assert_refused(vinerow.ConfigError, f"seed = -1, must be a whole number from 0 to {2**64 - 1}",
                             lambda: Env().reset(seed=-1))
+        for env in (Env(), VectorEnv(1)):
+            self.assert_refused(vinerow.ConfigError,
+                                "reset() has no option 'speed_mps'; options of the task are arguments of the environment",
+                                lambda env=env: env.reset(options={"speed_mps": 1.0}))
+            env.reset(seed=1, options={})
         self.assert_refused(vinerow.ConfigError, "seed has 1 entries, must have 2, one for each environment",
                             lambda: VectorEnv(2).reset(seed=[1]))
 

@@ -34,6 +34,12 @@ def _seed(value: Any) -> int | None:
     return int(value)
 
 
+def _check_reset(options: Mapping[str, Any] | None, known: tuple[str, ...] = ()) -> None:
+    for name in options or {}:
+        if name not in known:
+            raise ConfigError(f"reset() has no option '{name}'; options of the task are arguments of the environment", key=str(name))
+
+
 def _open(task: str, count: int, threads: int, autoreset: str, *, scenario: str | os.PathLike[str] | None, vehicle: str | None,
           overrides: Mapping[str, Any] | None, sets: Iterable[str], factors: Mapping[str, Any] | None,
           options: Mapping[str, Any] | None, control_rate_Hz: float) -> _core.Environments:
@@ -98,6 +104,7 @@ class Env(gymnasium.Env[Array, Array]):
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Array, dict[str, Any]]:
         seed = _seed(seed)
+        _check_reset(options)
         super().reset(seed=seed)
         self._environments.reset([seed], [])
         observations, _, _, _ = self._environments.results()
@@ -171,6 +178,7 @@ class VectorEnv(gymnasium.vector.VectorEnv[Array, Array, Array]):
 
     def reset(self, *, seed: int | Sequence[int | None] | None = None,
               options: dict[str, Any] | None = None) -> tuple[Array, dict[str, Any]]:
+        _check_reset(options, ("reset_mask",))
         if seed is None or isinstance(seed, (int, numpy.integer)):
             first = _seed(seed)
             seeds = [None if first is None else _seed(first + i) for i in range(self.num_envs)]

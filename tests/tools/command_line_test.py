@@ -86,6 +86,13 @@ class Help(unittest.TestCase):
                                 ([], "A subcommand is required; see 'vinerow --help'")):
             self.assertEqual(vinerow(*words, status=2), f"vinerow: {sentence}\n")
 
+    def test_what_a_world_refuses_has_its_place(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "a.yaml"
+            file.write_text("vinerow: 1\nworld:\n  type: vineyard\n  obstacles:\n    - {name: box, x_m: 3}\nvehicles: {}\n")
+            done = subprocess.run([VINEROW, "validate", file], capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stderr), (2, f"vinerow: {file}:5: world.obstacles: 'box' has x_m without y_m\n"))
+
     def test_examples_use_options_and_files_that_exist(self):
         for command in commands():
             examples = re.search(r"Examples:\n((?:  .*\n)+)", vinerow(command, "--help")).group(1)

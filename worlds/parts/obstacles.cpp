@@ -180,7 +180,7 @@ std::vector<std::vector<Vector2d>> place_obstacles(const ObstaclesParams& params
     VINEROW_DEMAND(world.terrain.has_value());
     const ObstacleParams& obstacle = params.list[i];
     const std::string name = obstacle.name.empty() ? fmt::format("{}", i) : obstacle.name;
-    const std::string who = fmt::format("obstacle '{}'", name);
+    const std::string who = fmt::format("obstacles: '{}'", name);
     if (!names.insert(name).second) throw ConfigError(who + " is in the list twice");
 
     const Place place = place_of(obstacle, who, world.rows);

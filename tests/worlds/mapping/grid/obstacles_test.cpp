@@ -158,7 +158,7 @@ TEST(Obstacles, AMeshHasItsOwnSize) {
   figure.set("file", write_figure().string()).set("size_m", std::vector<double>{1, 1, 1});
   parameters.set("obstacles", std::vector<ParameterSet>{figure});
   EXPECT_EQ(test::config_error_of([&] { test::make_world("vineyard", parameters); }),
-            "obstacle 'picker' has both size_m and file: a mesh has its own size");
+            "obstacles: 'picker' has both size_m and file: a mesh has its own size");
 }
 
 TEST(Obstacles, AreOnTheMapOnlyIfMapped) {
@@ -176,17 +176,17 @@ TEST(Obstacles, WrongOnesAreNamed) {
         [&] { test::make_world("vineyard", with_obstacles(block(), wanted)); });
   };
   EXPECT_EQ(error({{"box", {{"alley", 2}}}}),
-            "obstacle 'box' is in alley 2, the world has 2 alleys (0 to 1)");
+            "obstacles: 'box' is in alley 2, the world has 2 alleys (0 to 1)");
   EXPECT_EQ(error({{"", {}}}),
-            "obstacle '0' has no position, must be given x_m and y_m, or alley and distance_m");
+            "obstacles: '0' has no position, must be given x_m and y_m, or alley and distance_m");
   EXPECT_EQ(error({{"box", {{"alley", 1}, {"x_m", 3}}}}),
-            "obstacle 'box' has both x_m, y_m and alley, must be given x_m and y_m, or alley and "
+            "obstacles: 'box' has both x_m, y_m and alley, must be given x_m and y_m, or alley and "
             "distance_m");
-  EXPECT_EQ(error({{"box", {{"x_m", 3}}}}), "obstacle 'box' has x_m without y_m");
+  EXPECT_EQ(error({{"box", {{"x_m", 3}}}}), "obstacles: 'box' has x_m without y_m");
   EXPECT_EQ(error({{"box", {{"alley", 0}}}, {"box", {{"alley", 1}}}}),
-            "obstacle 'box' is in the list twice");
+            "obstacles: 'box' is in the list twice");
   EXPECT_EQ(error({{"box", {{"x_m", 900}, {"y_m", 3}}}}),
-            "obstacle 'box' is at (900.00, 3.00) m, outside the terrain");
+            "obstacles: 'box' is at (900.00, 3.00) m, outside the terrain");
   EXPECT_EQ(error({{"box", {{"alley", 0}}, {0.6, 0.4, -1.0}}}),
             "size_m[2] = -1 m, must be >= 0.02 m and <= 100 m");
   EXPECT_EQ(error({{"box", {{"alley", 0}}, {0.6, 0.4}}}), "size_m has 2 entries, must have 3");

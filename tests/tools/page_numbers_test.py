@@ -55,6 +55,11 @@ class Pages(unittest.TestCase):
             self.assertEqual(faults_of(text), [], page.name)
         self.assertGreater(marks, 20)
 
+    def test_pages_count_the_shipped_scenarios(self):
+        count = len(list((ROOT / "assets" / "scenarios").glob("*.yaml")))
+        for page in ("README.md", "docs/tutorial/1_first_run.md"):
+            self.assertEqual(re.findall(r"(\d+) (?:shipped )?scenarios", (ROOT / page).read_text()), [str(count)], page)
+
 
 class Judge(unittest.TestCase):
     TIME = GOLDEN["vineyard_quadrotor_parcel"]["simulated_s"]

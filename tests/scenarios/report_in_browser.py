@@ -84,10 +84,11 @@ TRIAL = """<script>(function () {
     dialog.querySelector('img').click();
     told.closes = !dialog.open;
   }
-  told.broken = [...document.querySelectorAll('table.facts td:first-child')].map((cell) => {
+  told.broken = [...document.querySelectorAll('td, th, summary')].map((cell) => {
     const words = document.createRange();
     words.selectNodeContents(cell);
-    return /^\\w{1,10}$/.test(cell.textContent) && words.getClientRects().length > 1 ? cell.textContent : '';
+    const lines = cell.children.length ? 1 : words.getClientRects().length;
+    return /^\\w{1,10}$/.test(cell.textContent) && lines > 1 ? cell.textContent : '';
   }).filter((word) => word);
   const slider = document.querySelector('.vr-slider');
   if (slider) told.slider = slider.clientWidth;

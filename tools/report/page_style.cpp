@@ -75,7 +75,7 @@ code { font: 13px "DejaVu Sans Mono", Menlo, Consolas, monospace; color: var(--s
 .verdict.open { background: var(--card); border-color: var(--line); color: var(--soft); }
 .cards { display: grid; grid-template-columns: repeat(auto-fit, minmax(140px, 1fr)); gap: 10px; margin: 0 0 12px; }
 .card { background: var(--card); border: 1px solid var(--line); border-radius: 8px; padding: 9px 14px; min-width: 0; overflow: hidden; }
-.card b { font-size: 21px; line-height: 1.25; display: block; white-space: nowrap; }
+.card b { font-size: 21px; line-height: 1.25; display: block; }
 .card > span { font-size: 13.5px; color: var(--soft); display: block; line-height: 1.3; overflow-wrap: anywhere; }
 .hero { display: grid; grid-template-columns: 1fr; gap: 14px; margin: 0 0 8px; }
 @media (min-width: 860px) { .hero.both { grid-template-columns: 1.15fr 1fr; } }
@@ -137,7 +137,7 @@ td.none { color: var(--soft); }
 .badge { display: inline-block; padding: 0 9px; border-radius: 10px; font-size: 13px; font-weight: 600; background: var(--grid); color: var(--soft); white-space: nowrap; }
 .badge.met { background: var(--good-soft); color: var(--good); } .badge.failed { background: var(--bad-soft); color: var(--bad); }
 .badge.stopped { background: var(--warn-soft); color: var(--warn); }
-details { margin: 0 0 12px; } summary { cursor: pointer; padding: 4px 0; overflow-wrap: anywhere; }
+details { margin: 0 0 12px; } summary { cursor: pointer; padding: 4px 0; overflow-wrap: anywhere; } td:not(.what) summary { overflow-wrap: normal; }
 figure.map { margin: 0 0 20px; }
 pre { background: var(--card); border: 1px solid var(--line); border-radius: 8px; padding: 14px 16px; overflow-x: auto; font: 12.5px/1.45 "DejaVu Sans Mono", Menlo, Consolas, monospace; max-height: 70vh; }
 .readout { position: absolute; pointer-events: none; background: var(--card); color: var(--ink); border: 1px solid var(--line); border-radius: 6px; padding: 4px 9px; font-size: 12.5px; line-height: 1.4; box-shadow: 0 2px 8px #0003; display: none; white-space: nowrap; z-index: 3; }
@@ -175,7 +175,7 @@ ul.sources { padding-left: 0; list-style: none; } ul.sources li { margin: 0 0 8p
   main { padding: 12px 12px 48px; } nav div { padding: 7px 12px; }
   h1 { font-size: 25px; } p.lead { font-size: 16px; }
   .verdict { padding: 8px 12px; gap: 10px; } .verdict strong { font-size: 20px; } .verdict .mark { font-size: 30px; }
-  .cards { grid-template-columns: repeat(auto-fit, minmax(150px, 1fr)); } .card { padding: 7px 10px; } .card b { font-size: 18px; white-space: normal; }
+  .cards { grid-template-columns: repeat(auto-fit, minmax(150px, 1fr)); } .card { padding: 7px 10px; } .card b { font-size: 18px; }
   figure.plot { padding: 10px 8px; } figure.picture, .hero figure, figure.plot, .figures { min-width: 0; }
   .gallery { grid-template-columns: 1fr 1fr; gap: 10px; } .gallery figcaption { font-size: 12.5px; }
   svg.plot, svg.map, svg.canopy { overflow: visible; } figure.plot { overflow-x: clip; }

@@ -113,16 +113,31 @@ void check_key_paths(const Study& study) {
   }
 }
 
+/// Readers of the tables take columns by name, so each name is there once.
 void check_columns(const Study& study) {
   std::map<std::string, std::string> seen;
+  for (const char* own : {"cell", "setting", "seed", "state", "reason", "digest", "finished", "met",
+                          "failed", "met_share", "met_share_low", "met_share_high"}) {
+    seen.emplace(own, "every table");
+  }
+  const auto take = [&](const std::string& column, const std::string& who,
+                        const io::SourceMark& where) {
+    const auto [place, is_new] = seen.emplace(column, who);
+    if (is_new) return;
+    io::fail_at(where, fmt::format("{} and {} both give a column '{}'; rename {}", place->second,
+                                   who, column, who));
+  };
   for (const Factor& factor : study.factors) {
     for (const std::string& column : factor.columns) {
-      const auto [place, is_new] = seen.emplace(column, factor.name);
-      if (is_new) continue;
-      io::fail_at(factor.where, fmt::format("factors {} and {} both give a column '{}'; rename one "
-                                            "of them",
-                                            place->second, factor.name, column));
+      take(column, "factors." + factor.name, factor.where);
     }
+  }
+  for (const DerivedColumn& column : study.derived) {
+    take(column.name, "derived." + column.name, column.where);
+  }
+  for (const std::string& metric : study.metrics) {
+    if (std::count(study.metrics.begin(), study.metrics.end(), metric) == 1) continue;
+    io::fail_at(study.metrics_mark, fmt::format("metrics has '{}' twice", metric));
   }
 }
 

@@ -69,7 +69,9 @@ class Includer {
 
   static void check_root(const io::YamlNode& root, const fs::path& file) {
     if (root.is_null()) {
-      io::fail_at({file.string(), 0}, "the file is empty; a scenario starts with 'vinerow: 1'");
+      io::fail_at({file.string(), 0},
+                  "the file is empty; a scenario starts with 'vinerow: 1', a study with "
+                  "'vinerow_study: 1'");
     }
     if (!root.is_mapping()) {
       io::fail_at(root.mark,

@@ -170,6 +170,21 @@ TEST(StudyFault, OneKeyHasOneFactor) {
             "my_study.yaml:3: factors.a cannot vary seed; list the seeds under 'seeds'");
 }
 
+TEST(StudyFault, AColumnOfTheTablesHasOneMeaning) {
+  const std::string factor = "factors: {gain: {key: x.a, values: [1, 2]}}\n";
+  EXPECT_EQ(fault("factors: {seed: {key: x.a, values: [1]}}"),
+            "my_study.yaml:3: every table and factors.seed both give a column 'seed'; rename "
+            "factors.seed");
+  EXPECT_EQ(fault(factor + "derived: {met: 2 * gain}"),
+            "my_study.yaml:4: every table and derived.met both give a column 'met'; rename "
+            "derived.met");
+  EXPECT_EQ(fault(factor + "derived: {gain: x.y}"),
+            "my_study.yaml:4: factors.gain and derived.gain both give a column 'gain'; rename "
+            "derived.gain");
+  EXPECT_EQ(fault("metrics: [x.y, x.z, x.y]"), "my_study.yaml:3: metrics has 'x.y' twice");
+  EXPECT_EQ(fault(factor + "derived: {twice: 2 * gain}\nmetrics: [x.y, x.z]"), "no error");
+}
+
 TEST(StudyFault, ATrillionCellsAreRefused) {
   EXPECT_EQ(fault("seeds: 1000\nfactors:\n"
                   "  a: {key: x.a, from: 1, to: 1000, count: 1000}\n"

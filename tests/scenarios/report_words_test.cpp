@@ -23,12 +23,14 @@
 #include "tools/report/papers.h"
 #include "tools/report/row_faces.h"
 #include "tools/report/setup.h"
+#include "tools/report/time_line.h"
 #include "tools/report/units.h"
 #include "tools/report/verdict.h"
 
 namespace vinerow::tools::report::report_words_test {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -270,6 +272,26 @@ TEST(ReportVerdict, SaysInASentenceWhatFailed) {
   EXPECT_EQ(timed.sentence, "At t = 20.050000 s: rover.controller: wrote NaN.");
   const Verdict open = make_verdict(folder_of(R"({"exit_status": 0, "criteria": []})"));
   EXPECT_EQ(open.kind, Verdict::Kind::kOpen);
+}
+
+TEST(ReportTimeLine, NamesBesideTheBarsFitThere) {
+  // At the left of a wide chart are 140 px, and letters of 13 px are 8 px wide.
+  const std::vector<TimeBar> bars = {{0.0, 10.0, "work", "drives"}};
+  EXPECT_THAT(time_line({{"rover", "", "", bars}}, 10.0, "who works"), HasSubstr("label end"));
+  const std::string name = "rover_of_a_careful_farmer";
+  EXPECT_THAT(time_line({{name, "", "", bars}}, 10.0, "who works"),
+              AllOf(HasSubstr(name), Not(HasSubstr("label end"))));
+}
+
+TEST(ReportTimeLine, AParkedVehicleDoesNotDrive) {
+  Track parked, driven;
+  parked.t_s = driven.t_s = {0.0, 1.0, 2.0};
+  parked.in_turn = driven.in_turn = {0, 0, 0};
+  parked.speed_mps = {0.0, 1e-6, 0.0};
+  driven.speed_mps = {0.0, 0.5, 0.0};
+  const std::vector<TimeRow> rows = activity_rows(std::vector<VehicleLog>(2), {parked, driven});
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows.front().bars.front().tip, "drives");
 }
 
 TEST(ReportCanopy, WeighsPatchesByTheirArea) {

@@ -18,6 +18,8 @@ constexpr double kLabels = 150, kNote = 120, kRow = 26, kTimes = 42, kTop = 4, k
 /// Width for telephones, and height of a name above its bars, pixels.
 constexpr double kNarrowChart = 360, kNameRow = 20;
 constexpr double kSliver_px = 5.0;
+/// Longer names do not fit beside the bars, and stand above them.
+constexpr std::size_t kLettersBeside = 17;
 
 std::string listed(const Json& names) {
   std::string out;
@@ -120,7 +122,7 @@ std::vector<TimeBar> bars_of(const VehicleLog& vehicle, const Track& track) {
       extend(activity(vehicle.air_reference.values[i].phase), vehicle.air_reference.times[i].s(),
              bars);
     }
-  } else {
+  } else if (track.moves()) {
     for (std::size_t i = 0; i < track.t_s.size(); ++i) {
       extend(track.in_turn[i] ? Activity{"turn", "turns between rows"} : Activity{"work", "drives"},
              track.t_s[i], bars);
@@ -133,14 +135,16 @@ std::vector<TimeBar> bars_of(const VehicleLog& vehicle, const Track& track) {
 std::string draw_time_line(const std::vector<TimeRow>& rows, double end_s, const std::string& label,
                            double width) {
   const bool narrow = width < kWideChart;
-  const double row_height = kRow + (narrow ? kNameRow - 4 : 0.0),
-               name = narrow ? kNameRow - 4 : 0.0;
+  const bool above = narrow || std::any_of(rows.begin(), rows.end(), [](const TimeRow& row) {
+                       return row.label.size() > kLettersBeside;
+                     });
+  const double name = above ? kNameRow - 4 : 0.0, row_height = kRow + name;
   const double bottom = kTop + row_height * static_cast<double>(rows.size());
   Svg svg(width, bottom + kTimes, "time", label);
   const bool has_notes =
       std::any_of(rows.begin(), rows.end(), [](const TimeRow& row) { return !row.note.empty(); });
-  const Axis x({0.0, end_s}, narrow ? kBorder : kLabels,
-               width - (has_notes && !narrow ? kNote : kBorder), narrow ? 5 : 10);
+  const Axis x({0.0, end_s}, above ? kBorder : kLabels,
+               width - (has_notes && !above ? kNote : kBorder), narrow ? 5 : 10);
   for (const double tick : x.ticks()) {
     svg.line(x.px(tick), kTop, x.px(tick), bottom + 4, "grid");
     svg.text(x.px(tick), bottom + 18, x.text(tick), "tick mid");
@@ -149,8 +153,8 @@ std::string draw_time_line(const std::vector<TimeRow>& rows, double end_s, const
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const TimeRow& row = rows[i];
     const double y = kTop + row_height * static_cast<double>(i) + name;
-    svg.text(narrow ? x.from_px() : kLabels - 10, narrow ? y - 1 : y + 17, row.label,
-             narrow ? "label" : "label end");
+    svg.text(above ? x.from_px() : kLabels - 10, above ? y - 1 : y + 17, row.label,
+             above ? "label" : "label end");
     svg.rect(x.from_px(), y + 4, x.to_px() - x.from_px(), kRow - 8, "lane");
     for (const TimeBar& bar : row.bars) {
       const double from = x.px(std::clamp(bar.from_s, 0.0, end_s));
@@ -160,8 +164,8 @@ std::string draw_time_line(const std::vector<TimeRow>& rows, double end_s, const
                "bar " + bar.style, bar.tip);
     }
     if (!has_notes) continue;
-    svg.text(narrow ? x.to_px() : x.to_px() + 10, narrow ? y - 1 : y + 17, row.note,
-             "note " + row.note_style + (narrow ? " end" : ""));
+    svg.text(above ? x.to_px() : x.to_px() + 10, above ? y - 1 : y + 17, row.note,
+             "note " + row.note_style + (above ? " end" : ""));
   }
   return svg.finish();
 }

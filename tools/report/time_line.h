@@ -24,7 +24,7 @@ struct TimeRow {
 };
 
 /// Bars over [0, end_s] as SVG, in two versions: names left of the bars for a wide page, above them
-/// for a narrow one. The page's style shows one of them. "" without rows.
+/// for a narrow one and if a name is long. The page's style shows one of them. "" without rows.
 std::string time_line(const std::vector<TimeRow>& rows, double end_s, const std::string& label);
 
 /// Rows for the phases of summary.json. A phase without simulated time gets a thin bar.

@@ -1,5 +1,6 @@
 #include "tools/report/track.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/api/plan_stretch.h"
@@ -8,8 +9,6 @@
 namespace vinerow::tools::report {
 namespace {
 
-/// A vehicle that stays slower than this to the end of the log has ended its work. Chosen.
-constexpr double kParkedSpeed_mps = 0.02;
 /// Time after the end of the work that is still shown. Chosen.
 constexpr double kShown_s = 2.0;
 
@@ -62,6 +61,11 @@ PlaceValues values_at(PlanStretch& plan, const Odometry& truth, const VehicleLog
 
 double next_to(double angle_rad, double near_rad) {
   return near_rad + wrap_angle(angle_rad - near_rad);
+}
+
+bool Track::moves() const {
+  return std::any_of(speed_mps.begin(), speed_mps.end(),
+                     [](double speed) { return speed > kParkedSpeed_mps; });
 }
 
 Track make_track(const VehicleLog& vehicle) {

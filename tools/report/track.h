@@ -8,6 +8,9 @@
 
 namespace vinerow::tools::report {
 
+/// A vehicle that stays slower than this to the end of the log has ended its work. Chosen.
+constexpr double kParkedSpeed_mps = 0.02;
+
 /// One entry per logged true pose, from the first plan until the vehicle finally stops. NaN where a
 /// value does not apply.
 struct Track {
@@ -24,6 +27,7 @@ struct Track {
   std::string turns_label;  ///< legend text of the turns
 
   bool empty() const { return t_s.empty(); }
+  bool moves() const;
   /// True from its first to its last entry.
   bool contains(double at_s) const { return !empty() && at_s >= t_s.front() && at_s <= t_s.back(); }
   /// Time spans in which the vehicle turns from row to row.

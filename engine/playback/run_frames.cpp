@@ -222,6 +222,7 @@ PictureReport render_log(const std::filesystem::path& log, const std::filesystem
     times.insert(own.begin(), own.end());
     total += static_cast<int>(own.size());
   }
+  if (total == 0 && !cameras.empty()) report.note = "no frame is due within the run";
 
   const auto start = std::chrono::steady_clock::now();
   if (options.progress) options.progress(0, total);

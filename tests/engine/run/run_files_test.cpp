@@ -90,6 +90,15 @@ TEST_F(RunFiles, TheVerdictIsThereBeforeAPictureIsDrawn) {
   EXPECT_EQ(summary()["pictures"].size(), 1u);
 }
 
+TEST_F(RunFiles, PicturesThatAreNeverDueAreReported) {
+  options_.pictures = true;
+  const RunResult result = run({"pictures={times_s: [9]}"});  // the run ends at 0.5 s
+  if (result.picture_note.find("OSMesa") != std::string::npos) GTEST_SKIP() << result.picture_note;
+  EXPECT_EQ(result.status, RunStatus::kAllMet);
+  EXPECT_EQ(result.picture_note, "no frame is due within the run");
+  EXPECT_EQ(summary()["picture_note"], "no frame is due within the run");
+}
+
 TEST_F(RunFiles, AnInterruptWhileDrawingKeepsTheVerdict) {
   options_.pictures = true;
   bool over = false;

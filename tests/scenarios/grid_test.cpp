@@ -83,7 +83,7 @@ TEST(GridCommand, RefusesInOneSentence) {
   expect_refused(start + "world.occupancy_file=none.yaml", "none.yaml");
   expect_refused(start + "world.first_wall=lst", "did you mean 'last'?");
   expect_refused(start + "'world.obstacles=[{name: box, alley: 7}]'",
-                 "obstacle 'box' is in alley 7, the world has 4 alleys (0 to 3)");
+                 "world.obstacles: 'box' is in alley 7, the world has 4 alleys (0 to 3)");
   folder.file("turned.yaml",
               "image: turned.pgm\nresolution: 0.1\norigin: [0, 0, 1.57]\nnegate: 0\n"
               "occupied_thresh: 0.65\nfree_thresh: 0.196\n");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
+#include <system_error>
 
 #include "engine/core/error.h"
 #include "engine/io/files/yaml.h"
@@ -28,8 +29,9 @@ std::uint64_t read_seed(const std::string& text) {
 /// Whether a plug-in is one of those given by --plugin, which are loaded already.
 bool is_among(const std::vector<std::filesystem::path>& given,
               const std::filesystem::path& plugin) {
+  std::error_code absent;  // said by who loads it
   return std::any_of(given.begin(), given.end(), [&](const std::filesystem::path& other) {
-    return std::filesystem::equivalent(other, plugin);
+    return std::filesystem::equivalent(other, plugin, absent);
   });
 }
 

@@ -66,6 +66,9 @@ class GlRenderer final : public Renderer {
   /// Sets the stencil of the visible parts of vehicles to their numbers, from 1, and leaves 0
   /// elsewhere.
   void mark_vehicles(const std::vector<Drawable>& links, const std::vector<int>& vehicle_of_link);
+  /// Draws the four corners that a program makes of gl_VertexID.
+  void draw_everywhere(const Program& program);
+  /// The ground, by the way that fits the pattern.
   void draw_ground(const Frame& frame, const Frustum& frustum, const SamplePattern& pattern,
                    const Eigen::Matrix4d& clip_from_world);
   /// Programs that draw the ground.

@@ -228,16 +228,20 @@ void GlRenderer::draw_objects(const Frame& frame, const Frustum& frustum,
   }
 }
 
+void GlRenderer::draw_everywhere(const Program& program) {
+  gl_.UseProgram(program.id);
+  gl_.Disable(GL_CULL_FACE);
+  gl_.BindVertexArray(empty_array_);
+  gl_.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  ++statistics_.draw_calls;
+}
+
 void GlRenderer::light_foliage() {
   // At the largest depth there is, so that it passes where anything has been drawn. The shader
   // reads the depth buffer against which it is tested, which nothing writes meanwhile.
   gl_.DepthFunc(GL_GREATER);
   gl_.DepthMask(GL_FALSE);
-  gl_.UseProgram(foliage_light_.id);
-  gl_.Disable(GL_CULL_FACE);
-  gl_.BindVertexArray(empty_array_);
-  gl_.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-  ++statistics_.draw_calls;
+  draw_everywhere(foliage_light_);
   gl_.DepthFunc(GL_LEQUAL);
   gl_.DepthMask(GL_TRUE);
 }
@@ -299,12 +303,9 @@ void GlRenderer::draw_ground(const Frame& frame, const Frustum& frustum,
   // Its colours change little from sample to sample and cost most of all: they are computed once a
   // pixel, where its middle shows the ground.
   target_.begin_ground();
+  // Replaces all depths, which are of the last frame.
   gl_.DepthFunc(GL_ALWAYS);
-  gl_.UseProgram(ground_gaps_.id);
-  gl_.Disable(GL_CULL_FACE);
-  gl_.BindVertexArray(empty_array_);
-  gl_.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-  ++statistics_.draw_calls;
+  draw_everywhere(ground_gaps_);
   gl_.DepthFunc(GL_LEQUAL);
   upload_frame_block(frame, pattern.middles(), clip_from_world);
   draw_ground(frame, frustum, programs);

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <stdexcept>
 
 #include "engine/api/map.h"
+#include "engine/api/parameter_table.h"
+#include "engine/api/wind.h"
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "engine/math/polyline.h"
@@ -49,6 +52,14 @@ LeafSum sum_leaves(const WorldModel& world) {
     sum.width_area_m3 += area_m2 * instance.foliage->leaf_width_m;
   }
   return sum;
+}
+
+/// What a scenario may give at most, so that vehicles accept it.
+double most_shelter() {
+  for (const ParameterSpec& spec : wind_table().specs()) {
+    if (spec.name == "shelter") return spec.max;
+  }
+  throw std::logic_error("the wind has no parameter 'shelter'");
 }
 
 }  // namespace
@@ -102,12 +113,10 @@ void settle_shelter(WorldModel& world) {
     rows_m += length_m(row.line_W);
   }
   if (leaves.area_m2 <= 0.0 || rows_m <= 0.0) return;
-  // The most that a world may be given: a denser canopy leaves less than a twelfth of the wind at
-  // half its height anyway.
-  constexpr double kMost = 5.0;
+  // A denser canopy leaves less than a twelfth of the wind at half its height anyway.
   const double attenuation = shelter_attenuation(leaf_area_index(world), top_m / rows_m,
                                                  leaves.width_area_m3 / leaves.area_m2);
-  world.wind.shelter_attenuation = std::min(attenuation, kMost);
+  world.wind.shelter_attenuation = std::min(attenuation, most_shelter());
   world.wind.shelter_by_leaves = false;  // from here on it is given
 }
 

@@ -75,39 +75,41 @@ LogTrace read_trace(const record::LogReader& log, const std::vector<std::string>
   LogTrace trace;
   trace.first = log.info().first;
   trace.last = log.info().last;
+  record::LogPass pass(log);
   for (const record::ChannelInfo& channel : log.info().channels) {
     if (channel.topic != "/run/map") continue;
-    log.read<OccupancyGrid>(channel.topic,
-                            [&](Time, const OccupancyGrid& map) { trace.map = map; });
+    pass.read<OccupancyGrid>(channel.topic,
+                             [&](Time, const OccupancyGrid& map) { trace.map = map; });
   }
   for (const std::string& name : vehicles) {
     VehicleTrace& vehicle = trace.vehicles[name];
     for (const record::ChannelInfo& channel : log.info().channels) {
       const std::string prefix = "/" + name + "/";
-      if (channel.topic == prefix + "truth") read_into(log, channel.topic, vehicle.truth);
-      if (channel.topic == prefix + "links") read_into(log, channel.topic, vehicle.links);
-      if (channel.topic == prefix + "plan") read_into(log, channel.topic, vehicle.plan);
-      if (channel.topic == prefix + "plan_tree") read_into(log, channel.topic, vehicle.plan_tree);
+      if (channel.topic == prefix + "truth") read_into(pass, channel.topic, vehicle.truth);
+      if (channel.topic == prefix + "links") read_into(pass, channel.topic, vehicle.links);
+      if (channel.topic == prefix + "plan") read_into(pass, channel.topic, vehicle.plan);
+      if (channel.topic == prefix + "plan_tree") read_into(pass, channel.topic, vehicle.plan_tree);
       const auto type = channel.metadata.find("vinerow_type");
       if (type == channel.metadata.end() || !channel.topic.starts_with(prefix)) continue;
       const std::string sensor = channel.topic.substr(prefix.size());
       if (is_truth_of_reading(log, channel.topic)) continue;
       if (type->second == Odometry::kType && wishes.estimates && sensor != "truth") {
-        read_into(log, channel.topic, vehicle.estimates[sensor]);
+        read_into(pass, channel.topic, vehicle.estimates[sensor]);
       }
       if (sensor == "map_edges" && wishes.map_edges) {
-        log.read<LineList>(channel.topic,
-                           [&](Time, const LineList& edges) { vehicle.map_edges = edges; });
+        pass.read<LineList>(channel.topic,
+                            [&vehicle](Time, const LineList& edges) { vehicle.map_edges = edges; });
       }
       if (type->second == RangeSample::kType) {
-        read_into(log, channel.topic, vehicle.ranges[sensor]);
+        read_into(pass, channel.topic, vehicle.ranges[sensor]);
       }
       if (type->second == LaserScan::kType && wishes.scans) {
-        read_into(log, channel.topic, vehicle.scans[sensor]);
+        read_into(pass, channel.topic, vehicle.scans[sensor]);
       }
-      if (type->second == CameraShot::kType) read_into(log, channel.topic, vehicle.shots[sensor]);
+      if (type->second == CameraShot::kType) read_into(pass, channel.topic, vehicle.shots[sensor]);
     }
   }
+  pass.run();
   return trace;
 }
 

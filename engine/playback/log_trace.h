@@ -23,18 +23,19 @@ struct Trace {
   std::vector<Time> times;
   std::vector<T> values;
 
+  void add(Time t, const T& value) {
+    times.push_back(t);
+    values.push_back(value);
+  }
   bool empty() const { return times.empty(); }
   /// Index of the last sample at or before t; 0 if t is before the first. @pre !empty()
   std::size_t index_at(Time t) const;
 };
 
-/// Appends the messages of a topic.
+/// Appends the messages of a topic when the pass runs. @param trace  outlives that
 template <class T>
-void read_into(const record::LogReader& log, const std::string& topic, Trace<T>& trace) {
-  log.read<T>(topic, [&](Time t, const T& value) {
-    trace.times.push_back(t);
-    trace.values.push_back(value);
-  });
+void read_into(record::LogPass& pass, const std::string& topic, Trace<T>& trace) {
+  pass.read<T>(topic, [&trace](Time t, const T& value) { trace.add(t, value); });
 }
 
 /// Pose, speed and covariance at t, interpolated between the samples around it (positions linearly,

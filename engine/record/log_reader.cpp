@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <set>
 #include <vector>
@@ -69,7 +70,8 @@ struct LogReader::Impl {
   }
 
   /// Channel from which a message is decoded.
-  const ChannelInfo& channel_of(const std::string& topic, const MessageNames& names) const {
+  const ChannelInfo& channel_of(const std::string& topic,
+                                const LogPass::MessageNames& names) const {
     const ChannelInfo* channel = &get(topic);
     const std::string& type = names.exact_type.empty() ? names.type : names.exact_type;
     if (!names.exact_type.empty() && channel->schema == names.type) {
@@ -86,11 +88,11 @@ struct LogReader::Impl {
   const std::set<std::uint16_t>& channels_out_of_order() {
     if (out_of_order) return *out_of_order;
     out_of_order.emplace();
+    std::map<std::uint16_t, std::uint64_t> latest;
     std::set<std::uint16_t> all;
     for (const ChannelInfo& channel : info.channels) {
       all.insert(static_cast<std::uint16_t>(channel.id));
     }
-    std::map<std::uint16_t, std::uint64_t> latest;
     mcap.for_each_message(all, [&](const McapMessage& message) {
       std::uint64_t& last = latest[message.channel];
       if (message.publish_time < last) out_of_order->insert(message.channel);
@@ -99,31 +101,31 @@ struct LogReader::Impl {
     return *out_of_order;
   }
 
-  /// Calls back for the messages of a channel in the order of their stamps.
-  void for_each_in_order(const ChannelInfo& channel,
-                         const std::function<void(std::uint64_t stamp_ns, std::uint64_t index,
-                                                  std::span<const std::uint8_t>)>& callback) {
-    const auto id = static_cast<std::uint16_t>(channel.id);
-    const bool is_sorted = !channels_out_of_order().contains(id);
-    std::vector<KeptMessage> kept;
-    std::uint64_t index = 0;
-    mcap.for_each_message({id}, [&](const McapMessage& message) {
-      ++index;
-      if (is_sorted) {
-        callback(message.publish_time, index, message.data);
-      } else {
-        kept.push_back({message.publish_time, index, {message.data.begin(), message.data.end()}});
-      }
-    });
-    if (is_sorted) return;
-    if (stated_as_sorted.insert(channel.id).second) {
-      info.warnings.push_back(
-          fmt::format("{}: the messages of topic '{}' are not in the order of their stamps; they "
-                      "were sorted",
-                      name, channel.topic));
-    }
-    std::ranges::stable_sort(kept, {}, &KeptMessage::stamp_ns);
-    for (const KeptMessage& message : kept) callback(message.stamp_ns, message.index, message.data);
+  /// Passes a message of a topic on, or notes that it is not one.
+  void take(const LogPass::Topic& topic, std::uint64_t stamp_ns, std::uint64_t index,
+            std::span<const std::uint8_t> data) {
+    CdrReader in(data);
+    if (stamp_ns <= kLastStamp_ns && topic.take(in, topic.frames, time_of(stamp_ns))) return;
+    if (!undecoded.insert({topic.channel, index}).second) return;
+    const ChannelInfo& channel = channel_of_id(topic.channel);
+    info.warnings.push_back(
+        stamp_ns > kLastStamp_ns
+            ? fmt::format("{}: message {} of topic '{}' has a stamp beyond 2^62 ns and was skipped",
+                          name, index, channel.topic)
+            : fmt::format("{}: message {} of topic '{}' does not hold {} and was skipped", name,
+                          index, channel.topic, channel.schema));
+  }
+
+  void note_sorting(std::uint16_t channel) {
+    if (!stated_as_sorted.insert(channel).second) return;
+    info.warnings.push_back(
+        fmt::format("{}: the messages of topic '{}' are not in the order of their stamps; they "
+                    "were sorted",
+                    name, channel_of_id(channel).topic));
+  }
+
+  const ChannelInfo& channel_of_id(std::uint16_t id) const {
+    return *std::ranges::find(info.channels, static_cast<int>(id), &ChannelInfo::id);
   }
 
   void note_damage() {
@@ -155,26 +157,56 @@ bool LogReader::has_topic(const std::string& topic) const {
   return impl_->find(topic) != nullptr;
 }
 
-void LogReader::read_messages(
-    const std::string& topic, const MessageNames& names,
-    const std::function<bool(CdrReader&, const FrameNames&, Time)>& take) const {
-  const ChannelInfo& channel = impl_->channel_of(topic, names);
+void LogPass::add(const std::string& topic, const MessageNames& names, Take take) {
+  const ChannelInfo& channel = log_.impl_->channel_of(topic, names);
   const auto signal = channel.metadata.find("signal");
-  const FrameNames frames = FrameNames::of_signal(
-      signal != channel.metadata.end() ? signal->second : topic.substr(topic.find('/') + 1));
-  impl_->for_each_in_order(channel, [&](std::uint64_t stamp_ns, std::uint64_t index,
-                                        std::span<const std::uint8_t> data) {
-    CdrReader in(data);
-    if (stamp_ns <= kLastStamp_ns && take(in, frames, time_of(stamp_ns))) return;
-    if (!impl_->undecoded.insert({channel.id, index}).second) return;
-    impl_->info.warnings.push_back(
-        stamp_ns > kLastStamp_ns
-            ? fmt::format("{}: message {} of topic '{}' has a stamp beyond 2^62 ns and was skipped",
-                          impl_->name, index, channel.topic)
-            : fmt::format("{}: message {} of topic '{}' does not hold {} and was skipped",
-                          impl_->name, index, channel.topic, channel.schema));
+  topics_.push_back(
+      {static_cast<std::uint16_t>(channel.id),
+       FrameNames::of_signal(signal != channel.metadata.end() ? signal->second
+                                                              : topic.substr(topic.find('/') + 1)),
+       std::move(take)});
+}
+
+void LogPass::run() {
+  if (topics_.empty()) return;
+  LogReader::Impl& log = *log_.impl_;
+  struct Reading {
+    std::vector<const Topic*> topics;
+    bool is_sorted = true;
+    std::uint64_t index = 0;
+    std::vector<LogReader::Impl::KeptMessage> kept;  ///< if it is not sorted
+  };
+  std::map<std::uint16_t, Reading> readings;
+  std::set<std::uint16_t> channels;
+  for (const Topic& topic : topics_) {
+    channels.insert(topic.channel);
+    Reading& reading = readings[topic.channel];
+    reading.topics.push_back(&topic);
+    reading.is_sorted = !log.channels_out_of_order().contains(topic.channel);
+  }
+  log.mcap.for_each_message(channels, [&](const McapMessage& message) {
+    Reading& reading = readings.at(message.channel);
+    ++reading.index;
+    if (!reading.is_sorted) {
+      reading.kept.push_back(
+          {message.publish_time, reading.index, {message.data.begin(), message.data.end()}});
+      return;
+    }
+    for (const Topic* topic : reading.topics) {
+      log.take(*topic, message.publish_time, reading.index, message.data);
+    }
   });
-  impl_->note_damage();
+  for (auto& [channel, reading] : readings) {
+    if (reading.is_sorted) continue;
+    log.note_sorting(channel);
+    std::ranges::stable_sort(reading.kept, {}, &LogReader::Impl::KeptMessage::stamp_ns);
+    for (const LogReader::Impl::KeptMessage& message : reading.kept) {
+      for (const Topic* topic : reading.topics) {
+        log.take(*topic, message.stamp_ns, message.index, message.data);
+      }
+    }
+  }
+  log.note_damage();
 }
 
 }  // namespace vinerow::record

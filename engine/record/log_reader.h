@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/core/time.h"
@@ -32,8 +33,8 @@ struct LogInfo {
   Time last;
   std::uint64_t messages = 0;
   std::uint64_t bytes = 0;
-  std::vector<ChannelInfo> channels;               ///< by id
-  std::map<std::string, std::string> metadata;     ///< of the "vinerow" record
+  std::vector<ChannelInfo> channels;            ///< by id
+  std::map<std::string, std::string> metadata;  ///< of the "vinerow" record
   /// "digest", "end" ("over" or "broken off") and "end_ns"; empty if the run was killed.
   std::map<std::string, std::string> result;
   std::map<std::string, std::string> attachments;  ///< name -> content
@@ -57,20 +58,41 @@ class LogReader {
   /// Decodes every message of a topic and passes it to the callback, in the order of the stamps;
   /// messages with equal stamps keep the file's order. If a topic has an exact channel, that
   /// channel is read. If the messages are in another order in the file (a merged log, another
-  /// writer), they are sorted in memory, with a warning.
+  /// writer), they are sorted in memory, with a warning. Decompresses the whole log: LogPass reads
+  /// several topics at once.
   /// @tparam T  a message (engine/api/field.h), also one of a plug-in
   /// @throws ConfigError if there is no such topic, or it has another type
   template <class T>
-  void read(const std::string& topic, const std::function<void(Time, const T&)>& callback) const {
+  void read(const std::string& topic, std::function<void(Time, const T&)> callback) const;
+
+ private:
+  friend class LogPass;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Topics that are read together.
+class LogPass {
+ public:
+  /// @param log  outlives this object
+  explicit LogPass(const LogReader& log) : log_(log) {}
+
+  /// run() will read the topic as LogReader::read() does.
+  /// @throws ConfigError  as LogReader::read()
+  template <class T>
+  void read(const std::string& topic, std::function<void(Time, const T&)> callback) {
     using Mapping = RosMapping<T>;
-    T value;
-    read_messages(topic, {T::kType, Mapping::type(), Mapping::exact_type()},
-                  [&](CdrReader& in, const FrameNames& frames, Time stamp) {
-                    if (!Mapping::read(in, frames, value)) return false;
-                    callback(stamp, value);
-                    return true;
-                  });
+    add(topic, {T::kType, Mapping::type(), Mapping::exact_type()},
+        [callback = std::move(callback), value = T()](CdrReader& in, const FrameNames& frames,
+                                                      Time stamp) mutable {
+          if (!Mapping::read(in, frames, value)) return false;
+          callback(stamp, value);
+          return true;
+        });
   }
+
+  /// Calls back for the messages of all topics, each topic's in the order of its stamps.
+  void run();
 
  private:
   /// Names of a message in this project and in the log.
@@ -79,12 +101,25 @@ class LogReader {
     std::string type;
     std::string exact_type;  ///< "": none
   };
-  /// @param take  returns false if the bytes are not such a message
-  void read_messages(const std::string& topic, const MessageNames& names,
-                     const std::function<bool(CdrReader&, const FrameNames&, Time)>& take) const;
+  /// Returns false if the bytes are not such a message.
+  using Take = std::function<bool(CdrReader&, const FrameNames&, Time)>;
+  struct Topic {
+    std::uint16_t channel = 0;
+    FrameNames frames;
+    Take take;
+  };
+  void add(const std::string& topic, const MessageNames& names, Take take);
 
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  friend struct LogReader::Impl;
+  const LogReader& log_;
+  std::vector<Topic> topics_;
 };
+
+template <class T>
+void LogReader::read(const std::string& topic, std::function<void(Time, const T&)> callback) const {
+  LogPass pass(*this);
+  pass.read<T>(topic, std::move(callback));
+  pass.run();
+}
 
 }  // namespace vinerow::record

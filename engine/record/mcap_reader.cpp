@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <limits>
 
 #include "engine/core/error.h"
 #include "engine/record/compression.h"
@@ -331,6 +332,8 @@ void McapReader::for_each_message(const std::set<std::uint16_t>& channels,
                                   const std::function<void(const McapMessage&)>& callback) {
   // A local buffer, since the callback may read another topic.
   ByteBuffer records_of_piece;
+  std::vector<bool> is_wanted(std::numeric_limits<std::uint16_t>::max() + std::size_t{1}, false);
+  for (const std::uint16_t id : channels) is_wanted[id] = true;
   for (const Piece& piece : pieces_) {
     const bool wanted = std::ranges::any_of(
         channels, [&](std::uint16_t id) { return piece.channels.contains(id); });
@@ -344,7 +347,7 @@ void McapReader::for_each_message(const std::set<std::uint16_t>& channels,
     McapMessage message;
     while (read_record(records, record)) {
       if (record.opcode != Opcode::kMessage || !parse_message(record.content, message)) continue;
-      if (channels.contains(message.channel)) callback(message);
+      if (is_wanted[message.channel]) callback(message);
     }
   }
 }

@@ -45,13 +45,15 @@ std::vector<RunEvent> of_file(const std::filesystem::path& file) {
 
 std::vector<RunEvent> of_log(const record::LogReader& log) {
   std::vector<RunEvent> events;
+  record::LogPass pass(log);
   for (const record::ChannelInfo& channel : log.info().channels) {
     const auto type = channel.metadata.find("vinerow_type");
     if (type == channel.metadata.end() || type->second != Event::kType) continue;
-    log.read<Event>(channel.topic, [&](Time t, const Event& event) {
+    pass.read<Event>(channel.topic, [&events](Time t, const Event& event) {
       events.push_back({t.s(), level_name(event.level), event.source, event.text});
     });
   }
+  pass.run();
   std::stable_sort(events.begin(), events.end(),
                    [](const RunEvent& a, const RunEvent& b) { return a.t_s < b.t_s; });
   return events;

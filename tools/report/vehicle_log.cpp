@@ -15,8 +15,8 @@ using playback::read_into;
 constexpr const char* kColumns[] = {"actuators", "wheels", "deviation", "steering",
                                     "wrench",    "rotors", "air"};
 
-void read_columns(const record::LogReader& log, const std::string& topic, Columns& columns) {
-  log.read<NamedValues>(topic, [&](Time t, const NamedValues& value) {
+void read_columns(record::LogPass& pass, const std::string& topic, Columns& columns) {
+  pass.read<NamedValues>(topic, [&columns](Time t, const NamedValues& value) {
     if (columns.names.empty()) {
       columns.names = value.names;
       columns.values.resize(value.names.size());
@@ -29,9 +29,8 @@ void read_columns(const record::LogReader& log, const std::string& topic, Column
   });
 }
 
-void read_reference(const record::LogReader& log, const std::string& topic,
-                    FlightReference& reference) {
-  log.read<ReferenceTrajectory>(topic, [&](Time t, const ReferenceTrajectory& value) {
+void read_reference(record::LogPass& pass, const std::string& topic, FlightReference& reference) {
+  pass.read<ReferenceTrajectory>(topic, [&reference](Time t, const ReferenceTrajectory& value) {
     if (value.points.empty()) return;
     const TrajectoryPoint& now = value.points.front();
     reference.t_s.push_back(t.s());
@@ -61,32 +60,34 @@ bool acts_on_truth(const RunFolder& run, const VehicleLog& vehicle) {
   return true;
 }
 
-void read_signal(const record::LogReader& log, const record::ChannelInfo& channel,
-                 const std::string& signal, VehicleLog& vehicle) {
+/// @param pass  through `log`; fills the vehicle when it runs
+void read_signal(const record::LogReader& log, record::LogPass& pass,
+                 const record::ChannelInfo& channel, const std::string& signal,
+                 VehicleLog& vehicle) {
   const auto found = channel.metadata.find("vinerow_type");
   if (found == channel.metadata.end() || channel.messages == 0) return;
   const std::string& type = found->second;
   if (type == Odometry::kType && signal == "truth") {
-    read_into(log, channel.topic, vehicle.truth);
+    read_into(pass, channel.topic, vehicle.truth);
   } else if (type == Odometry::kType) {
     if (!playback::is_truth_of_reading(log, channel.topic)) {
-      read_into(log, channel.topic, vehicle.estimates[signal]);
+      read_into(pass, channel.topic, vehicle.estimates[signal]);
     }
   } else if (type == PlannedPath::kType && signal == "plan") {
-    read_into(log, channel.topic, vehicle.plan);
+    read_into(pass, channel.topic, vehicle.plan);
   } else if (type == ReferenceTrajectory::kType && signal == "reference") {
-    read_reference(log, channel.topic, vehicle.reference);
+    read_reference(pass, channel.topic, vehicle.reference);
   } else if (type == AirReference::kType && signal == "reference") {
-    read_into(log, channel.topic, vehicle.air_reference);
+    read_into(pass, channel.topic, vehicle.air_reference);
   } else if (type == VelocityCommand::kType && signal == "command") {
-    read_into(log, channel.topic, vehicle.command);
+    read_into(pass, channel.topic, vehicle.command);
   } else if (type == BatteryState::kType) {
-    read_into(log, channel.topic, vehicle.battery);
+    read_into(pass, channel.topic, vehicle.battery);
   } else if (type == MovementAuthority::kType) {
-    read_into(log, channel.topic, vehicle.authority);
+    read_into(pass, channel.topic, vehicle.authority);
   } else if (type == NamedValues::kType &&
              std::find(std::begin(kColumns), std::end(kColumns), signal) != std::end(kColumns)) {
-    read_columns(log, channel.topic, vehicle.columns[signal]);
+    read_columns(pass, channel.topic, vehicle.columns[signal]);
   }
 }
 
@@ -111,6 +112,8 @@ const Columns* VehicleLog::find(const std::string& signal) const {
 std::vector<VehicleLog> read_vehicles(const RunFolder& run) {
   std::vector<VehicleLog> vehicles;
   if (!run.log) return vehicles;
+  vehicles.reserve(run.vehicles.size());  // the pass writes to them
+  record::LogPass pass(*run.log);
   for (const std::string& name : run.vehicles) {
     VehicleLog& vehicle = vehicles.emplace_back();
     vehicle.name = name;
@@ -120,8 +123,11 @@ std::vector<VehicleLog> read_vehicles(const RunFolder& run) {
     const std::string prefix = "/" + name + "/";
     for (const record::ChannelInfo& channel : run.log->info().channels) {
       if (!channel.topic.starts_with(prefix)) continue;
-      read_signal(*run.log, channel, channel.topic.substr(prefix.size()), vehicle);
+      read_signal(*run.log, pass, channel, channel.topic.substr(prefix.size()), vehicle);
     }
+  }
+  pass.run();
+  for (VehicleLog& vehicle : vehicles) {
     if (vehicle.estimates.contains("estimate") && acts_on_truth(run, vehicle)) {
       vehicle.estimates.erase("estimate");
     }

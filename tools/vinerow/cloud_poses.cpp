@@ -64,10 +64,7 @@ std::vector<Eigen::Vector3d> estimated_places(const record::LogReader& log,
         return channel.topic == topic && channel.messages > 0;
       });
   if (!is_logged) return places;
-  log.read<Odometry>(topic, [&](Time t, const Odometry& estimate) {
-    estimates.times.push_back(t);
-    estimates.values.push_back(estimate);
-  });
+  log.read<Odometry>(topic, [&](Time t, const Odometry& pose) { estimates.add(t, pose); });
   for (const Time t : times) {
     const auto next = std::upper_bound(estimates.times.begin(), estimates.times.end(), t);
     if (next == estimates.times.begin()) return {};

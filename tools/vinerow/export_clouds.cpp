@@ -54,7 +54,9 @@ void write_map_cloud(record::McapReader& log, const std::string& topic, const To
     poses_topic = "/" + poses_topic;
   }
   playback::Trace<Odometry> poses;
-  playback::read_into(record::LogReader(arguments.log), poses_topic, poses);
+  record::LogReader(arguments.log).read<Odometry>(poses_topic, [&](Time t, const Odometry& pose) {
+    poses.add(t, pose);
+  });
   if (poses.empty()) {
     throw ConfigError(
         fmt::format("{}: topic '{}' has no poses", arguments.log.string(), poses_topic));

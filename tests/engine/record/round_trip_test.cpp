@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
 
 #include "engine/core/error.h"
 #include "engine/record/log_reader.h"
@@ -163,6 +167,66 @@ TEST(RoundTrip, MessagesInAnotherOrderAreReadInTheOrderOfTheirStamps) {
           ": the messages of topic '/rover/shuffled/exact' are not in the order of their stamps; "
           "they were sorted");
   EXPECT_EQ(log.info().damaged, 0u);
+}
+
+TEST(RoundTrip, TopicsOfAPassAreReadAsEachAlone) {
+  const TemporaryFile file;
+  // By topic the stamps of messages, in the order in which they are logged.
+  const std::map<std::string, std::vector<std::int64_t>> stamps_ns = {
+      {"ascending", {0, 10, 10, 30, 40, 50, 60}},
+      {"shuffled", {30, 10, 70, 20, 70, 0, 60}},
+      {"late", {5, 6, 7, 8, 9, 10, 11}}};
+  SignalBus bus;
+  std::map<std::string, SignalWriter<RangeSample>> writers;
+  for (const auto& [name, stamps] : stamps_ns) {
+    writers.emplace(name, bus.advertise<RangeSample>("rover/" + name, "test"));
+  }
+  {
+    RecorderOptions options;
+    options.chunk_bytes = 200;  // several chunks
+    Recorder recorder(file.path(), options, {});
+    for (const auto& signal : bus.signals()) recorder.channels().add_signal(*signal, Duration{0});
+    for (std::size_t i = 0; i < 7; ++i) {
+      for (auto& [name, writer] : writers) {
+        RangeSample sample;
+        sample.range_m = static_cast<double>(i);
+        writer.write(Time{stamps_ns.at(name)[i]}, sample);
+      }
+      recorder.record(Time{1000 + static_cast<std::int64_t>(i)});
+    }
+    recorder.finish();
+  }
+  const LogReader log(file.path());
+  using Read = std::vector<std::pair<std::int64_t, double>>;
+  std::map<std::string, Read> together, again;
+  LogPass pass(log);
+  for (const auto& [name, stamps] : stamps_ns) {
+    for (std::map<std::string, Read>* reads : {&together, &again}) {  // a topic twice, too
+      Read& read = (*reads)[name];
+      pass.read<RangeSample>("/rover/" + name, [&read](Time t, const RangeSample& sample) {
+        read.emplace_back(t.ns, sample.range_m);
+      });
+    }
+  }
+  EXPECT_TRUE(together["late"].empty()) << "read before the pass runs";
+  pass.run();
+  for (const auto& [name, stamps] : stamps_ns) {
+    Read wanted;
+    for (std::size_t i = 0; i < 7; ++i) wanted.emplace_back(stamps[i], static_cast<double>(i));
+    std::ranges::stable_sort(wanted, {}, &std::pair<std::int64_t, double>::first);
+    EXPECT_EQ(together[name], wanted) << name;
+    EXPECT_EQ(again[name], wanted) << name;
+    Read alone;
+    log.read<RangeSample>("/rover/" + name, [&](Time t, const RangeSample& sample) {
+      alone.emplace_back(t.ns, sample.range_m);
+    });
+    EXPECT_EQ(alone, wanted) << name;
+  }
+  EXPECT_EQ(log.info().warnings.size(), 1u) << "the topic that is not in order is named once";
+  LogPass wrong(log);
+  EXPECT_THROW(wrong.read<RangeSample>("/rover/lat", [](Time, const RangeSample&) {}), ConfigError);
+  EXPECT_THROW(wrong.read<Odometry>("/rover/late", [](Time, const Odometry&) {}), ConfigError);
+  wrong.run();  // of no topic
 }
 
 TEST(RoundTrip, AStampOfNoTimeIsLeftOut) {

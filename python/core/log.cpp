@@ -5,6 +5,9 @@
 #include <pybind11/stl.h>
 
 #include <cstring>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "engine/api/messages.h"
 #include "engine/core/error.h"
@@ -104,17 +107,13 @@ class Columns final : public FieldVisitor {
   std::size_t next_ = 0;
 };
 
-template <class T>
-py::object read_topic(const record::LogReader& log, const std::string& topic) {
+/// A topic whose messages are collected when a pass runs.
+struct Collected {
+  std::string name;  ///< as the caller wrote it
+  const char* type;
   Columns columns;
   std::vector<double> stamps_s;
-  log.read<T>(topic, [&](Time stamp, const T& message) {
-    stamps_s.push_back(stamp.s());
-    visit_fields(message, columns);
-    columns.end_message();
-  });
-  return columns.message(T::kType, stamps_s);
-}
+};
 
 const record::ChannelInfo& channel(const record::LogReader& log, const std::string& name) {
   std::vector<std::string> known;
@@ -129,21 +128,55 @@ const record::ChannelInfo& channel(const record::LogReader& log, const std::stri
                                   did_you_mean(name, known), join(known)));
 }
 
-Typed<"vinerow.messages.Message"> read_any(const PythonLog& log, const TextArgument& topic) {
-  const record::ChannelInfo& info = channel(log.reader, topic.value("topic"));
+/// Makes the pass collect a topic. @throws KeyError, ConfigError
+std::unique_ptr<Collected> collect(const record::LogReader& log, const std::string& name,
+                                   record::LogPass& pass) {
+  const record::ChannelInfo& info = channel(log, name);
   const auto type = info.metadata.find("vinerow_type");
-  py::object message;
+  std::unique_ptr<Collected> topic;
   if (type != info.metadata.end()) {
     for_each_message_type([&]<class T>(T*) {
-      if (type->second == T::kType) message = read_topic<T>(log.reader, info.topic);
+      if (type->second != T::kType) return;
+      topic = std::make_unique<Collected>(Collected{name, T::kType, {}, {}});
+      pass.read<T>(info.topic, [to = topic.get()](Time stamp, const T& message) {
+        to->stamps_s.push_back(stamp.s());
+        visit_fields(message, to->columns);
+        to->columns.end_message();
+      });
     });
   }
-  if (!message) {
+  if (!topic) {
     throw ConfigError(fmt::format(
         "topic '{}' has messages of {}, which are not vinerow's: read them with the package mcap",
         info.topic, info.schema));
   }
-  return message;
+  return topic;
+}
+
+Typed<"vinerow.messages.Message"> read_one(const PythonLog& log, const TextArgument& topic) {
+  record::LogPass pass(log.reader);
+  const auto collected = collect(log.reader, topic.value("topic"), pass);
+  pass.run();
+  return collected->columns.message(collected->type, collected->stamps_s);
+}
+
+Typed<"dict[str, vinerow.messages.Message]"> read_several(
+    const PythonLog& log, const Typed<"collections.abc.Iterable[str]">& topics) {
+  if (py::isinstance<py::str>(topics) || !py::isinstance<py::iterable>(topics)) {
+    throw ConfigError(fmt::format("topics must be a list of names, not {}", type_name_of(topics)));
+  }
+  record::LogPass pass(log.reader);
+  std::vector<std::unique_ptr<Collected>> collected;
+  for (const py::handle& topic : topics) {
+    const TextArgument name{py::reinterpret_borrow<py::object>(topic)};
+    collected.push_back(collect(log.reader, name.value("a topic"), pass));
+  }
+  pass.run();
+  py::dict messages;
+  for (const std::unique_ptr<Collected>& topic : collected) {
+    messages[py::str(topic->name)] = topic->columns.message(topic->type, topic->stamps_s);
+  }
+  return messages;
 }
 
 Typed<"dict[str, tuple[str, int]]"> topics(const PythonLog& log) {
@@ -175,7 +208,9 @@ log["rover/truth"] reads all messages of a signal: a Message with `stamp_s` (n,)
              return std::make_unique<PythonLog>(file.value("file"));
            }),
            py::arg("file"))
-      .def("__getitem__", &read_any, py::arg("topic"))
+      .def("__getitem__", &read_one, py::arg("topic"))
+      .def("read", &read_several, py::arg("topics"),
+           "{topic: Message} of several signals. Reads the file once, not once for each.")
       .def(
           "__contains__",
           [](const PythonLog& log, const py::object& name) { return topics(log).contains(name); },

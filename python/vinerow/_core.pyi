@@ -3,6 +3,7 @@
 C++ part of vinerow.
 """
 from __future__ import annotations
+import collections.abc
 import numpy
 import os
 import typing
@@ -219,6 +220,10 @@ class Log:
         ...
     def __init__(self, file: str | os.PathLike[str]) -> None:
         ...
+    def read(self, topics: collections.abc.Iterable[str]) -> dict[str, vinerow.messages.Message]:
+        """
+        {topic: Message} of several signals. Reads the file once, not once for each.
+        """
     def render_at(self, times_s: list[float], camera: typing.Any, width: int | None, height: int | None) -> list[numpy.ndarray[typing.Any, numpy.dtype[numpy.uint8]]]:
         """
         Pictures (h, w, 3) at increasing times.

@@ -68,6 +68,24 @@ class Logs(unittest.TestCase):
         self.assertEqual(events.text[0], "started 'riseholme_rover'")
         self.assertEqual(events.level[0], "INFO")
 
+    def test_several_signals_are_read_in_one_pass(self):
+        names = ["rover/truth", "run/events", "/rover/plan"]
+        together = self.log.read(names)
+        self.assertEqual(list(together), names)
+        for name in names:
+            alone = self.log[name]
+            self.assertEqual(together[name].type, alone.type)
+            numpy.testing.assert_array_equal(together[name].stamp_s, alone.stamp_s)
+        numpy.testing.assert_array_equal(together["rover/truth"].pose.position, self.log["rover/truth"].pose.position)
+        self.assertEqual(together["run/events"].text, self.log["run/events"].text)
+        self.assertEqual(self.log.read([]), {})
+        for wrong, sentence in (("rover/truth", "topics must be a list of names, not str"), (3, "topics must be a list of names, not int"),
+                                ([7], "a topic must be a str, not int")):
+            with self.assertRaisesRegex(vinerow.ConfigError, f"^{sentence}$"):
+                self.log.read(wrong)
+        with self.assertRaisesRegex(KeyError, "did you mean 'rover/truth'"):
+            self.log.read(["run/events", "rover/truht"])
+
     def test_topics(self):
         topics = self.log.topics()
         self.assertEqual(topics["rover/truth"], ("Odometry", len(self.log["rover/truth"].stamp_s)))

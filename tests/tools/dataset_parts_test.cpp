@@ -181,9 +181,10 @@ class Scene {
     layers_.depth_mm.assign(1200, 0);
   }
 
-  static Pose X_WC() {
-    const Eigen::Matrix3d R = (Eigen::Matrix3d() << 0, 0, 1, -1, 0, 0, 0, -1, 0).finished();
-    return {Eigen::Quaterniond(R), Vector3d(0, 0, 1)};
+  static CameraPath at_rest() {
+    CameraPath camera;
+    camera.motion.X_WS.p = Vector3d(0, 0, 1);
+    return camera;
   }
 
   /// Marks pixels as those of a thing at a depth.
@@ -197,8 +198,9 @@ class Scene {
   }
 
   std::vector<Annotation> annotated(std::vector<std::string> classes, int min_pixels = 1,
-                                    std::vector<VehicleShape> vehicles = {}) {
-    return annotate(layers_, lens_, X_WC(), shapes_, vehicles, classes, min_pixels);
+                                    std::vector<VehicleShape> vehicles = {},
+                                    const CameraPath& camera = at_rest()) {
+    return annotate(layers_, lens_, camera, shapes_, vehicles, classes, min_pixels);
   }
   const Layers& layers() const { return layers_; }
   const Lens& lens() const { return lens_; }
@@ -271,6 +273,70 @@ TEST(Annotate, BoxesEndsAndSharesOfAPost) {
   EXPECT_NEAR(post.box.width_m, 0.0, 1e-6);
 }
 
+// Rows are read from the first to the last in 0.2 s: row v at (v / 29 - 1/2) 0.2 s after the stamp.
+
+TEST(Annotate, PointsAreWhereTheirRowIsExposed) {
+  Scene scene;
+  scene.paint(2, 0, 40, 0, 30, 4000);
+  CameraPath camera = Scene::at_rest();
+  camera.readout_s = 0.2;
+  // To the left, past the post: its place to the side changes with the time, its rows do not.
+  camera.motion.v_W = {0, 3, 0};
+  const auto ends = *scene.annotated({"post"}, 1, {}, camera).at(0).ends;
+  for (const auto& [end, v_px] : {std::pair{0, 19.5}, {1, 9.5}}) {
+    const double later_s = (v_px / 29.0 - 0.5) * 0.2;
+    EXPECT_NEAR(ends[static_cast<std::size_t>(end)].v, v_px, 1e-6);
+    EXPECT_NEAR(ends[static_cast<std::size_t>(end)].u, 14.5 + 5.0 * 3.0 * later_s, 1e-6);
+  }
+  // Up: v = 14.5 + 5 (1 + 2 t - z) with t = (v / 29 - 1/2) 0.2, for the foot z = 0, the head z = 2.
+  camera.motion.v_W = {0, 0, 2};
+  const auto lifted = *scene.annotated({"post"}, 1, {}, camera).at(0).ends;
+  const double of_row = 5.0 * 2.0 * 0.2 / 29.0;
+  EXPECT_NEAR(lifted[0].v, (19.5 - 5.0 * 2.0 * 0.1) / (1.0 - of_row), 1e-5);
+  EXPECT_NEAR(lifted[1].v, (9.5 - 5.0 * 2.0 * 0.1) / (1.0 - of_row), 1e-5);
+  EXPECT_NEAR(lifted[0].u, 14.5, 1e-6);
+  // The box is that of the stamp.
+  EXPECT_LT((scene.annotated({"post"}, 1, {}, camera)[0].box.bottom_C - Vector3d(-1, 1, 4)).norm(),
+            1e-6);
+}
+
+TEST(Annotate, PointsOfATurningCameraAreWhereTheirRowIsExposed) {
+  Scene scene;
+  scene.paint(2, 0, 40, 0, 30, 4000);
+  CameraPath camera = Scene::at_rest();
+  camera.readout_s = 0.2;
+  camera.motion.w_WS_S = {0, 0, 0.8};  // to the left
+  const auto ends = *scene.annotated({"post"}, 1, {}, camera).at(0).ends;
+  // The post is at the azimuth atan(1 / 4); of what the camera sees it loses what has been turned.
+  // Its range along the axis is then sqrt(17) cos(angle), and with it its row.
+  for (const auto& [end, down_m] : {std::pair{0, 1.0}, {1, -1.0}}) {
+    double v_px = 14.5, u_px = 0.0;
+    for (int k = 0; k < 100; ++k) {
+      const double angle = std::atan(0.25) - 0.8 * (v_px / 29.0 - 0.5) * 0.2;
+      u_px = 19.5 - 20.0 * std::tan(angle);
+      v_px = 14.5 + 20.0 * down_m / (std::sqrt(17.0) * std::cos(angle));
+    }
+    EXPECT_NEAR(ends[static_cast<std::size_t>(end)].u, u_px, 1e-5);
+    EXPECT_NEAR(ends[static_cast<std::size_t>(end)].v, v_px, 1e-5);
+  }
+}
+
+TEST(Annotate, WhatCarriesTheCameraKeepsItsPlaceBeforeIt) {
+  Scene scene;
+  scene.paint(4, 18, 22, 12, 18, 5000);  // where the vehicle is at the stamp
+  VehicleShape shape;
+  for (const double y : {-0.5, 0.5}) {
+    for (const double z : {0.5, 1.5}) shape.vertices_W.emplace_back(5.0, y, z);
+  }
+  CameraPath camera = Scene::at_rest();
+  camera.readout_s = 0.2;
+  camera.motion.v_W = {0, 60, 0};  // 4 px a row
+  shape.carries_camera = true;
+  EXPECT_EQ(scene.annotated({"vehicle"}, 1, {shape}, camera).at(0).visible_share, 1.0);
+  shape.carries_camera = false;
+  EXPECT_LT(scene.annotated({"vehicle"}, 1, {shape}, camera).at(0).visible_share, 1.0);
+}
+
 TEST(Annotate, WhatHidesAThingTakesItsVertices) {
   Scene scene;
   scene.paint(2, 14, 16, 10, 20, 4000);
@@ -330,7 +396,7 @@ TEST(Annotate, EndsOfRowsAreHiddenByWhatIsNearer) {
   row.line_W = {{-5, 1, 0}, {8, 1, 0}};  // begins behind the camera
   row.canopy_top_m = 1.0;
   const auto rows = [&] {
-    return annotate_rows(scene.layers(), scene.lens(), Scene::X_WC(), {row});
+    return annotate_rows(scene.layers(), scene.lens(), Scene::at_rest(), {row});
   };
   ASSERT_EQ(rows().size(), 1u);
   const RowAnnotation open = rows()[0];

@@ -33,7 +33,8 @@ STUDY = {
     "vinerow_study": 1,
     "description": "a test",
     "scenario": str(SCENARIO),
-    "set": {"duration_s": 2.5},
+    # All rows at once: the poses of pictures.csv are then those of each pixel.
+    "set": {"duration_s": 2.5, "rover.sensors.front.readout_s": 0},
     "factors": {
         "look": {"alternatives": {"ahead": {}, "side": {"rover.sensors.front.rotation_deg": [0, 3, 40]},
                                   # Its own front is in the picture.
@@ -409,6 +410,34 @@ class OtherSets(InAFolder):
         numpy.testing.assert_array_equal(a, b)
         self.assertIn("train and val show the same plants (`world.plant_seed` 7): scores of val say nothing about others.", card)
 
+    def test_key_points_lean_as_the_posts_of_a_rolling_shutter(self):
+        front = "rover.sensors.front."
+        study = {**changed(every_s=0.5, classes=["post"], formats=["coco"], validation_share=0, split_by="cell"),
+                 "factors": {}, "seeds": [1, 2],
+                 "set": {"duration_s": 6, "rover.controller.speed_mps": 1.5, "world.vines.bbch": 3, front + "readout_s": 0.09,
+                         front + "exposure_s": 0.005, front + "rotation_deg": [0, 3, 75], "criteria": []}}
+        out, rows, _ = self.make(study)
+        points = COCO(out / "annotations" / "keypoints_train.json")
+        things = COCO(out / "annotations" / "instances_train.json")
+        largest, compared = 0.0, 0
+        for image, row in zip(sorted(points.imgs), rows, strict=True):
+            masks = {a["thing"]: things.annToMask(a) for a in things.loadAnns(things.getAnnIds(imgIds=[image]))}
+            for a in points.loadAnns(points.getAnnIds(imgIds=[image])):
+                (u0, v0, foot), (u1, v1, head) = numpy.reshape(a["keypoints"], (2, 3))
+                if a["category_id"] != 2 or foot != 2 or head != 2 or v0 - v1 < 60:
+                    continue
+                # Where rows of the picture itself cross the post, above the grass and below the top.
+                y, x = numpy.nonzero(masks[a["thing"]])
+                rows_of = [r for r in range(int(v1) + 4, int(v0) - 10) if (y == r).sum() >= 2]
+                if len(rows_of) < 40:
+                    continue
+                middle = [x[y == r].mean() for r in rows_of]
+                on_line = [u1 + (u0 - u1) * (r - v1) / (v0 - v1) for r in rows_of]
+                self.assertLess(numpy.abs(numpy.subtract(middle, on_line)).mean(), 1.0, row["picture"])
+                largest, compared = max(largest, abs(u1 - u0)), compared + 1
+        self.assertGreater(compared, 3)
+        self.assertGreater(largest, 5.0)  # px; upright posts of a camera at rest do not lean
+
     def test_shipped_studies_do_not_leak(self):
         folder = ROOT / "assets" / "studies"
         for file in sorted(folder.glob("*_dataset.yaml")):
@@ -486,8 +515,9 @@ class BadInput(InAFolder):
         self.refuse(changed(camera="rover"), r"dataset.camera = 'rover', must be a sensor of type camera")
         self.refuse(changed(every_s=0.0010000005),
                     r"study.yaml:\d+: dataset.every_s = 0.0010000005 s, must be a multiple of the physics step of 0.001 s")
-        self.refuse(changed(every_s=0.001), r"study.yaml:\d+: dataset.every_s = 0.001 s, must be at least the 0.0162 s of an "
-                    r"exposure and a readout of 'rover/front'")
+        self.refuse({**changed(every_s=0.001), "set": {"duration_s": 2.5}},
+                    r"study.yaml:\d+: dataset.every_s = 0.001 s, must be at least the 0.0162 s of an exposure "
+                    r"and a readout of 'rover/front'")
         limits = {"rover.sensors.front.depth_min_m": 9, "rover.sensors.front.depth_max_m": 3}
         self.refuse({**STUDY, "set": limits}, r"study.yaml:\d+: vehicles.rover.sensors.front.depth_min_m = 9, must be < "
                     r"depth_max_m = 3")

@@ -12,24 +12,51 @@ using Eigen::Vector3d;
 
 constexpr double kNear_m = 0.05;  // nearer points have no place in the picture
 
+/// A point as the picture shows it.
+struct SeenPoint {
+  Vector3d p_C = Vector3d::Zero();  ///< in the optical frame when its row is exposed
+  std::optional<Vector2d> uv;       ///< px; nullopt outside the picture
+};
+
 /// Where points of W are in the picture.
 class PictureView {
  public:
-  PictureView(const Layers& layers, const Lens& lens, const Pose& X_WC)
-      : layers_(layers), lens_(lens), X_CW_(X_WC.inverse()) {}
+  PictureView(const Layers& layers, const Lens& lens, const CameraPath& camera)
+      : layers_(layers), lens_(lens), camera_(camera), X_CW_(camera.X_WC().inverse()) {}
 
+  /// At the stamp.
   Vector3d in_camera(const Vector3d& p_W) const { return X_CW_ * p_W; }
   Vector3d turned(const Vector3d& v_W) const { return X_CW_.q * v_W; }
 
-  /// @returns nullopt outside the picture
-  std::optional<Vector2d> pixel(const Vector3d& p_C) const {
-    if (p_C.z() < kNear_m) return std::nullopt;
-    const std::optional<Vector2d> uv = lens_.project(p_C);
-    if (!uv || uv->x() < -0.5 || uv->y() < -0.5 || uv->x() >= layers_.width - 0.5 ||
-        uv->y() >= layers_.height - 0.5) {
-      return std::nullopt;
+  /// A point that stands still.
+  SeenPoint point(const Vector3d& p_W) const {
+    SeenPoint seen = point_on_body(p_W);
+    if (camera_.readout_s == 0.0) return seen;
+    // The row that shows it, and so the time, follow from each other. While the picture moves by
+    // less than its height in a readout, each step brings them nearer; 1e-6 rows are far less than
+    // what is written.
+    constexpr int kMostSteps = 50;
+    double row = 0.5 * (layers_.height - 1);
+    for (int k = 0; k < kMostSteps; ++k) {
+      const sensors::OpticalPlace at =
+          camera_.motion.place_at(sensors::row_time_s(row, layers_.height, camera_.readout_s));
+      seen.p_C = at.R_WC.transpose() * (p_W - at.p_W);
+      const std::optional<Vector2d> uv = project(seen.p_C);
+      seen.uv = uv && is_inside(*uv) ? uv : std::nullopt;
+      if (!uv) break;
+      // Beyond the picture nothing is read.
+      const double next = std::clamp(uv->y(), -1.0, static_cast<double>(layers_.height));
+      if (std::abs(next - row) < 1e-6) break;
+      row = next;
     }
-    return uv;
+    return seen;
+  }
+
+  /// A point that moves with the camera, where it is at the stamp.
+  SeenPoint point_on_body(const Vector3d& p_W) const {
+    const Vector3d p_C = in_camera(p_W);
+    const std::optional<Vector2d> uv = project(p_C);
+    return {p_C, uv && is_inside(*uv) ? uv : std::nullopt};
   }
 
   /// Whether a pixel there, or one beside it, has this property: points of outlines are a little
@@ -59,13 +86,22 @@ class PictureView {
   }
 
  private:
+  std::optional<Vector2d> project(const Vector3d& p_C) const {
+    return p_C.z() < kNear_m ? std::nullopt : lens_.project(p_C);
+  }
+  bool is_inside(const Vector2d& uv) const {
+    return uv.x() >= -0.5 && uv.y() >= -0.5 && uv.x() < layers_.width - 0.5 &&
+           uv.y() < layers_.height - 0.5;
+  }
+
   const Layers& layers_;
   const Lens& lens_;
+  const CameraPath& camera_;
   Pose X_CW_;
 };
 
 KeyPoint key_point(const PictureView& view, const Vector3d& p_W, std::uint32_t thing) {
-  const std::optional<Vector2d> uv = view.pixel(view.in_camera(p_W));
+  const std::optional<Vector2d> uv = view.point(p_W).uv;
   if (!uv) return {};
   return {uv->x(), uv->y(), view.shows(*uv, thing) ? Seen::kSeen : Seen::kHidden};
 }
@@ -90,10 +126,11 @@ Box3 box_around(const PictureView& view, const std::vector<Vector3d>& vertices_W
   return box;
 }
 
-void add_shares(const PictureView& view, const std::vector<Vector3d>& vertices_W, Annotation& a) {
+void add_shares(const PictureView& view, const std::vector<Vector3d>& vertices_W, bool is_on_body,
+                Annotation& a) {
   int inside = 0, seen = 0;
   for (const Vector3d& p_W : vertices_W) {
-    const std::optional<Vector2d> uv = view.pixel(view.in_camera(p_W));
+    const auto uv = (is_on_body ? view.point_on_body(p_W) : view.point(p_W)).uv;
     if (!uv) continue;
     ++inside;
     if (view.shows(*uv, a.thing)) ++seen;
@@ -105,9 +142,7 @@ void add_shares(const PictureView& view, const std::vector<Vector3d>& vertices_W
 /// Extends a box by what the picture shows of a leg between two points of W.
 void extend_by_leg(const PictureView& view, const Vector3d& from_W, const Vector3d& to_W,
                    Eigen::AlignedBox2d& box) {
-  const auto pixel = [&](double share) {
-    return view.pixel(view.in_camera(from_W + share * (to_W - from_W)));
-  };
+  const auto pixel = [&](double share) { return view.point(from_W + share * (to_W - from_W)).uv; };
   const std::optional<Vector2d> from = pixel(0.0), to = pixel(1.0);
   for (const auto& uv : {from, to}) {
     if (uv) box.extend(*uv + Vector2d(0.5, 0.5));
@@ -150,7 +185,7 @@ Eigen::AlignedBox2d row_box(const PictureView& view, const PlantRow& row) {
 
 }  // namespace
 
-std::vector<Annotation> annotate(const Layers& layers, const Lens& lens, const Pose& X_WC,
+std::vector<Annotation> annotate(const Layers& layers, const Lens& lens, const CameraPath& camera,
                                  ThingShapes& shapes, std::span<const VehicleShape> vehicles,
                                  std::span<const std::string> classes, int min_pixels) {
   // Pixels of each thing, column by column.
@@ -163,7 +198,7 @@ std::vector<Annotation> annotate(const Layers& layers, const Lens& lens, const P
       pixels[layers.thing[i]].push_back(static_cast<std::uint32_t>(x * layers.height + y));
     }
   }
-  const PictureView view(layers, lens, X_WC);
+  const PictureView view(layers, lens, camera);
   std::vector<Annotation> annotations;
   for (const auto& [thing, own] : pixels) {
     if (static_cast<int>(own.size()) < min_pixels) continue;
@@ -178,16 +213,18 @@ std::vector<Annotation> annotate(const Layers& layers, const Lens& lens, const P
     a.class_index = static_cast<int>(place - classes.begin());
     a.mask = make_mask(own, layers.height);
     double turn_rad = 0.0;
+    bool is_on_body = false;
     const std::vector<Vector3d>* vertices_W = nullptr;
     if (is_vehicle) {
       const VehicleShape& vehicle = vehicles[thing - shapes.vehicles()];
       const Vector3d forward_C = view.turned(vehicle.forward_W);
       turn_rad = std::atan2(-forward_C.z(), forward_C.x());
       vertices_W = &vehicle.vertices_W;
+      is_on_body = vehicle.carries_camera;
     } else {
       vertices_W = &shape->vertices_W;
     }
-    add_shares(view, *vertices_W, a);
+    add_shares(view, *vertices_W, is_on_body, a);
     a.box = box_around(view, *vertices_W, turn_rad);
     if (shape != nullptr && shape->has_ends) {
       a.ends = {key_point(view, shape->foot_W, thing), key_point(view, shape->head_W, thing)};
@@ -197,17 +234,17 @@ std::vector<Annotation> annotate(const Layers& layers, const Lens& lens, const P
   return annotations;
 }
 
-std::vector<RowAnnotation> annotate_rows(const Layers& layers, const Lens& lens, const Pose& X_WC,
+std::vector<RowAnnotation> annotate_rows(const Layers& layers, const Lens& lens,
+                                         const CameraPath& camera,
                                          const std::vector<PlantRow>& rows) {
-  const PictureView view(layers, lens, X_WC);
+  const PictureView view(layers, lens, camera);
   std::vector<RowAnnotation> annotations;
   for (const PlantRow& row : rows) {
     RowAnnotation a;
     a.row = row.id;
     const Vector3d ends_W[] = {row.line_W.front(), row.line_W.back()};
     for (std::size_t k = 0; k < 2; ++k) {
-      const Vector3d p_C = view.in_camera(ends_W[k]);
-      const std::optional<Vector2d> uv = view.pixel(p_C);
+      const auto [p_C, uv] = view.point(ends_W[k]);
       if (!uv) continue;
       a.ends[k] = {uv->x(), uv->y(), view.is_open(*uv, p_C.z()) ? Seen::kSeen : Seen::kHidden};
     }

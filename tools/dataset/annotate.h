@@ -16,6 +16,7 @@
 #include "engine/api/lens.h"
 #include "engine/api/map.h"
 #include "engine/math/pose.h"
+#include "engine/sensors/camera/camera_motion.h"
 #include "tools/dataset/mask.h"
 #include "tools/dataset/thing_shapes.h"
 
@@ -60,20 +61,34 @@ struct RowAnnotation {
   double left = 0.0, top = 0.0, width = 0.0, height = 0.0;  ///< of the row inside the picture
 };
 
-/// A vehicle where it is at the picture.
+/// A vehicle where it is at the picture's stamp.
 struct VehicleShape {
   std::vector<Eigen::Vector3d> vertices_W;
   Eigen::Vector3d forward_W = Eigen::Vector3d::UnitX();
+  bool carries_camera = false;  ///< keeps its place before it
 };
 
-/// Things of the wanted classes of which enough is seen, in the order of their numbers.
-/// @param X_WC  of the optical frame  @param vehicles  by their number in the scenario
-std::vector<Annotation> annotate(const Layers& layers, const Lens& lens, const Pose& X_WC,
+/// Where the camera is while it reads the picture out.
+struct CameraPath {
+  sensors::CameraMotion motion;
+  double readout_s = 0.0;
+
+  /// Of the optical frame at the stamp.
+  Pose X_WC() const {
+    return motion.X_WS * Pose{Eigen::Quaterniond(sensors::R_SC()), Eigen::Vector3d::Zero()};
+  }
+};
+
+/// Things of the wanted classes of which enough is seen, in the order of their numbers. Key points
+/// and shares are where the row is exposed that shows the point, 3D boxes in the optical frame at
+/// the stamp. @param vehicles  by their number in the scenario
+std::vector<Annotation> annotate(const Layers& layers, const Lens& lens, const CameraPath& camera,
                                  ThingShapes& shapes, std::span<const VehicleShape> vehicles,
                                  std::span<const std::string> classes, int min_pixels);
 
 /// Rows of which an end is in the picture.
-std::vector<RowAnnotation> annotate_rows(const Layers& layers, const Lens& lens, const Pose& X_WC,
+std::vector<RowAnnotation> annotate_rows(const Layers& layers, const Lens& lens,
+                                         const CameraPath& camera,
                                          const std::vector<PlantRow>& rows);
 
 }  // namespace vinerow::dataset

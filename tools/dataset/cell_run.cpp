@@ -33,7 +33,8 @@ class CellRun {
                  with_shelf(std::move(shelf))),
         shapes_(session_.simulation().world()),
         vehicles_(session_.simulation().vehicles()),
-        frame_(session_.simulation().world().origin) {
+        frame_(session_.simulation().world().origin),
+        readout_s_(task.readout_s(cell)) {
     const std::string base = task.vehicle() + "/" + task.sensor();
     picture_ = session_.signal<Picture>(base);
     info_ = session_.signal<CameraInfo>(base + "_info");
@@ -45,8 +46,7 @@ class CellRun {
       if (vehicle->name() != task.vehicle()) continue;
       for (const SensorMounting& mounting : vehicle->mountings()) {
         if (mounting.name == task.sensor()) {
-          X_BC_ =
-              mounting.X_BS * Pose{Eigen::Quaterniond(sensors::R_SC()), Eigen::Vector3d::Zero()};
+          X_BS_ = mounting.X_BS;
         }
       }
     }
@@ -58,7 +58,7 @@ class CellRun {
     std::uint64_t seen = 0;
     while (!session_.over() && result.report.pictures < most && counter.goes_on()) {
       session_.advance_for(session_.step());
-      remember_pose();
+      remember_body();
       if (!picture_.is_newer_than(seen)) continue;
       result.records.push_back(take(result.report.pictures++));
       counter.add();
@@ -72,15 +72,15 @@ class CellRun {
     return options;
   }
 
-  void remember_pose() {
-    poses_.push_back({truth_.stamp(), truth_.value().X_WB});
+  void remember_body() {
+    bodies_.push_back({truth_.stamp(), truth_.value()});
     constexpr std::size_t kKept = 16;
-    if (poses_.size() > kKept) poses_.pop_front();
+    if (bodies_.size() > kKept) bodies_.pop_front();
   }
 
-  const Pose& pose_at(Time time) const {
-    for (const auto& [stamp, X_WB] : poses_) {
-      if (stamp == time) return X_WB;
+  CameraPath path_at(Time time) const {
+    for (const auto& [stamp, body] : bodies_) {
+      if (stamp == time) return {sensors::CameraMotion::of_body(body, X_BS_), readout_s_};
     }
     throw SimulationError(task_.config().camera, time, "its picture is older than 16 steps");
   }
@@ -91,7 +91,8 @@ class CellRun {
     for (const auto& vehicle : session_.simulation().vehicles()) {
       Odometry truth;
       vehicle->vehicle().read_truth(truth);
-      shapes.push_back({{}, truth.X_WB.q * Eigen::Vector3d::UnitX()});
+      shapes.push_back(
+          {{}, truth.X_WB.q * Eigen::Vector3d::UnitX(), vehicle->name() == task_.vehicle()});
     }
     const std::span<const MeshInstance> links = vehicles_.links();
     for (std::size_t i = 0; i < links.size(); ++i) {
@@ -116,7 +117,8 @@ class CellRun {
     record.seed = task_.open().design.seed_of(cell_);
     record.time = picture_.stamp();
     record.camera = info_.value();
-    record.X_WC = pose_at(record.time) * X_BC_;
+    const CameraPath path = path_at(record.time);
+    record.X_WC = path.X_WC();
     record.place = frame_.to_geodetic(record.X_WC.p);
     const Picture &instance = layers_[1].value(), &depth = layers_[2].value();
     Layers layers;
@@ -129,10 +131,9 @@ class CellRun {
     }
     const Lens lens(record.camera);
     const std::vector<VehicleShape> vehicles = vehicle_shapes();
-    record.things = annotate(layers, lens, record.X_WC, shapes_, vehicles, task_.config().classes,
+    record.things = annotate(layers, lens, path, shapes_, vehicles, task_.config().classes,
                              task_.config().min_pixels);
-    record.rows =
-        annotate_rows(layers, lens, record.X_WC, session_.simulation().world().rows->rows);
+    record.rows = annotate_rows(layers, lens, path, session_.simulation().world().rows->rows);
     write("images", picture_.value(), record.name());
     write("semantic", layers_[0].value(), record.name());
     write("instances", instance, record.name());
@@ -152,8 +153,9 @@ class CellRun {
   SignalView<CameraInfo> info_;
   std::vector<SignalView<Picture>> layers_;
   SignalView<Odometry> truth_;
-  std::deque<std::pair<Time, Pose>> poses_;  ///< of the last steps
-  Pose X_BC_;
+  std::deque<std::pair<Time, Odometry>> bodies_;  ///< of the last steps
+  Pose X_BS_;
+  double readout_s_;
 };
 
 }  // namespace

@@ -110,6 +110,7 @@ void DatasetTask::check_cell(std::size_t cell) {
                      did_you_mean(config().camera, cameras)));
   }
   const sensors::CameraNature nature = nature_of(*found);
+  readouts_s_.push_back(nature.readout_s);
   if (nature.takes_depth_alone) {
     fail(
         fmt::format("camera = '{}' takes pictures of depth alone; choose one of colour, grey or "

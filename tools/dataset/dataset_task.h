@@ -37,6 +37,8 @@ class DatasetTask {
   /// World's `plant_seed` of a cell: the study's or the scenario's, else the cell's seed, so that
   /// each seed shows other plants. @returns nullopt for a world without it
   std::optional<std::uint64_t> plant_seed(std::size_t cell) const { return plant_seeds_[cell]; }
+  /// Of the camera in a cell: from the first row of a picture to the last.
+  double readout_s(std::size_t cell) const { return readouts_s_[cell]; }
 
  private:
   [[noreturn]] void fail(const std::string& sentence) const;
@@ -49,6 +51,7 @@ class DatasetTask {
   std::string vehicle_, sensor_;
   int most_pictures_ = 0;
   std::vector<std::optional<std::uint64_t>> plant_seeds_;  ///< by cell
+  std::vector<double> readouts_s_;                         ///< by cell
 };
 
 }  // namespace vinerow::dataset

@@ -193,7 +193,7 @@ class Camera final : public MountedSensor<Picture> {
   }
 
   void step(Time now) override {
-    const CameraMotion motion{X_WS(), v_WS(), X_BS_.q.conjugate() * body().w_WB_B};
+    const CameraMotion motion = CameraMotion::of_body(body(), X_BS_);
     if (!has_looked_) begin(motion.X_WS);
     caster_.cast(motion, imager_.exposure_s(), view_);
     if (is_depth_camera_) {
@@ -288,7 +288,7 @@ CameraNature camera_nature(const ParameterSet& parameters, const std::string& ow
   return {params.picture == Content::kDepth,
           params.lens.lens == CameraInfo::Lens::kFisheye ||
               std::any_of(k.begin(), k.end(), [](double value) { return value != 0.0; }),
-          busy_of(params)};
+          params.view.readout_s, busy_of(params)};
 }
 
 PartSpec camera_spec() {

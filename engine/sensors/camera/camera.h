@@ -25,7 +25,8 @@ namespace vinerow::sensors {
 struct CameraNature {
   bool takes_depth_alone = false;
   bool has_distortion = false;
-  double busy_s = 0.0;  ///< of a picture, its exposure and readout: the shortest period
+  double readout_s = 0.0;  ///< from the first row to the last
+  double busy_s = 0.0;     ///< of a picture, its exposure and readout: the shortest period
 };
 /// @param owner  of the parameters, for errors  @throws ConfigError "rover.sensors.front: ..."
 CameraNature camera_nature(const ParameterSet& parameters, const std::string& owner);

@@ -56,12 +56,6 @@ Label label_at(const WorldModel& world, const RayHit& hit) {
 
 }  // namespace
 
-const Eigen::Matrix3d& R_SC() {
-  static const Eigen::Matrix3d matrix =
-      (Eigen::Matrix3d() << 0, 0, 1, -1, 0, 0, 0, -1, 0).finished();
-  return matrix;
-}
-
 /// Pixels that are cast together.
 struct ViewCaster::Tile {
   int first_row, rows;
@@ -243,17 +237,10 @@ void ViewCaster::add_rays(const CameraMotion& motion, double exposure_s, int sam
   const Eigen::Matrix3d R_WC = motion.X_WS.q.toRotationMatrix() * R_SC();
   Vector3d row_p_W[kTileRows];
   for (int row = 0; row < tile.rows; ++row) {
-    const double share =
-        lens_.height() > 1 ? (tile.first_row + row) / (lens_.height() - 1.0) - 0.5 : 0.0;
-    const double time_s = share * settings_.readout_s + later_s;
-    row_p_W[row] = motion.X_WS.p + time_s * motion.v_W;
-    r.row_R_WC[row] = R_WC;
-    const Vector3d turn_S = time_s * motion.w_WS_S;
-    const double angle = turn_S.norm();
-    if (angle > 0.0) {
-      r.row_R_WC[row] = motion.X_WS.q.toRotationMatrix() *
-                        Eigen::AngleAxisd(angle, turn_S / angle).toRotationMatrix() * R_SC();
-    }
+    const double row_s = row_time_s(tile.first_row + row, lens_.height(), settings_.readout_s);
+    const OpticalPlace place = motion.place_at(row_s + later_s);
+    row_p_W[row] = place.p_W;
+    r.row_R_WC[row] = place.R_WC;
   }
   // The own body keeps its place before the camera.
   const bool moves = links_ && !(motion.v_W.isZero(0.0) && motion.w_WS_S.isZero(0.0)) &&

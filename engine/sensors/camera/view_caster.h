@@ -26,21 +26,12 @@
 #include "engine/api/lens.h"
 #include "engine/api/scene_query.h"
 #include "engine/math/pose.h"
+#include "engine/sensors/camera/camera_motion.h"
 #include "engine/sensors/camera/scene_look.h"
 #include "engine/sensors/camera/thing_numbers.h"
 #include "engine/sensors/scan_links.h"
 
 namespace vinerow::sensors {
-
-/// The optical frame (x right, y down, z along the axis) in S (x along the axis, y left, z up).
-const Eigen::Matrix3d& R_SC();
-
-/// Pose of S at the stamp, and how it moves.
-struct CameraMotion {
-  Pose X_WS;
-  Eigen::Vector3d v_W = Eigen::Vector3d::Zero();     ///< m/s
-  Eigen::Vector3d w_WS_S = Eigen::Vector3d::Zero();  ///< rad/s
-};
 
 /// Values of all pixels, row by row. Empty: not wanted.
 struct View {

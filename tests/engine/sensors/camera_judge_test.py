@@ -59,7 +59,7 @@ class Lenses(unittest.TestCase):
         cls.temporary = tempfile.TemporaryDirectory(prefix="vinerow_judge_")
         folder = pathlib.Path(cls.temporary.name)
         study = {"vinerow_study": 1, "scenario": str(SCENARIO),
-                 "set": {"duration_s": 1.0, FRONT + "normals": False},
+                 "set": {"duration_s": 1.0, FRONT + "normals": False, FRONT + "readout_s": 0},
                  "factors": {"lens_of_factor": {"alternatives": {name: {FRONT + key: value for key, value in lens.items()}
                                                        for name, lens in LENSES.items()}}},
                  "dataset": {"camera": "rover/front", "every_s": 1, "formats": ["coco"], "classes": ["trunk"],

@@ -7,24 +7,18 @@
 #include <csetjmp>
 #include <cstring>
 
+#include "engine/imaging/png_encoder.h"
+
 namespace vinerow::imaging {
 namespace {
 
 static_assert(std::endian::native == std::endian::little,
               "16-bit pictures have the lower byte first");
 
-// Level 1 with the SUB filter: the fastest that still halves a picture. Labels have long runs of
-// equal bytes, which a filter would not shorten.
-constexpr int kLevel = 1;
-
 struct Source {
   std::string_view bytes;
   std::size_t at = 0;
 };
-
-void add_encoded(png_structp png, png_bytep bytes, std::size_t count) {
-  static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<char*>(bytes), count);
-}
 
 void take_bytes(png_structp png, png_bytep bytes, std::size_t count) {
   auto& source = *static_cast<Source*>(png_get_io_ptr(png));
@@ -40,26 +34,6 @@ void drop_warning(png_structp, png_const_charp) {}
 
 /// libpng returns from errors by longjmp, so this function's frame must not hold objects with
 /// destructors.
-bool write_rows(png_structp png, png_infop info, const Picture& picture, std::string* out) {
-  if (setjmp(png_jmpbuf(png))) return false;
-  png_set_write_fn(png, out, &add_encoded, nullptr);
-  const bool is_colour = picture.format == Picture::Format::kRgb8;
-  const bool is_deep = picture.format == Picture::Format::kMono16;
-  png_set_compression_level(png, kLevel);
-  png_set_filter(png, 0,
-                 picture.format == Picture::Format::kMono8 ? PNG_FILTER_NONE : PNG_FILTER_SUB);
-  png_set_IHDR(png, info, picture.width, picture.height, is_deep ? 16 : 8,
-               is_colour ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
-               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  png_write_info(png, info);
-  if (is_deep) png_set_swap(png);
-  const std::size_t row = picture.width * Picture::bytes_per_pixel(picture.format);
-  for (std::uint32_t y = 0; y < picture.height; ++y) png_write_row(png, &picture.data[y * row]);
-  png_write_end(png, nullptr);
-  return true;
-}
-
-/// The same applies here.
 bool read_rows(png_structp png, png_infop info, Source* source, Picture* picture) {
   if (setjmp(png_jmpbuf(png))) return false;
   png_set_read_fn(png, source, &take_bytes);
@@ -92,17 +66,14 @@ bool read_rows(png_structp png, png_infop info, Source* source, Picture* picture
 }  // namespace
 
 std::string encode_picture(const Picture& picture) {
-  std::string out;
   const std::size_t size =
       std::size_t{picture.width} * picture.height * Picture::bytes_per_pixel(picture.format);
-  if (size == 0 || picture.data.size() != size) return out;
-  out.reserve(size / 2 + 1024);
-  png_structp png =
-      png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, &jump_out, &drop_warning);
-  png_infop info = png_create_info_struct(png);
-  const bool is_encoded = write_rows(png, info, picture, &out);
-  png_destroy_write_struct(&png, &info);
-  return is_encoded ? out : std::string();
+  if (size == 0 || picture.data.size() != size) return {};
+  PngForm form{static_cast<int>(picture.width), static_cast<int>(picture.height)};
+  form.channels = picture.format == Picture::Format::kRgb8 ? 3 : 1;
+  form.bytes_per_channel = picture.format == Picture::Format::kMono16 ? 2 : 1;
+  form.differences = picture.format != Picture::Format::kMono8;
+  return encode_png_rows(form, picture.data);
 }
 
 bool decode_picture(std::string_view bytes, Picture& picture) {

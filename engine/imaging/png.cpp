@@ -11,38 +11,14 @@
 #include <vector>
 
 #include "engine/core/whole_file.h"
+#include "engine/imaging/png_encoder.h"
 
 namespace vinerow::imaging {
 
 namespace {
 
-void append_bytes(png_structp png, png_bytep bytes, std::size_t count) {
-  static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<char*>(bytes), count);
-}
-
 /// libpng returns from errors by longjmp, so this function's frame must not hold objects with
-/// destructors.
-bool encode(png_structp png, png_infop info, std::string* out, int width, int height,
-            const std::uint8_t* rgb, png_textp words, int count) {
-  if (setjmp(png_jmpbuf(png))) return false;
-  png_set_write_fn(png, out, &append_bytes, nullptr);
-  // Level 2 with the SUB filter: a quarter of the default's time at about the same size for
-  // rendered pictures.
-  png_set_compression_level(png, 2);
-  png_set_filter(png, 0, PNG_FILTER_SUB);
-  png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), 8,
-               PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
-               PNG_FILTER_TYPE_DEFAULT);
-  if (count > 0) png_set_text(png, info, words, count);
-  png_write_info(png, info);
-  for (int y = 0; y < height; ++y) {
-    png_write_row(png, &rgb[static_cast<std::size_t>(y) * width * 3]);
-  }
-  png_write_end(png, nullptr);
-  return true;
-}
-
-/// The same applies here. @returns the number of texts; 0 if the file cannot be read
+/// destructors. @returns the number of texts; 0 if the file cannot be read
 int read_words(png_structp png, png_infop info, std::FILE* file, png_textp* words) {
   if (setjmp(png_jmpbuf(png))) return 0;
   png_init_io(png, file);
@@ -80,24 +56,7 @@ void write_png(const std::string& file, int width, int height, std::span<const s
     throw std::runtime_error(fmt::format("{}: {} x {} pixels with {} bytes are not a valid image",
                                          file, width, height, rgb.size()));
   }
-  std::string bytes;
-  std::vector<png_text> texts;
-  for (const auto& [key, text] : words) {
-    png_text entry{};
-    entry.compression = PNG_TEXT_COMPRESSION_NONE;
-    // libpng copies both and does not modify them.
-    entry.key = const_cast<char*>(key.c_str());
-    entry.text = const_cast<char*>(text.c_str());
-    entry.text_length = text.size();
-    texts.push_back(entry);
-  }
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
-  png_infop info = png_create_info_struct(png);
-  const bool encoded = encode(png, info, &bytes, width, height, rgb.data(), texts.data(),
-                              static_cast<int>(texts.size()));
-  png_destroy_write_struct(&png, &info);
-  if (!encoded) throw std::runtime_error(fmt::format("{}: cannot be encoded", file));
-  write_whole_file(file, bytes);
+  write_whole_file(file, encode_png_rows({.width = width, .height = height}, rgb, words));
 }
 
 Result<Pixels> read_png(const std::string& file) {

@@ -451,6 +451,10 @@ TEST_P(VehicleConformance, PublishesEnergyThatGrows) {
   rig.vehicle().publish(rig.now());
   EXPECT_GT(battery.value().energy_used_J, 0.0);
   EXPECT_LT(battery.value().charge, 1.0);
+  // What was used and what is left are the capacity, which metrics read from the description.
+  EXPECT_NEAR(battery.value().charge * rig.about().battery_capacity_J.value() +
+                  battery.value().energy_used_J,
+              rig.about().battery_capacity_J.value(), 1e-6 * battery.value().energy_used_J);
 }
 
 TEST_P(WingedConformance, WaitsForItsThrottleThenFlies) {

@@ -62,7 +62,6 @@ void FourWheelSteeringRover::describe() {
   description_.footprint_B = outline_B(p);
   description_.max_speed_mps = p.wheel_speed_limit_radps * p.wheel_radius_m;
   description_.min_turning_radius_m = p.min_turning_radius_m();
-  description_.battery_capacity_J = p.battery.capacity_Wh * 3600.0;
 }
 
 std::vector<VehicleLink> FourWheelSteeringRover::make_links() const {

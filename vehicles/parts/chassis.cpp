@@ -77,6 +77,7 @@ void describe_chassis(const ChassisParams& p, double hull_bottom_m, double hull_
                                      -p.wheel_speed_limit_radps, p.wheel_speed_limit_radps});
   }
   description.mass_kg = p.mass_kg;
+  description.battery_capacity_J = p.battery.capacity_Wh * 3600.0;
   description.height_above_ground_m = p.com_height_m;
   description.collision_half_extents_m = {0.5 * p.wheel_base_m + p.wheel_radius_m,
                                           0.5 * (p.track_m + p.tyre_width_m),

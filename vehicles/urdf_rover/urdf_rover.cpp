@@ -234,6 +234,7 @@ void UrdfRover::describe(const UrdfRoverParams& params) {
                                       params.wheel_speed_limit_radps});
   }
   description_.mass_kg = model_.mass_kg;
+  description_.battery_capacity_J = params.battery.capacity_Wh * 3600.0;
   description_.collision_centre_B = model_.bounds_B.center();
   description_.collision_half_extents_m = 0.5 * model_.bounds_B.sizes();
   description_.height_above_ground_m = model_.height_above_ground_m;

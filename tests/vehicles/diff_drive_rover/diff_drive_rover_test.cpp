@@ -55,6 +55,7 @@ TEST(DiffDriveRover, TellsPaperBsTableOne) {
   EXPECT_EQ(about.wheeled->track_m, 1.0);
   EXPECT_EQ(about.wheeled->wheel_radius_m, 0.2);
   EXPECT_EQ(about.min_turning_radius_m, 1.0);
+  EXPECT_EQ(about.battery_capacity_J, 3600e3);  // 1000 Wh
   EXPECT_DOUBLE_EQ(about.max_speed_mps.value(), 7.0 / 3.6);
   ASSERT_EQ(about.actuators.size(), 4u);
   EXPECT_EQ(about.actuators[0].name, "wheel_fl_speed_radps");

@@ -34,7 +34,7 @@ PartSpec diff_drive_rover_spec() {
   spec.description =
       "Four-wheel skid-steered rover of paper B (table 1), with wheel and tyre forces or, with "
       "fidelity: kinematic, the paper's pure rolling model (eq. 1-2)";
-  spec.writes = {"wheels", "battery"};
+  spec.writes = {"wheels", "battery", "vehicle_event"};
   diff_drive_rover_table().add_to(spec);
   return spec;
 }

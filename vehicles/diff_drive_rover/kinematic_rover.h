@@ -3,12 +3,13 @@
 ///
 /// Actuators, signals and frame as of DiffDriveRover. It moves by the mean speed of each side's
 /// wheels, which turn as commanded: their speeds are the actuator states. Rolling resistance drains
-/// the battery.
+/// the battery; once it is empty, the wheels stand.
 
 #include <array>
 #include <vector>
 
 #include "engine/api/messages/commands.h"
+#include "engine/api/messages/event.h"
 #include "engine/api/messages/sensors.h"
 #include "vehicles/diff_drive_rover/diff_drive_rover_params.h"
 #include "vehicles/parts/kinematic_platform.h"
@@ -27,7 +28,7 @@ class KinematicRover final : public Vehicle {
   void connect(Ports& ports) override;
   void actuate(std::span<const double> values) override;
   void before_physics(Time now, Duration dt) override;
-  void after_physics(Time /*now*/, Duration /*dt*/) override {}
+  void after_physics(Time now, Duration dt) override;
   void read_truth(Odometry& truth) const override { platform_.read_truth(truth); }
   Eigen::Vector3d specific_force_B() const override { return platform_.state().specific_force_B; }
   std::span<const double> actuator_states() const override { return wheels_message_.values; }
@@ -41,9 +42,11 @@ class KinematicRover final : public Vehicle {
   KinematicPlatform platform_;
   std::array<double, 4> angle_rad_{};
   BatteryState battery_;
+  bool powered_ = true, reported_empty_ = false;
   NamedValues wheels_message_;
   SignalWriter<NamedValues> wheels_writer_;
   SignalWriter<BatteryState> battery_writer_;
+  SignalWriter<Event> event_writer_;
   physics::PhysicsWorld* world_ = nullptr;
 };
 

@@ -76,7 +76,7 @@ PartSpec four_wheel_steering_rover_spec() {
   spec.description =
       "Paper A's rover with Ackermann steering on both axles and four hub motors, with wheel and "
       "tyre forces";
-  spec.writes = {"wheels", "battery"};
+  spec.writes = {"wheels", "battery", "vehicle_event"};
   four_wheel_steering_rover_table().add_to(spec);
   return spec;
 }

@@ -15,7 +15,7 @@ const ParameterTable<BatteryParams>& battery_table() {
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .number("battery_capacity_Wh", "Wh", &P::capacity_Wh, kPositive,
-                  "energy of a full charge")
+                  "energy of a full charge; once it is used, the motors stop")
           .number("electronics_W", "W", &P::electronics_W, between(0.0, 1e5),
                   "power drawn by computers, sensors and radio")
           .number("initial_charge", "", &P::initial_charge, between(0.0, 1.0),
@@ -29,6 +29,11 @@ void advance_battery(const BatteryParams& params, double motors_W, double dt_s,
   state.energy_used_J += state.power_W * dt_s;
   state.charge = std::clamp(
       params.initial_charge - state.energy_used_J / (params.capacity_Wh * 3600.0), 0.0, 1.0);
+}
+
+void report_empty_battery(Time now, const std::string& vehicle, SignalWriter<Event>& writer) {
+  if (!writer.connected()) return;
+  writer.write(now, {Event::Level::kError, vehicle, "battery empty: the wheels' motors stop"});
 }
 
 }  // namespace vinerow::vehicles

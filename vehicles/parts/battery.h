@@ -3,8 +3,10 @@
 
 #include <string>
 
+#include "engine/api/messages/event.h"
 #include "engine/api/messages/sensors.h"
 #include "engine/api/parameter_table_fwd.h"
+#include "engine/api/signal.h"
 
 namespace vinerow::vehicles {
 
@@ -24,5 +26,8 @@ const ParameterTable<BatteryParams>& battery_table();
 /// @param motors_W  sum of the motors, negative if braking recovers energy
 void advance_battery(const BatteryParams& params, double motors_W, double dt_s,
                      BatteryState& state);
+
+/// Writes the event of a ground vehicle whose battery is empty, if the writer is connected.
+void report_empty_battery(Time now, const std::string& vehicle, SignalWriter<Event>& writer);
 
 }  // namespace vinerow::vehicles

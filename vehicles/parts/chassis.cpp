@@ -37,7 +37,7 @@ const ParameterTable<ChassisParams>& chassis_table() {
                    "ground rays per wheel and step on smooth ground: 1 or 3")
           .include(&P::motor, motor_table())
           .include(&P::tyre, tyre_table())
-          .include(&P::battery, battery_table(), {.only = {"battery_capacity_Wh", "electronics_W"}})
+          .include(&P::battery, battery_table())
           .include(&P::air, air_drag_table());
   return table;
 }

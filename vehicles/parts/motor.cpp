@@ -67,6 +67,11 @@ double Motor::electric_power_W(double torque_Nm, double spin_radps) const {
 MotorStep Motor::begin(double command_radps, double spin_radps, double dt_s,
                        MotorState& state) const {
   MotorStep step;
+  if (state.without_current) {  // limits of zero: it turns freely but for its brake
+    state.braked = params_.brake_torque_Nm > 0.0;
+    state.integral_Nm = 0.0;
+    return step;
+  }
   step.command_radps = command_radps;
   // Hill hold: release_brake() opens a closed brake, once the motor carries the load.
   if (command_radps == 0.0) {

@@ -8,7 +8,7 @@
 ///
 /// The parking brake closes when zero is commanded near standstill. It opens again only when motor
 /// and ground together have pushed in the commanded direction for brake_release_s, so that a
-/// vehicle does not roll back when it starts on a slope.
+/// vehicle does not roll back when it starts on a slope. Springs close it when the current fails.
 ///
 /// The torque is linear in the new spin until it reaches a limit, so that a wheel solves both
 /// together (implicit Euler: stable for any gain and step).
@@ -48,6 +48,7 @@ struct MotorState {
   double carried_s = 0.0;    ///< time for which motor and ground have pushed against the brake in
                              ///< the commanded direction
   double power_W = 0.0;      ///< electric, positive when drawn
+  bool without_current = false;  ///< the battery is empty: no torque, the brake is closed
 };
 
 /// Torque in the step within the limits: tau = constant_Nm - slope_Nms * omega_new.

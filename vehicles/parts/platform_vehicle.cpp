@@ -23,6 +23,7 @@ void PlatformVehicle::spawn(physics::PhysicsWorld& world, const Pose& X_WB) {
 
 void PlatformVehicle::connect(Ports& ports) {
   platform_->connect(ports);
+  event_writer_ = ports.write<Event>("vehicle_event");
 }
 
 void PlatformVehicle::actuate(std::span<const double> values) {
@@ -35,8 +36,12 @@ void PlatformVehicle::before_physics(Time now, Duration dt) {
   platform_->before_physics(dt);
 }
 
-void PlatformVehicle::after_physics(Time /*now*/, Duration dt) {
+void PlatformVehicle::after_physics(Time now, Duration dt) {
   platform_->after_physics(dt);
+  if (!platform_->state().powered && !reported_empty_) {
+    reported_empty_ = true;
+    report_empty_battery(now, platform_->params().name, event_writer_);
+  }
   const std::vector<WheelState>& wheels = platform_->state().wheels;
   // Wheel speeds are the last actuators; what stands before them is the vehicle's own.
   const std::size_t first = actuator_states_.size() - driven_.size();

@@ -7,6 +7,7 @@
 
 #include <optional>
 
+#include "engine/api/messages/event.h"
 #include "vehicles/parts/wheeled_platform.h"
 
 namespace vinerow::vehicles {
@@ -16,7 +17,7 @@ class PlatformVehicle : public Vehicle {
   const VehicleDescription& description() const override { return description_; }
   const std::vector<VehicleLink>& links() const override { return links_; }
   void spawn(physics::PhysicsWorld& world, const Pose& X_WB) override;
-  /// Signals "wheels" and "battery".
+  /// Signals "wheels", "battery" and "vehicle_event".
   void connect(Ports& ports) override;
   void actuate(std::span<const double> values) override;
   void before_physics(Time now, Duration dt) override;
@@ -44,6 +45,10 @@ class PlatformVehicle : public Vehicle {
   std::optional<WheeledPlatform> platform_;
   std::vector<std::size_t> driven_;      ///< wheel of each actuator
   std::vector<double> actuator_states_;  ///< written after each step
+
+ private:
+  bool reported_empty_ = false;
+  SignalWriter<Event> event_writer_;
 };
 
 }  // namespace vinerow::vehicles

@@ -55,7 +55,7 @@ void SteeredPlatformVehicle::steer(double dt_s) {
 }
 
 void SteeredPlatformVehicle::before_physics(Time now, Duration dt) {
-  steer(dt.s());
+  if (platform_->state().powered) steer(dt.s());
   PlatformVehicle::before_physics(now, dt);
 }
 

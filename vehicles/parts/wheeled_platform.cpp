@@ -86,6 +86,7 @@ WheeledPlatform::WheeledPlatform(WheeledPlatformParams params) : params_(std::mo
   state_.wheels.resize(wheels_.size());
   commands_.assign(wheels_.size(), 0.0);
   outputs_.resize(wheels_.size());
+  state_.battery.charge = params_.battery.initial_charge;
   for (const WheelParams& wheel : params_.wheels) {
     for (std::string& name : wheel_value_names(wheel.name)) {
       wheels_message_.names.push_back(std::move(name));
@@ -160,6 +161,10 @@ void WheeledPlatform::push_by_wind(Time now, Duration dt) {
 
 void WheeledPlatform::before_physics(Duration dt) {
   const double dt_s = dt.s();
+  if (state_.powered && state_.battery.charge <= 0.0) {
+    state_.powered = false;
+    for (WheelState& wheel : state_.wheels) wheel.motor.without_current = true;
+  }
   const physics::BodyState& body = state_.body;
   const Eigen::Matrix3d R_WB = body.X_WB.q.toRotationMatrix();
   const Soil& soil = world_->world_model().soil;
@@ -183,6 +188,10 @@ void WheeledPlatform::before_physics(Duration dt) {
   }
   world_->add_central_force_W(body_, force_W);
   world_->add_torque_W(body_, torque_W);
+  if (!state_.powered) {  // nothing runs any more
+    state_.battery.power_W = 0.0;
+    return;
+  }
   advance_battery(params_.battery, motors_W, dt_s, state_.battery);
 }
 

@@ -41,6 +41,7 @@ struct WheeledPlatformState {
   physics::BodyState body;         ///< as of the last step
   std::vector<WheelState> wheels;  ///< same order as the params
   BatteryState battery;
+  bool powered = true;  ///< false for good once the battery is empty
   Eigen::Vector3d specific_force_B = Eigen::Vector3d::Zero();
 };
 

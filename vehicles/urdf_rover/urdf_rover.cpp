@@ -80,7 +80,7 @@ const ParameterTable<UrdfRoverParams>& urdf_rover_table() {
                    "ground rays per wheel and step on smooth ground: 1 or 3")
           .include(&P::motor, motor_table())
           .include(&P::tyre, tyre_table())
-          .include(&P::battery, battery_table(), {.only = {"battery_capacity_Wh", "electronics_W"}})
+          .include(&P::battery, battery_table())
           .include(&P::air, air_drag_table())
           .rule(find_fault_in_packages)
           .rule(find_fault_in_joints);
@@ -204,7 +204,7 @@ PartSpec urdf_rover_spec() {
   spec.description =
       "Wheeled robot from a URDF file, with wheel and tyre forces and the file's own masses: skid "
       "steering, Ackermann steering, or four steered wheels";
-  spec.writes = {"wheels", "battery"};
+  spec.writes = {"wheels", "battery", "vehicle_event"};
   urdf_rover_table().add_to(spec);
   return spec;
 }

@@ -48,6 +48,29 @@ TEST(KinematicRover, ArcIsExactOnAnyTerrain) {
   EXPECT_NEAR(truth.X_WB.p.z(), model.terrain->height_m(x, y) + 0.38, 0.05);
 }
 
+TEST(KinematicRover, StandsOnceItsBatteryIsEmpty) {
+  DiffDriveRoverParams params;
+  params.battery.capacity_Wh = 0.1;  // 360 J
+  const WorldModel model = make_flat_world();
+  physics::PhysicsWorld world({}, model);
+  KinematicRover rover{params};
+  rover.spawn(world, pose_on_ground(model, 0.0, 0.0, 0.0, 0.38));
+  const Duration dt{1'000'000};
+  for (int i = 0; i < 6000; ++i) {
+    rover.actuate(std::vector<double>(4, 5.0));
+    rover.before_physics({}, dt);
+    world.step(dt);
+    rover.after_physics({}, dt);
+  }
+  // At 1 m/s against a rolling resistance of 6 %, with 85 % efficiency and 30 W of electronics.
+  const double power_W = 0.06 * 180.0 * 9.80665 * 1.0 / 0.85 + 30.0;
+  Odometry truth;
+  rover.read_truth(truth);
+  EXPECT_NEAR(truth.X_WB.p.x(), 360.0 / power_W, 0.002);  // a step or two of 1 mm
+  EXPECT_EQ(truth.v_WB_B.norm(), 0.0);
+  EXPECT_EQ(rover.actuator_states()[0], 0.0);
+}
+
 TEST(DiffDriveRover, TellsPaperBsTableOne) {
   const DiffDriveRover rover{DiffDriveRoverParams{}};
   const VehicleDescription& about = rover.description();

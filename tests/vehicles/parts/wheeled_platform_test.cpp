@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/core/error.h"
@@ -402,6 +403,46 @@ TEST(WheeledPlatform, EnergyIsTheMotorsElectricPower) {
       4 * (torque * 5.0 / motor.efficiency + motor.loss_W_per_Nm2 * torque * torque) +
       params.battery.electronics_W;
   EXPECT_NEAR(power, expected, 0.01 * expected);
+}
+
+TEST(WheeledPlatform, AnEmptyBatteryStopsTheMotorsAndClosesTheBrakes) {
+  WheeledPlatformParams params = rover_params();
+  params.battery.initial_charge = 3e-4;  // 1080 J
+  Rig rig(make_flat_world(), params);
+  rig.command(5.0, 5.0);
+  while (rig.platform.state().battery.charge > 0.0) rig.step();
+  const double v_mps = rig.body().v_WB_W.x(), start_m = rig.body().X_WB.p.x();
+  EXPECT_NEAR(v_mps, 1.0, 0.05);
+  double farthest_m = 0.0;  // then the tyres spring back
+  for (int i = 0; i < 5000; ++i) {
+    rig.step();
+    farthest_m = std::max(farthest_m, rig.body().X_WB.p.x() - start_m);
+  }
+  // The brakes' 150 Nm a wheel exceed the 66 Nm that the ground gives, so it slides to a stop: by
+  // v^2 / 2 mu g, and up to the relaxation length more, over which the tyres' force builds up.
+  const Soil& soil = rig.world_model.soil;
+  const double v2_2g_m = v_mps * v_mps / (2.0 * kGravity);
+  EXPECT_GT(farthest_m, v2_2g_m / soil.peak_friction);
+  EXPECT_LT(farthest_m, v2_2g_m / soil.sliding_friction + 0.12);
+  EXPECT_NEAR(rig.body().v_WB_W.norm(), 0.0, 1e-6);
+  for (const WheelState& wheel : rig.platform.state().wheels) EXPECT_EQ(wheel.spin_radps, 0.0);
+  // It has drawn what was in it, but for the step in which it ran out: 1 ms at less than 2 kW.
+  EXPECT_NEAR(rig.platform.state().battery.energy_used_J, 3e-4 * 1000.0 * 3600.0, 2.0);
+  EXPECT_EQ(rig.platform.state().battery.power_W, 0.0);
+}
+
+TEST(WheeledPlatform, WithoutBrakesAnEmptyBatteryLetsItRoll) {
+  WheeledPlatformParams params = rover_params();
+  for (WheelParams& wheel : params.wheels) wheel.motor.brake_torque_Nm = 0.0;
+  const auto roll = [](const WheeledPlatformParams& p, bool commanded) {
+    Rig rig(make_flat_world(), p);
+    rig.platform.set_forward_speed(1.0);
+    if (commanded) rig.command(5.0, 5.0);
+    rig.run(1.0);
+    return rig.body().X_WB.p.x();
+  };
+  params.battery.initial_charge = 0.0;
+  EXPECT_NEAR(roll(params, true), roll(free_wheeling_params(), false), 1e-9);
 }
 
 TEST(StaticLoads, BalanceForceAndMoment) {

@@ -131,6 +131,22 @@ TEST(SurveyCommand, RefusesInOneSentence) {
       "point 3");
   expect_refused("survey --origin 44,8 --polygon " + folder.file("two.csv", "0,0\n1,1\n"),
                  "it has 2 different points, needs at least 3");
+  expect_refused(start + "--heading nan", "--heading: must be finite");
+  expect_refused(start + "--start nan,0", "--start: must be finite");
+  expect_refused(start + "--image_columns 1280.5", "'1280.5' is not a whole number");
+  // What would change nothing.
+  for (const char* option : {"--set a=b", "--seed 3", "--plugin none.so", "--vehicle plane"}) {
+    expect_refused(start + option, std::string(option).substr(0, std::string(option).find(' ')) +
+                                       " has no effect without a scenario");
+  }
+  expect_refused(start + "--crs EPSG:32632", "--crs has no effect without --dem");
+  for (const char* option : {"--origin 44,8", "--dem none.tif", "--start 0,0", "--heading 90"}) {
+    expect_refused(std::string("survey s.yaml ") + option,
+                   std::string(option).substr(0, std::string(option).find(' ')) +
+                       " has no effect without --polygon");
+  }
+  expect_refused("survey --log none --pictures --height_m 60",
+                 "--height_m has no effect with --log");
 }
 
 TEST(SurveyCommand, SaysWhereLatitudeAndLongitudeAreSwapped) {

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
-#include <cmath>
-#include <limits>
+#include <initializer_list>
 #include <system_error>
 
 #include "controllers/planning/survey/survey.h"
@@ -175,11 +174,34 @@ std::filesystem::path out_of(const SurveyArguments& arguments, const SurveyTask&
   return arguments.out.empty() ? std::filesystem::path("surveys") / task.title : arguments.out;
 }
 
+/// Refuses options that would change nothing.
+void refuse_idle_options(const CLI::App& command, const SurveyArguments& arguments) {
+  const auto refuse = [&](std::initializer_list<const char*> names, const char* needed) {
+    for (const char* name : names) {
+      if (command.count(name) == 0) continue;
+      throw ConfigError(fmt::format("survey: {} has no effect without {}", name, needed));
+    }
+  };
+  if (!arguments.pictures) refuse({"--picture-width"}, "--pictures");
+  if (arguments.log.empty()) refuse({"--sensor"}, "--log");
+  if (arguments.polygon.empty()) {
+    refuse({"--origin", "--dem", "--crs", "--start", "--heading"}, "--polygon");
+  } else {
+    refuse({"--set", "--seed", "--plugin", "--vehicle"}, "a scenario");
+  }
+  if (arguments.dem.empty()) refuse({"--crs"}, "--dem");
+  if (arguments.log.empty()) return;
+  for (const auto& [name, text] : arguments.values) {
+    if (text.empty()) continue;
+    throw ConfigError(
+        fmt::format("survey: --{} has no effect with --log: nothing is planned", name));
+  }
+}
+
 }  // namespace
 
 void add_survey_command(CLI::App& app, int& exit_status) {
   auto arguments = std::make_shared<SurveyArguments>();
-  arguments->heading_deg = std::numeric_limits<double>::quiet_NaN();
   CLI::App* command = app.add_subcommand(
       "survey",
       "plan an aerial survey of a scenario or a polygon; write missions, waypoints, a plan view, "
@@ -233,26 +255,22 @@ void add_survey_command(CLI::App& app, int& exit_status) {
       ->add_option("--picture-width", arguments->picture_width,
                    "columns of the pictures (default: the camera's)")
       ->group(photographs);
-  command->callback([arguments, &exit_status] {
+  command->callback([arguments, command, &exit_status] {
     const bool has_scenario = !arguments->scenario.file.empty();
-    if (arguments->picture_width && !arguments->pictures) {
-      throw ConfigError("survey: --picture-width has no effect without --pictures");
+    if (!arguments->log.empty() &&
+        (!arguments->pictures || has_scenario || !arguments->polygon.empty())) {
+      throw ConfigError("survey: --log needs --pictures, and neither a scenario nor --polygon");
     }
-    if (!arguments->sensor.empty() && arguments->log.empty()) {
-      throw ConfigError("survey: --sensor has no effect without --log");
+    if (arguments->log.empty() && has_scenario == !arguments->polygon.empty()) {
+      throw ConfigError("survey: give either a scenario or --polygon");
     }
+    refuse_idle_options(*command, *arguments);
     if (!arguments->log.empty()) {
-      if (!arguments->pictures || has_scenario || !arguments->polygon.empty()) {
-        throw ConfigError("survey: --log needs --pictures, and neither a scenario nor --polygon");
-      }
       exit_status = take_flown_pictures(*arguments);
       return;
     }
     if (arguments->pictures && !has_scenario) {
       throw ConfigError("survey: --pictures needs the world of a scenario, or --log");
-    }
-    if (has_scenario == !arguments->polygon.empty()) {
-      throw ConfigError("survey: give either a scenario or --polygon");
     }
     if (has_scenario) {
       Registry registry;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cmath>
 #include <memory>
 
@@ -27,6 +28,13 @@ double read_number(const std::string& name, const std::string& text) {
   throw ConfigError(fmt::format("--{}: '{}' is not a number", name, text));
 }
 
+std::int64_t read_whole_number(const std::string& name, const std::string& text) {
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc() && end == text.data() + text.size()) return value;
+  throw ConfigError(fmt::format("--{}: '{}' is not a whole number", name, text));
+}
+
 /// Copies values of the command line into the planner's parameters, with the checks for files.
 void set_values(const std::map<std::string, std::string>& values, ParameterSet& parameters) {
   for (const ParameterSpec& spec : controllers::survey_spec().parameters) {
@@ -38,7 +46,7 @@ void set_values(const std::map<std::string, std::string>& values, ParameterSet& 
         parameters.set(spec.name, read_number(spec.name, text));
         break;
       case ParameterKind::kInteger:
-        parameters.set(spec.name, static_cast<std::int64_t>(read_number(spec.name, text)));
+        parameters.set(spec.name, read_whole_number(spec.name, text));
         break;
       case ParameterKind::kBoolean:
         if (text != "true" && text != "false") {
@@ -145,7 +153,11 @@ SurveyTask task_of_polygon(const SurveyArguments& arguments) {
     if (arguments.start.size() != 2) throw ConfigError("--start: must be x,y in metres");
     start = {arguments.start[0], arguments.start[1]};
   }
-  if (std::isfinite(arguments.heading_deg)) yaw_rad = rad_from_deg(90.0 - arguments.heading_deg);
+  if (!start.allFinite()) throw ConfigError("--start: must be finite");
+  if (arguments.heading_deg) {
+    if (!std::isfinite(*arguments.heading_deg)) throw ConfigError("--heading: must be finite");
+    yaw_rad = rad_from_deg(90.0 - *arguments.heading_deg);
+  }
   const auto ground_m = task.ground(start);
   if (!ground_m) {
     // If the polygon is outside too, its own message is clearer.

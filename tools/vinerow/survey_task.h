@@ -24,7 +24,7 @@ struct SurveyArguments {
   std::string sensor;
   std::string crs;
   std::vector<double> origin, start;
-  double heading_deg = 0.0;
+  std::optional<double> heading_deg;
   std::map<std::string, std::string> values;  ///< parameters of the planner, as texts
 };
 

@@ -40,6 +40,20 @@ void check_centre(const io::YamlNode& camera, const io::YamlEntry& centre, const
   }
 }
 
+/// Checks a fixed camera: it stands above the ground and looks at another place than its own.
+void check_fixed(const io::YamlNode& camera, const CameraConfig& read, const std::string& path) {
+  if (read.p_W.z() <= 0.0) {
+    io::fail_at(camera.find_entry("position_m")->value.mark,
+                fmt::format("{}.position_m = [{:g}, {:g}, {:g}]: the camera would not be above the "
+                            "ground, from which its height is measured",
+                            path, read.p_W.x(), read.p_W.y(), read.p_W.z()));
+  }
+  if (read.target_W == read.p_W) {
+    io::fail_at(camera.find_entry("look_at_m")->value.mark,
+                fmt::format("{}.look_at_m is the camera's own place, must be another", path));
+  }
+}
+
 CameraConfig read_camera(const io::YamlEntry& entry, const std::string& path,
                          const std::vector<std::string>& vehicles, io::YamlNode& resolved) {
   const io::YamlNode& node = entry.value;
@@ -56,6 +70,7 @@ CameraConfig read_camera(const io::YamlEntry& entry, const std::string& path,
   if (const io::YamlEntry* centre = node.find_entry("centre_m"); centre && kind == "top") {
     check_centre(node, *centre, path, camera.height_m);
   }
+  if (camera.kind == CameraKind::kFixed) check_fixed(node, camera, path);
   const bool follows = kind == "chase" || kind == "on_board" || kind == "shots";
   const io::YamlEntry* named = node.find_entry("vehicle");
   if (named) {

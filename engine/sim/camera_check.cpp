@@ -32,19 +32,15 @@ void refuse_hidden_cameras(const scenario::PicturesConfig& pictures, const World
   const PlacementGround ground(world, scene);
   for (const scenario::CameraConfig& camera : pictures.cameras) {
     if (camera.kind != scenario::CameraKind::kFixed) continue;
-    const auto refuse = [&](const std::string& where) {
-      throw ConfigError(fmt::format(
-          "{}: camera '{}' would be {}; the height in position_m = [{:g}, {:g}, {:g}] is measured "
-          "from the ground",
-          camera.where.text(), camera.name, where, camera.p_W.x(), camera.p_W.y(), camera.p_W.z()));
-    };
-    if (camera.p_W.z() <= 0.0) refuse(fmt::format("{:g} m below the ground", -camera.p_W.z()));
     const double ground_m = ground.height_m(camera.p_W.x(), camera.p_W.y()).value_or(0.0);
     const int mesh = find_surrounding(scene, camera.p_W + Eigen::Vector3d(0.0, 0.0, ground_m));
-    if (mesh >= 0) {
-      refuse(fmt::format("inside the {} '{}'", to_string(world.meshes[mesh].surface),
-                         world.meshes[mesh].name));
-    }
+    if (mesh < 0) continue;
+    throw ConfigError(
+        fmt::format("{}: camera '{}' would be inside the {} '{}'; the height in position_m = "
+                    "[{:g}, {:g}, {:g}] "
+                    "is measured from the ground",
+                    camera.where.text(), camera.name, to_string(world.meshes[mesh].surface),
+                    world.meshes[mesh].name, camera.p_W.x(), camera.p_W.y(), camera.p_W.z()));
   }
 }
 

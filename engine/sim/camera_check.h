@@ -8,8 +8,7 @@
 namespace vinerow {
 
 /// Checks fixed cameras. The positions of other cameras are known only during the run.
-/// @throws ConfigError "scenario.yaml:30: pictures.cameras: camera 'gate' would be 2 m below the
-/// ground; ..."
+/// @throws ConfigError "scenario.yaml:30: camera 'gate' would be inside the obstacle 'shed'; ..."
 void refuse_hidden_cameras(const scenario::PicturesConfig& pictures, const WorldModel& world,
                            const SceneQuery& scene);
 

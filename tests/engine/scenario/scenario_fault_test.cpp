@@ -230,6 +230,13 @@ TEST(ScenarioFault, CriteriaAndCamerasNameVehicles) {
       fault_of(with_line(2, pictures + "{kind: fixed, look_at_m: [0, 0, 0]}")),
       "scenario:4: pictures.cameras.c.position_m must be given: a list of 3 numbers in m (x, y and "
       "height above the ground)");
+  EXPECT_EQ(fault_of(with_line(
+                2, pictures + "{kind: fixed, position_m: [1, 2, -3], look_at_m: [1, 2, 0]}")),
+            "scenario:4: pictures.cameras.c.position_m = [1, 2, -3]: the camera would not be above "
+            "the ground, from which its height is measured");
+  EXPECT_EQ(fault_of(with_line(
+                2, pictures + "{kind: fixed, position_m: [1, 2, 3], look_at_m: [1, 2, 3]}")),
+            "scenario:4: pictures.cameras.c.look_at_m is the camera's own place, must be another");
   EXPECT_THAT(fault_of(with_line(2, pictures + "{kind: top, distance_m: 3}")),
               HasSubstr("pictures.cameras.c.distance_m: unknown key of camera of kind 'top'"));
   EXPECT_EQ(

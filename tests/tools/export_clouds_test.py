@@ -173,6 +173,7 @@ class ExportOfClouds(unittest.TestCase):
         self.assertIn("none of the topics has clouds", self.refused("--topic", "/rover/n*", "--ply"))
         self.assertIn("topic '/rover/note' has no clouds", self.refused("--topic", "/rover/note", "-o", "x.ply"))
         self.assertIn("no topic '/rover/gone'", self.refused("--topic", "/rover/lidar", "-o", "x.ply", "--poses", "/rover/gone"))
+        self.assertIn("has clouds of 'rover', whose poses '/drone/truth' does not hold", self.refused("--topic", "/rover/lidar", "-o", "x.ply", "--poses", "/drone/truth"))
         self.assertIn("-o must be a .pcd or .ply file", self.refused("--topic", "/rover/lidar", "--ply", "--poses", "/rover/truth"))
         self.assertIn("--pcd excludes --ply", self.refused("--topic", "/rover/lidar", "--ply", "--pcd"))
         self.assertIn("-o is a .ply file, with --pcd it must be a folder or a .pcd file", self.refused("--topic", "/rover/lidar", "--pcd", "-o", "x.ply"))

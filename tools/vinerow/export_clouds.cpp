@@ -47,11 +47,15 @@ void write_map_cloud(record::McapReader& log, const std::string& topic, const To
     fail(fmt::format("has clouds in the frame '{}', which /tf_static does not place on a vehicle",
                      frame));
   }
+  const std::string vehicle = mounting->body.substr(0, mounting->body.rfind('/'));
   std::string poses_topic = arguments.poses;
   if (poses_topic.empty()) {
-    poses_topic = "/" + mounting->body.substr(0, mounting->body.rfind('/')) + "/truth";
+    poses_topic = "/" + vehicle + "/truth";
   } else if (!poses_topic.starts_with('/')) {
     poses_topic = "/" + poses_topic;
+  }
+  if (!poses_topic.starts_with("/" + vehicle + "/")) {
+    fail(fmt::format("has clouds of '{}', whose poses '{}' does not hold", vehicle, poses_topic));
   }
   playback::Trace<Odometry> poses;
   record::LogReader(arguments.log).read<Odometry>(poses_topic, [&](Time t, const Odometry& pose) {

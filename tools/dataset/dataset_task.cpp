@@ -113,8 +113,8 @@ void DatasetTask::check_cell(std::size_t cell) {
   readouts_s_.push_back(nature.readout_s);
   if (nature.takes_depth_alone) {
     fail(
-        fmt::format("camera = '{}' takes pictures of depth alone; choose one of colour, grey or "
-                    "a band",
+        fmt::format("camera = '{}' takes pictures of depth alone; choose one of colour, mono "
+                    "or a band",
                     config().camera));
   }
   if (writes("kitti") && nature.has_distortion) {

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/core/error.h"
+#include "engine/core/suggest.h"
 #include "engine/core/whole_file.h"
 #include "engine/run/run.h"
 #include "engine/sim/judge.h"
@@ -96,7 +97,10 @@ CellState cell_state_of(const std::string& word) {
   for (const auto& [state, known] : kWords) {
     if (word == known) return state;
   }
-  throw ConfigError(fmt::format("'{}' is not a state of a cell", word));
+  std::vector<std::string> known;
+  for (const auto& entry : kWords) known.emplace_back(entry.second);
+  throw ConfigError(fmt::format("'{}' is not a state of a cell, must be one of: {}{}", word,
+                                join(known), did_you_mean(word, known)));
 }
 
 bool is_finished(CellState state) {

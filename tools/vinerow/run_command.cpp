@@ -22,13 +22,20 @@ namespace {
 /// Thrown to leave work that Ctrl-C ends.
 struct Interrupted {};
 
+/// "257", "4.2": so that a run slower than real time does not show 0.
+std::string factor_text(double factor) {
+  return factor < 9.95 ? fmt::format("{:.1f}", factor) : fmt::format("{:.0f}", factor);
+}
+
 void show_simulation(ProgressLine& line, const run::Progress& progress) {
   const double share = progress.duration_s > 0.0 ? progress.simulated_s / progress.duration_s : 1.0;
   const double factor = progress.wall_s > 0.0 ? progress.simulated_s / progress.wall_s : 0.0;
-  const double left_s = factor > 0.0 ? (progress.duration_s - progress.simulated_s) / factor : 0.0;
+  // The last step may end a little after the duration.
+  const double left_s =
+      factor > 0.0 ? std::max(0.0, progress.duration_s - progress.simulated_s) / factor : 0.0;
   line.show("simulating", share,
-            fmt::format("{:.1f} s, {:.0f} x real time, at most {:.0f} s left", progress.simulated_s,
-                        factor, left_s));
+            fmt::format("{:.1f} s, {} x real time, at most {:.0f} s left", progress.simulated_s,
+                        factor_text(factor), left_s));
 }
 
 /// Prints "succeeded  survey        0.0 to 288.9 s", and the reason if the phase did not succeed.
@@ -60,8 +67,8 @@ void print_verdict(const run::RunResult& result, const std::filesystem::path& ou
                c.met ? coloured("met   ", Colour::kGood) : coloured("FAILED", Colour::kBad),
                sentence_of(c));
   }
-  fmt::print("simulated {:.3f} s in {:.2f} s ({:.0f} x real time), mission {}\n",
-             result.simulated_s, result.wall_s, result.real_time_factor(),
+  fmt::print("simulated {:.3f} s in {:.2f} s ({} x real time), mission {}\n", result.simulated_s,
+             result.wall_s, factor_text(result.real_time_factor()),
              result.finished ? "finished" : "not finished");
   fmt::print("digest   {}\n", result.digest);
   fmt::print("summary  {}\n", (out / "summary.json").string());

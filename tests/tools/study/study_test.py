@@ -287,6 +287,8 @@ class Study(study_case.StudyCase):
         self.assertIn("need '--runner slurm'", self.study("run", two, "--chunk", 3, status=2, out="bad"))
         self.assertIn("--jobs: must be > 0, is '0'", self.study("run", two, "--jobs", 0, status=2, out="bad"))
         self.assertIn("there is nothing to resume", self.study("resume", self.write(""), status=2, out="none"))
+        self.assertIn("'mt' is not a state of a cell, must be one of: waiting, not needed, met, not met, broken off, invalid, crashed, out of time, out of "
+                      "memory; did you mean 'met'?", self.study("list", self.write(""), "--state", "mt", status=2))
         self.assertIn("there is no cell 1, the study has cells 0 to 0", self.study("cell", self.write(""), 1, status=2))
         (self.folder / "peer.yaml").write_text(f"vinerow_study: 1\nscenario: {ROOT}/docs/examples/live/follow_path.yaml\n")
         self.assertIn("lockstep.topic = 'rover/cmd_vel' waits for the commands of a program outside, and this run has none",

@@ -31,6 +31,21 @@ double Results::value(std::size_t cell, const std::string& name) const {
                                                                   : values[found->second];
 }
 
+bool Results::seeds_change_nothing() const {
+  bool has_several = false;
+  for (std::size_t setting = 0; setting < design_.settings(); ++setting) {
+    const std::string* first = nullptr;
+    for (std::size_t k = 0; k < design_.seeds(); ++k) {
+      const Cell& cell = cells_[design_.cell_of(setting, k)];
+      if (!has_numbers(cell.state)) continue;
+      if (first != nullptr && cell.digest != *first) return false;
+      has_several = has_several || first != nullptr;
+      first = &cell.digest;
+    }
+  }
+  return has_several;
+}
+
 std::map<CellState, std::size_t> Results::counts() const {
   std::map<CellState, std::size_t> counts;
   for (const Cell& cell : cells_) ++counts[cell.state];

@@ -34,6 +34,10 @@ class Results {
   /// kNoNumber if absent.
   double value(std::size_t cell, const std::string& name) const;
 
+  /// True if the runs of every setting with several finished seeds have one digest, and there is
+  /// such a setting: nothing in the scenario is random, and intervals over the seeds say nothing.
+  bool seeds_change_nothing() const;
+
   /// Number of cells in each state.
   std::map<CellState, std::size_t> counts() const;
 

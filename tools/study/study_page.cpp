@@ -62,6 +62,11 @@ std::string outcome(const OpenStudy& open, const Results& results) {
         "below.</strong>",
         counted(static_cast<long>(failed), "run"));
   }
+  if (results.seeds_change_nothing()) {
+    words +=
+        " <strong>All runs of a setting have the same digest: the seed changes nothing, and "
+        "intervals over the seeds say nothing.</strong>";
+  }
   return words + "</p>\n" + table({"state", "runs", "first reason"}, rows);
 }
 

@@ -95,6 +95,9 @@ void print_counts(const OpenStudy& open, const Results& results) {
       ++shown;
     }
   }
+  if (results.seeds_change_nothing()) {
+    fmt::print("note     all runs of a setting have the same digest: the seed changes nothing\n");
+  }
 }
 
 /// Exit status of a cell, as `vinerow run` returns it.

@@ -244,6 +244,15 @@ class Study(study_case.StudyCase):
         self.assertIn(self.rows()[7]["digest"], told)
         self.assertTrue((self.folder / "out" / "repeat" / "7" / "log.mcap").exists())
 
+    def test_seeds_that_change_nothing_are_reported(self):
+        rows = "factors: {lookahead: {key: rover.controller.lookahead_m, values: [0.5, 1.0]}}\nseeds: 2\n"
+        told = self.study("run", self.write("set: {duration_s: 3, criteria: []}\n" + rows))
+        self.assertIn("note     all runs of a setting have the same digest: the seed changes nothing\n", told)
+        self.assertEqual(len({row["digest"] for row in self.rows()}), 2)
+        self.assertIn("the seed changes nothing", (self.folder / "out" / "study.html").read_text())
+        for text in (rows, rows.replace("seeds: 2", "seeds: 1")):  # with noise, and without a second seed
+            self.assertNotIn("the seed changes nothing", self.study("run", self.write(text), out="noisy" + text[-2]))
+
     def test_plots_and_page(self):
         import xml.etree.ElementTree as xml
         file = self.write(self.TWO + "metrics: [rover.average_deviation_m, rover.distance_m]\ndescription: <b>not bold</b>\n")

@@ -34,7 +34,7 @@ std::string ProgressWatch::update(Time now, const Eigen::Vector3d& p_W,
   for (const int wheel : wheels_) sum_radps += actuators[static_cast<std::size_t>(wheel)];
   driven_m_ += radius_m_ * sum_radps / static_cast<double>(wheels_.size()) * dt.s();
   if (std::abs(driven_m_) < kDriven_m || (now - since_).s() < kPatience_s) return {};
-  return fmt::format("its wheels were driven for {:.1f} m in {:.1f} s and it moved {:.2f} m",
+  return fmt::format("its wheels were commanded to roll {:.1f} m in {:.1f} s and it moved {:.2f} m",
                      std::abs(driven_m_), (now - since_).s(), moved_m);
 }
 

@@ -29,8 +29,8 @@ class ProgressWatch {
   /// @param p_W  position of the vehicle
   /// @param actuators  commanded values, in the order of the description
   /// @param dt  since the last call
-  /// @returns "its wheels were driven for 19.1 m in 20.0 s and it moved 0.12 m" when it is stuck,
-  /// else empty
+  /// @returns "its wheels were commanded to roll 19.1 m in 20.0 s and it moved 0.12 m" when it
+  /// is stuck, else empty
   std::string update(Time now, const Eigen::Vector3d& p_W, const std::vector<double>& actuators,
                      Duration dt);
 

@@ -97,7 +97,7 @@ TEST(MeshWorldRun, AWallThatIsPartOfTheTerrainIsTouchedAndHoldsWhoGoesOn) {
   EXPECT_EQ(result.status, 1) << result.output;
   EXPECT_THAT(events(folder), HasSubstr("touches a wall of the terrain at x = 6.0"));
   EXPECT_THAT(result.output, HasSubstr("rover is stuck at "));
-  EXPECT_THAT(result.output, HasSubstr("its wheels were driven for "));
+  EXPECT_THAT(result.output, HasSubstr("its wheels were commanded to roll "));
   const std::string summary = test::read_text(folder.path() / "out" / "summary.json");
   EXPECT_THAT(summary, HasSubstr("\"status\": \"a vehicle is stuck\""));
 }

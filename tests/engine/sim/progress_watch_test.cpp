@@ -65,7 +65,7 @@ TEST(ProgressWatch, SaysHowFar) {
     reason = watch.update(Time{i * 125'000'000ll}, {0.12 * (i > 0), 0, 0}, {0, 5, 5},
                           Duration{125'000'000});
   }
-  EXPECT_EQ(reason, "its wheels were driven for 20.0 m in 20.0 s and it moved 0.12 m");
+  EXPECT_EQ(reason, "its wheels were commanded to roll 20.0 m in 20.0 s and it moved 0.12 m");
 }
 
 }  // namespace

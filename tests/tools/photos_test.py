@@ -127,6 +127,22 @@ class Photos(unittest.TestCase):
         self.assertLess(rms.max(), 1.0)
         self.assertGreater(rms.max(), 2e-3)
 
+    def test_exposure_does_not_depend_on_the_width(self):
+        with tempfile.TemporaryDirectory() as folder:
+            means = []
+            for width in (32, 96):
+                done = call("survey", "--log", self.folder.parents[1] / "run", "--pictures", "--picture-width", width, "--out",
+                            pathlib.Path(folder) / str(width))
+                self.assertEqual(done.returncode, 0, done.stderr)
+                means.append([numpy.asarray(Image.open(path), dtype=float).mean(axis=(0, 1))
+                              for path in sorted((pathlib.Path(folder) / str(width) / "pictures").glob("*.jpg"))])
+            means.append([numpy.asarray(Image.open(path), dtype=float).mean(axis=(0, 1)) for path in sorted(self.folder.glob("*.jpg"))])
+            means = numpy.array(means)  # (widths, photographs, colours)
+            # The geometric mean is exposed to 0.18 of the range, 118 of 255 in sRGB; the arithmetic mean of coarser pixels is the same.
+            self.assertLess(means.max(), 230)
+            self.assertGreater(means.min(), 60)
+            self.assertLess(numpy.abs(means - means[2]).max(), 12)
+
     def test_xmp_has_the_orientation(self):
         tilts = []
         for row in self.truth:

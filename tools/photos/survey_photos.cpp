@@ -40,8 +40,10 @@ Lens photo_lens(const SurveyCamera& camera) {
 /// What all photographs share. Thread safe.
 class Darkroom {
  public:
-  Darkroom(const SurveyCamera& camera, const WorldModel& world, std::uint64_t seed)
+  /// @param columns  of the camera itself; pictures of fewer have pixels that join several of its
+  Darkroom(const SurveyCamera& camera, int columns, const WorldModel& world, std::uint64_t seed)
       : camera_(camera),
+        joined_(std::max(1.0, static_cast<double>(columns) / camera.columns)),
         world_(world),
         seed_(seed),
         frame_(world.origin),
@@ -69,6 +71,9 @@ class Darkroom {
 
     sensors::ImagerParams image_sensor;
     image_sensor.pixel_um = 1e3 * camera_.sensor_width_mm / camera_.columns;
+    // Pixels that are joined hold the electrons of all of them: else the shortest exposure fills
+    // them.
+    image_sensor.full_well_e *= joined_ * joined_;
     sensors::Imager imager(image_sensor, camera_.columns, camera_.rows, 3, look_.white(),
                            RandomStream(seed_, "survey", "pattern"));
     sensors::QuickNormals noise{RandomStream(seed_, "survey", name)};
@@ -96,6 +101,7 @@ class Darkroom {
 
  private:
   const SurveyCamera& camera_;
+  double joined_;  ///< columns of the camera in one of a picture, >= 1
   const WorldModel& world_;
   std::uint64_t seed_;
   LocalFrame frame_;
@@ -162,7 +168,7 @@ bool write_survey_photos(const PictureSet& pictures, const WorldModel& world,
   const std::size_t count = pictures.X_WS.size();
   if (count == 0) throw ConfigError("survey: there are no pictures");
   io::WholeFolder whole(folder);
-  const Darkroom darkroom(camera, world, options.seed);
+  const Darkroom darkroom(camera, pictures.camera.columns, world, options.seed);
   std::vector<Eigen::Vector3d> places_W = pictures.estimated_W;
   if (places_W.empty()) {
     for (const Pose& X_WS : pictures.X_WS) places_W.push_back(X_WS.p);

@@ -82,6 +82,10 @@ class Help(unittest.TestCase):
                                  "Could not convert: --picture-width = 1.5; see 'vinerow survey --help'"),
                                 (["render", "x", "--width", "5"],
                                  "--width: Value 5 not in range 16 to 8192; see 'vinerow render --help'"),
+                                (["render", "x", "--every", "inf"],
+                                 "--every: must be <= 1e+09, is 'inf'; see 'vinerow render --help'"),
+                                (["compare", "a", "b", "--tolerance", "nan"],
+                                 "--tolerance: must be from 0 to 1, is 'nan'; see 'vinerow compare --help'"),
                                 (["run"], "scenario is required; see 'vinerow run --help'"),
                                 ([], "A subcommand is required; see 'vinerow --help'")):
             self.assertEqual(vinerow(*words, status=2), f"vinerow: {sentence}\n")

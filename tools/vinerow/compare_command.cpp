@@ -88,7 +88,7 @@ void add_compare_command(CLI::App& app, int& exit_status) {
   command
       ->add_option("--tolerance", arguments->tolerance,
                    "runs: metrics that differ by at most this fraction count as equal")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(within(0.0, 1.0));
   command
       ->add_option("--fail-on", arguments->fail_on,
                    "runs: exit with status 1 if a criterion or phase that the first run met is "

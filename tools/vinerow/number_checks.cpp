@@ -2,19 +2,29 @@
 
 #include <fmt/format.h>
 
+#include <string>
+#include <utility>
+
 namespace vinerow::tools {
 namespace {
 
+/// As of times in a scenario: more seconds do not fit into the kernel's clock, and no other option
+/// needs more.
+constexpr double kLargest = 1e9;
+
 template <class Holds>
-CLI::Validator check(const char* words, const char* name, Holds holds) {
+CLI::Validator check(std::string words, std::string description, Holds holds) {
   return CLI::Validator(
-      [words, holds](const std::string& text) {
+      [words = std::move(words), holds](const std::string& text) {
         double value = 0.0;
         // NaN fulfils no condition.
-        const bool is_good = CLI::detail::lexical_cast(text, value) && holds(value);
-        return is_good ? std::string() : fmt::format("must be {}, is '{}'", words, text);
+        if (!CLI::detail::lexical_cast(text, value) || !holds(value)) {
+          return fmt::format("must be {}, is '{}'", words, text);
+        }
+        if (value > kLargest) return fmt::format("must be <= {:g}, is '{}'", kLargest, text);
+        return std::string();
       },
-      name);
+      std::move(description));
 }
 
 }  // namespace
@@ -25,6 +35,12 @@ CLI::Validator positive() {
 
 CLI::Validator not_negative() {
   return check(">= 0", "NONNEGATIVE", [](double value) { return value >= 0.0; });
+}
+
+CLI::Validator within(double lowest, double highest) {
+  return check(fmt::format("from {:g} to {:g}", lowest, highest),
+               fmt::format("FLOAT in [{:g} - {:g}]", lowest, highest),
+               [=](double value) { return value >= lowest && value <= highest; });
 }
 
 }  // namespace vinerow::tools

@@ -5,9 +5,12 @@
 
 namespace vinerow::tools {
 
+/// Each also refuses what is above 1e9.
 /// "--jobs: must be > 0, is '0'"
 CLI::Validator positive();
 /// "--from: must be >= 0, is '-1'"
 CLI::Validator not_negative();
+/// "--tolerance: must be from 0 to 1, is '2'"
+CLI::Validator within(double lowest, double highest);
 
 }  // namespace vinerow::tools

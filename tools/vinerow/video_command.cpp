@@ -7,6 +7,7 @@
 #include "engine/io/files/output_folder.h"
 #include "engine/render/scene.h"
 #include "tools/terminal/progress_line.h"
+#include "tools/vinerow/number_checks.h"
 #include "tools/vinerow/picture_arguments.h"
 #include "tools/vinerow/subcommands.h"
 #include "tools/vinerow/video_encoder.h"
@@ -80,10 +81,10 @@ void add_video_command(CLI::App& app, int& exit_status) {
       "-o,--out", arguments->out,
       "video to write: .mp4, .mkv, .webm, .gif (default: <camera>.mp4 next to the log)");
   command->add_option("--fps", arguments->fps, "frames per second of the video")
-      ->check(CLI::Range(1.0, 240.0))
+      ->check(within(1.0, 240.0))
       ->capture_default_str();
   command->add_option("--speed", arguments->speed, "simulated seconds per second of the video")
-      ->check(CLI::Range(0.01, 1000.0))
+      ->check(within(0.01, 1000.0))
       ->capture_default_str();
   command->add_flag("--quiet", arguments->quiet, "show no progress");
   command->callback([arguments, &exit_status] { exit_status = make_video(*arguments); });

@@ -245,6 +245,13 @@ TEST(ReportVerdict, SaysInASentenceWhatFailed) {
   EXPECT_EQ(make_verdict(folder_of(both)).headline, "All 2 requirements met");
   EXPECT_THAT(criteria_table(folder_of(both)), HasSubstr("−0.03 to 0.03"));
 
+  // A name of the user's own is shown, one that repeats metric and limit is not.
+  EXPECT_THAT(criteria_table(folder_of(both)), HasSubstr("<summary>o ("));
+  const std::string plain =
+      R"({"exit_status": 0, "criteria": [{"name": "rover.slip_max <= 0.1", "metric": "rover.slip_max",
+          "kind": "max", "value": 0.01, "limit": 0.1, "met": true}]})";
+  EXPECT_THAT(criteria_table(folder_of(plain)), Not(HasSubstr("0.1 (")));
+
   const Verdict failed = make_verdict(folder_of(R"({"exit_status": 1, "criteria": [
       {"metric": "rover.cross_track_max_m", "kind": "max", "value": 0.13, "limit": 0.1, "met": false},
       {"metric": "plane.covered_share", "kind": "min", "value": 0.934, "limit": 0.99, "met": false},

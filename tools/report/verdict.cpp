@@ -216,8 +216,11 @@ std::string criteria_table(const RunFolder& run) {
     const std::string unit = unit_of(name);
     const std::string source =
         meaning.source.empty() ? "" : fmt::format(" ({})", escaped(meaning.source));
+    // A name of the user's own; others repeat metric and limit.
+    const std::string own = c.value("name", metric);
     const std::string title =
-        escaped(sentence_case(criterion_title(metric))) +
+        escaped(own.starts_with(metric) ? sentence_case(criterion_title(metric))
+                                        : fmt::format("{} ({})", own, criterion_title(metric))) +
         (judged.phase.empty() ? "" : " <em>in " + escaped(judged.phase) + "</em>");
     rows.push_back(
         {judged.is_met() ? "<span class=\"badge met\">met</span>"

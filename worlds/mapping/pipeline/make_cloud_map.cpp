@@ -41,7 +41,7 @@ std::vector<double> distances_between(const RowCurve& row, const RowCurve& next)
 }
 
 std::string describe_canopy(const CanopyRaster& raster, double cut_m,
-                            const std::vector<RowPatch>& patches) {
+                            const std::vector<RowPatch>& patches, const RowPatchOptions& searched) {
   double canopy_m2 = 0.0;
   for (const float weight : raster.weights) canopy_m2 += weight > 0.0f ? 1.0 : 0.0;
   canopy_m2 *= raster.cell_m * raster.cell_m;
@@ -51,9 +51,9 @@ std::string describe_canopy(const CanopyRaster& raster, double cut_m,
   double likelihood = 0.0;
   for (const RowPatch& patch : patches) likelihood = std::max(likelihood, patch.likelihood);
   return fmt::format(
-      "{:.0f} m2 are higher than {:g} m, but no two lines of it are side by side (likelihood of "
-      "rows {:.2f})",
-      canopy_m2, cut_m, likelihood);
+      "{:.0f} m2 are higher than {:.2f} m, but no two lines of it are side by side, {:g} to {:g} m "
+      "apart as row_spacing_m says (likelihood of rows {:.2f})",
+      canopy_m2, cut_m, searched.spacing_low_m, searched.spacing_high_m, likelihood);
 }
 
 struct FoundRows {
@@ -141,8 +141,8 @@ FoundRows find_rows(const ParcelCloud& cloud, const HeightField& terrain, double
   }
   found.blocks = split_blocks(lines, spacing_m).blocks;
   if (found.blocks.empty()) {
-    throw ConfigError(
-        fmt::format("no rows found: {}", describe_canopy(raster, found.body_cut_m, patches)));
+    throw ConfigError(fmt::format(
+        "no rows found: {}", describe_canopy(raster, found.body_cut_m, patches, patch_options)));
   }
   note_canopy_left(raster, cloud, found);
   return found;

@@ -389,6 +389,9 @@ TEST(MakeCloudMap, SaysWhatStandsThereWhereThereAreNoRows) {
   }
   EXPECT_NE(refusal(bare).find("m2 are higher than"), std::string::npos) << refusal(bare);
   EXPECT_EQ(refusal(bare).find("no rows found: "), 0u) << refusal(bare);
+  EXPECT_NE(refusal(bare).find("side by side, 1 to 6 m apart as row_spacing_m says"),
+            std::string::npos)
+      << refusal(bare);
   EXPECT_EQ(refusal(ParcelCloud{}), "no rows found: the cloud has no points");
 }
 

@@ -22,9 +22,9 @@ namespace {
 /// Thrown to leave work that Ctrl-C ends.
 struct Interrupted {};
 
-/// "257", "4.2": so that a run slower than real time does not show 0.
+/// "257", "4.2", "0.019": so that a run slower than real time does not show 0.
 std::string factor_text(double factor) {
-  return factor < 9.95 ? fmt::format("{:.1f}", factor) : fmt::format("{:.0f}", factor);
+  return factor < 9.95 ? fmt::format("{:.2g}", factor) : fmt::format("{:.0f}", factor);
 }
 
 void show_simulation(ProgressLine& line, const run::Progress& progress) {

@@ -56,6 +56,17 @@ def degrees(values):
     return d + m / 60 + s / 3600
 
 
+def geo_entries(file):
+    """Lines of geo.txt by OpenDroneMap's documentation ("Image geolocation files"): file name to its eight numbers."""
+    lines = file.read_text().splitlines()
+    assert lines[0] == "EPSG:4326"
+    entries = {}
+    for line in lines[1:]:
+        name, *numbers = line.split()
+        entries[name] = dict(zip(("x", "y", "z", "yaw", "pitch", "roll", "horizontal", "vertical"), map(float, numbers), strict=True))
+    return entries
+
+
 class Photos(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -112,7 +123,7 @@ class Photos(unittest.TestCase):
             gps = {ExifTags.GPSTAGS[tag]: value for tag, value in exif.get_ifd(0x8825).items()}
             self.assertEqual((gps["GPSLatitudeRef"], gps["GPSLongitudeRef"], gps["GPSMapDatum"]), ("S", "W", "WGS-84"))
             said = [-degrees(gps["GPSLatitude"]), -degrees(gps["GPSLongitude"]), float(gps["GPSAltitude"])]
-            name, longitude, latitude, altitude = line.split()
+            name, longitude, latitude, altitude, *_ = line.split()
             self.assertEqual(name, row["photo"])
             numpy.testing.assert_allclose([float(latitude), float(longitude)], said[:2], atol=4e-9)
             self.assertAlmostEqual(float(altitude), said[2], places=3)
@@ -203,6 +214,43 @@ class Photos(unittest.TestCase):
                     greener += on > off
         self.assertGreater(total, 50)
         self.assertGreater(greener / total, 0.9)
+
+    def test_angles_are_those_of_opendronemap(self):
+        # Its conventions (opendm/photo.py): yaw 90: the upper edge points east; pitch 0: straight down, 90: ahead.
+        entries = geo_entries(self.folder / "geo.txt")
+        self.assertEqual(sorted(entries), [row["photo"] for row in self.truth])
+        tilts = []
+        for row in self.truth:
+            entry = entries[row["photo"]]
+            w, x, y, z = (float(row[key]) for key in ("qw", "qx", "qy", "qz"))
+            upper = numpy.array([2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)])
+            left = numpy.array([2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)])
+            yaw = numpy.degrees(numpy.arctan2(upper[0], upper[1]))
+            self.assertAlmostEqual((entry["yaw"] - yaw + 180) % 360, 180, delta=1e-3)
+            # The optical axis looks ahead as much as the upper edge points up.
+            self.assertAlmostEqual(entry["pitch"], numpy.degrees(numpy.arcsin(upper[2])), delta=1e-3)
+            # To the right wing down: the picture's left edge is up.
+            self.assertAlmostEqual(entry["roll"], numpy.degrees(numpy.arcsin(left[2] / numpy.sqrt(1 - upper[2] ** 2))), delta=1e-3)
+            tilts.append([entry["pitch"], entry["roll"]])
+        self.assertGreater(numpy.abs(tilts).max(axis=0).min(), 1.0)  # or the test above compares zeros
+
+    def test_accuracies_are_the_errors_of_the_estimate(self):
+        entries = geo_entries(self.folder / "geo.txt")
+        errors = numpy.array([local([entries[row["photo"]][key] for key in "yxz"], ORIGIN) -
+                              [float(row[key]) for key in ("x_m", "y_m", "z_m")] for row in self.truth])
+        rms = numpy.sqrt((errors ** 2).mean(axis=0))
+        for entry in entries.values():
+            self.assertAlmostEqual(entry["horizontal"], max(numpy.hypot(rms[0], rms[1]), 0.01), delta=2e-3)
+            self.assertAlmostEqual(entry["vertical"], max(rms[2], 0.01), delta=2e-3)
+
+    def test_planned_places_are_exact_to_a_centimetre(self):
+        with tempfile.TemporaryDirectory() as folder:
+            result = call("survey", SCENARIO, "--pictures", "--picture-width", 32, "--out", folder)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            entries = geo_entries(pathlib.Path(folder) / "pictures" / "geo.txt")
+            self.assertGreater(len(entries), 50)
+            for entry in entries.values():
+                self.assertEqual([entry[key] for key in ("pitch", "roll", "horizontal", "vertical")], [0, 0, 0.01, 0.01])
 
 
 class BadInput(unittest.TestCase):

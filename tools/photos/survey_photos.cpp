@@ -115,20 +115,40 @@ std::string photo_name(std::size_t index) {
   return fmt::format("photo_{:04}.jpg", index + 1);
 }
 
+/// Least accuracy that is stated: OpenDroneMap takes 0 as unknown.
+constexpr double kLeastAccuracy_m = 0.01;
+
+/// Root of the mean squared error of the positions, horizontally and vertically.
+Eigen::Vector2d calc_accuracy_m(const PictureSet& pictures,
+                                const std::vector<Eigen::Vector3d>& places_W) {
+  Eigen::Vector2d squares_m2 = Eigen::Vector2d::Zero();
+  for (std::size_t i = 0; i < places_W.size(); ++i) {
+    const Eigen::Vector3d error_W = places_W[i] - pictures.X_WS[i].p;
+    squares_m2 += Eigen::Vector2d(error_W.head<2>().squaredNorm(), error_W.z() * error_W.z());
+  }
+  return (squares_m2 / static_cast<double>(places_W.size())).cwiseSqrt().cwiseMax(kLeastAccuracy_m);
+}
+
 /// Names, positions and orientations of all photographs.
 void write_lists(const PictureSet& pictures, const std::vector<Eigen::Vector3d>& places_W,
                  const LocalFrame& frame, const std::filesystem::path& folder) {
+  // OpenDroneMap, "Image geolocation files": name, x, y, z, yaw, pitch, roll, accuracies. Its
+  // angles are those of photo_angles(): 0 looks down, with the upper edge to the north.
+  const Eigen::Vector2d accuracy_m = calc_accuracy_m(pictures, places_W);
   std::string geo = "EPSG:4326\n";
   std::string truth =
       "photo,x_m,y_m,z_m,qw,qx,qy,qz,latitude_deg,longitude_deg,altitude_m,yaw_deg,pitch_deg,"
       "roll_deg\n";
   for (std::size_t i = 0; i < pictures.X_WS.size(); ++i) {
     const Geodetic said = frame.to_geodetic(places_W[i]);
-    geo += fmt::format("{} {:.9f} {:.9f} {:.4f}\n", photo_name(i), deg_from_rad(said.longitude_rad),
-                       deg_from_rad(said.latitude_rad), said.altitude_m);
     const Pose& X_WS = pictures.X_WS[i];
     const Geodetic place = frame.to_geodetic(X_WS.p);
     const Eigen::Vector3d angles = photo_angles(X_WS.q);
+    geo +=
+        fmt::format("{} {:.9f} {:.9f} {:.4f} {:.4f} {:.4f} {:.4f} {:.4f} {:.4f}\n", photo_name(i),
+                    deg_from_rad(said.longitude_rad), deg_from_rad(said.latitude_rad),
+                    said.altitude_m, deg_from_rad(angles.x()), deg_from_rad(angles.y()),
+                    deg_from_rad(angles.z()), accuracy_m.x(), accuracy_m.y());
     truth += fmt::format(
         "{},{:.4f},{:.4f},{:.4f},{:.8f},{:.8f},{:.8f},{:.8f},{:.9f},{:.9f},{:.4f},{:.4f},{:.4f},"
         "{:.4f}\n",

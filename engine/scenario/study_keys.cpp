@@ -65,8 +65,8 @@ const ParameterTable<DatasetConfig>& dataset_table() {
 }  // namespace
 
 const std::vector<std::string>& dataset_formats() {
-  static const std::vector<std::string> names = {"coco", "yolo", "yolo_segment", "yolo_pose",
-                                                 "kitti"};
+  static const std::vector<std::string> names = {"coco",         "coco_panoptic", "yolo",
+                                                 "yolo_segment", "yolo_pose",     "kitti"};
   return names;
 }
 

@@ -42,7 +42,7 @@ STUDY = {
                                            "world.vines.bbch": 65}}},
     },
     "seeds": [1, 2],
-    "dataset": {"camera": "rover/front", "every_s": 1, "formats": ["coco", "yolo", "yolo_segment", "yolo_pose", "kitti"], "classes": CLASSES,
+    "dataset": {"camera": "rover/front", "every_s": 1, "formats": ["coco", "coco_panoptic", "yolo", "yolo_segment", "yolo_pose", "kitti"], "classes": CLASSES,
                 "validation_share": 0.3, "split_by": "seed", "licence": "CC0-1.0"},
 }
 
@@ -187,6 +187,58 @@ class Dataset(unittest.TestCase):
                 left_out = things[(semantic == label) & ~listed]
                 self.assertLess(max(numpy.unique(left_out, return_counts=True)[1], default=0), 16)
         self.assertEqual(kinds, set(CLASSES))
+
+    def test_panoptic_pictures_divide_every_pixel(self):
+        # As the format's page reads them (cocodataset.org, "Data format", 4): id = R + 256 G + 65536 B, 0 is unlabelled.
+        names = ["sky", "ground", "leaf", "wood", "bunch", "fruit", "post", "wire", "obstacle", "vehicle", "person", "weed"]
+        unlabelled = 0
+        kinds = set()
+        for part in ("train", "val"):
+            with open(self.out / "annotations" / f"panoptic_{part}.json", encoding="utf-8") as file:
+                panoptic = json.load(file)
+            instances = self.instances[part]
+            self.assertEqual(panoptic["images"], instances.dataset["images"])
+            self.assertEqual([a["image_id"] for a in panoptic["annotations"]], [image["id"] for image in panoptic["images"]])
+            categories = {c["id"]: c for c in panoptic["categories"]}
+            self.assertEqual(len(categories), len(panoptic["categories"]))
+            self.assertEqual(len({tuple(c["color"]) for c in categories.values()}), len(categories))
+            self.assertTrue(all(0 <= value <= 255 for c in categories.values() for value in c["color"]))
+            self.assertEqual([c["name"] for c in categories.values() if c["isthing"]], CLASSES)
+            self.assertEqual({c["name"] for c in categories.values() if not c["isthing"]}, set(names) - set(CLASSES))
+            for c in instances.dataset["categories"]:
+                self.assertEqual(categories[c["id"]]["name"], c["name"])
+            for a in panoptic["annotations"]:
+                row = next(row for row in self.rows if int(row["picture"][:6]) == a["image_id"])
+                rgb = pixels(self.out / "annotations" / f"panoptic_{part}" / a["file_name"])
+                ids = rgb[..., 0] + 256 * rgb[..., 1] + 65536 * rgb[..., 2]
+                things, semantic = self.things(row), self.layer("semantic", row)
+                found = {}
+                self.assertEqual(set(numpy.unique(ids)) - {0}, {s["id"] for s in a["segments_info"]})
+                for segment in a["segments_info"]:
+                    mask = ids == segment["id"]
+                    y, x = numpy.nonzero(mask)
+                    self.assertEqual(segment["area"], mask.sum())
+                    self.assertEqual(segment["bbox"], [x.min(), y.min(), x.max() - x.min() + 1, y.max() - y.min() + 1])
+                    self.assertEqual(segment["iscrowd"], 0)
+                    category = categories[segment["category_id"]]
+                    kinds.add(category["name"])
+                    if category["isthing"]:
+                        found[segment["thing"]] = segment["category_id"]
+                        numpy.testing.assert_array_equal(mask, things == segment["thing"])
+                    else:
+                        self.assertNotIn("thing", segment)
+                        self.assertEqual(set(semantic[mask]), {names.index(category["name"])})
+                # Each category of stuff is one segment, and the things are those of the instances.
+                stuff = [s["category_id"] for s in a["segments_info"] if not categories[s["category_id"]]["isthing"]]
+                self.assertEqual(len(stuff), len(set(stuff)))
+                self.assertEqual(found, {b["thing"]: b["category_id"] for b in self.annotations(self.instances, row)})
+                # No other pixel is left out than those of things that are too small.
+                numbers, counts = numpy.unique(things[ids == 0], return_counts=True)
+                self.assertLess(counts.max(initial=0), 16)
+                self.assertFalse(set(numbers) & {0, 1})
+                unlabelled += counts.sum()
+        self.assertGreater(unlabelled, 100)
+        self.assertGreaterEqual(kinds, {"sky", "ground", "wire", "wood", *CLASSES})
 
     def test_yolo_boxes_are_those_of_coco(self):
         data = yaml.safe_load((self.out / "data.yaml").read_text())
@@ -507,7 +559,7 @@ class BadInput(InAFolder):
         self.refuse(changed(classes=["bunch", "bunch"]), r"study.yaml:\d+: dataset.classes has 'bunch' twice")
         self.refuse(changed(classes=[]), r"study.yaml:\d+: dataset.classes = \[\], must name at least one")
         self.refuse(changed(formats=["voc"]),
-                    r"study.yaml:\d+: dataset.formats has 'voc', each must be one of: coco, yolo, yolo_segment, yolo_pose, kitti")
+                    r"study.yaml:\d+: dataset.formats has 'voc', each must be one of: coco, coco_panoptic, yolo, yolo_segment, yolo_pose, kitti")
         self.refuse(changed(every_s=0.0105),
                     r"dataset.every_s = 0.0105 s, must be a multiple of the physics step of 0.001 s")
         self.refuse(changed(camera="rover/frnt"), r"dataset.camera = 'rover/frnt', must be a sensor of type camera: "

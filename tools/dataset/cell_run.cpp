@@ -15,6 +15,7 @@
 #include "engine/sim/simulation.h"
 #include "engine/sim/vehicle_rays.h"
 #include "engine/sim/vehicle_runtime.h"
+#include "tools/dataset/panoptic.h"
 
 namespace vinerow::dataset {
 namespace {
@@ -103,8 +104,9 @@ class CellRun {
     return shapes;
   }
 
-  void write(const char* kind, const Picture& picture, const std::string& name) const {
-    const std::filesystem::path file = out_ / kind / to_string(split_) / name;
+  void write(const std::filesystem::path& folder, const Picture& picture,
+             const std::string& name) const {
+    const std::filesystem::path file = out_ / folder / name;
     io::make_folder_of(file);
     write_whole_file(file, imaging::encode_picture(picture));
   }
@@ -134,10 +136,18 @@ class CellRun {
     record.things = annotate(layers, lens, path, shapes_, vehicles, task_.config().classes,
                              task_.config().min_pixels);
     record.rows = annotate_rows(layers, lens, path, session_.simulation().world().rows->rows);
-    write("images", picture_.value(), record.name());
-    write("semantic", layers_[0].value(), record.name());
-    write("instances", instance, record.name());
-    write("depth", depth, record.name());
+    const char* const part = to_string(split_);
+    if (task_.writes("coco_panoptic")) {
+      PanopticPicture panoptic = make_panoptic(layers, layers_[0].value().data, shapes_,
+                                               record.things, task_.config().classes);
+      write(std::filesystem::path("annotations") / (std::string("panoptic_") + part), panoptic.ids,
+            record.name());
+      record.segments = std::move(panoptic.segments);
+    }
+    write(std::filesystem::path("images") / part, picture_.value(), record.name());
+    write(std::filesystem::path("semantic") / part, layers_[0].value(), record.name());
+    write(std::filesystem::path("instances") / part, instance, record.name());
+    write(std::filesystem::path("depth") / part, depth, record.name());
     return record;
   }
 

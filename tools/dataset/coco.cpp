@@ -55,23 +55,34 @@ Json with_key_points(Json annotation, const std::array<KeyPoint, 2>& points) {
 
 }  // namespace
 
-CocoFiles::CocoFiles(std::vector<std::string> classes, const std::string& description,
-                     const std::string& licence)
-    : classes_(std::move(classes)) {
-  head_["info"] = {{"description", description}, {"version", "1.0"}, {"contributor", "Vinerow"}};
-  head_["licenses"] =
+Json coco_head(const std::string& description, const std::string& licence) {
+  Json head;
+  head["info"] = {{"description", description}, {"version", "1.0"}, {"contributor", "Vinerow"}};
+  head["licenses"] =
       Json::array({{{"id", 1}, {"name", licence.empty() ? "not stated" : licence}, {"url", ""}}});
+  return head;
 }
+
+Json coco_image(const PictureRecord& picture) {
+  return {{"id", picture.index},
+          {"file_name", picture.name()},
+          {"width", picture.camera.width},
+          {"height", picture.camera.height},
+          {"license", 1}};
+}
+
+void write_coco_file(const std::filesystem::path& file, const Json& content) {
+  write_whole_file(file, content.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+CocoFiles::CocoFiles(std::vector<std::string> classes, Json head)
+    : classes_(std::move(classes)), head_(std::move(head)) {}
 
 void CocoFiles::add(const PictureRecord& picture) {
   Part& part = parts_[static_cast<std::size_t>(picture.split)];
   const CameraInfo& camera = picture.camera;
   const std::uint32_t pixels = camera.width * camera.height;
-  part.images.push_back({{"id", picture.index},
-                         {"file_name", picture.name()},
-                         {"width", camera.width},
-                         {"height", camera.height},
-                         {"license", 1}});
+  part.images.push_back(coco_image(picture));
   for (const Annotation& thing : picture.things) {
     const Mask& mask = thing.mask;
     const Json box = {mask.left, mask.top, mask.width, mask.height};
@@ -126,8 +137,7 @@ void CocoFiles::write(const std::filesystem::path& folder) const {
       file["images"] = part.images;
       file["annotations"] = annotations;
       file["categories"] = own;
-      write_whole_file(folder / (std::string(kind) + "_" + kSplitNames[s] + ".json"),
-                       file.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+      write_coco_file(folder / (std::string(kind) + "_" + kSplitNames[s] + ".json"), file);
     };
     write("instances", categories, part.instances);
     write("keypoints", key_point_categories(), part.key_points);

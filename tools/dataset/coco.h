@@ -17,10 +17,17 @@
 
 namespace vinerow::dataset {
 
+/// "info" and "licenses" of a file.
+nlohmann::ordered_json coco_head(const std::string& description, const std::string& licence);
+/// Entry in "images".
+nlohmann::ordered_json coco_image(const PictureRecord& picture);
+/// @param file  of the annotations @throws WriteError
+void write_coco_file(const std::filesystem::path& file, const nlohmann::ordered_json& content);
+
 class CocoFiles {
  public:
-  CocoFiles(std::vector<std::string> classes, const std::string& description,
-            const std::string& licence);
+  /// @param head  coco_head()
+  CocoFiles(std::vector<std::string> classes, nlohmann::ordered_json head);
 
   void add(const PictureRecord& picture);
   /// @param folder  of the annotations @throws WriteError

@@ -79,6 +79,11 @@ std::string files(const scenario::DatasetConfig& config) {
           "| `annotations/` | COCO: `instances_<part>.json` with masks and boxes, "
           "`keypoints_<part>.json` with foot and head of trunks and posts, ends of rows |\n";
     }
+    if (format == "coco_panoptic") {
+      text +=
+          "| `annotations/panoptic_<part>.json`, `annotations/panoptic_<part>/` | COCO panoptic: a "
+          "segment of each pixel, 0: of a thing too small to be listed |\n";
+    }
     if (format == "yolo") text += "| `data.yaml`, `labels/` | boxes for Ultralytics YOLO |\n";
     if (format == "yolo_segment") {
       text += "| `yolo_segment/` | the pictures with polygons for Ultralytics YOLO |\n";

@@ -17,6 +17,7 @@
 #include "tools/dataset/data_card.h"
 #include "tools/dataset/dataset_task.h"
 #include "tools/dataset/kitti.h"
+#include "tools/dataset/panoptic.h"
 #include "tools/dataset/splits.h"
 #include "tools/dataset/yolo.h"
 
@@ -100,13 +101,21 @@ void write_formats(const DatasetTask& task, const std::vector<CellPictures>& cel
                    const std::filesystem::path& out) {
   const scenario::DatasetConfig& config = task.config();
   const scenario::Study& study = task.open().study;
+  const nlohmann::ordered_json head =
+      coco_head(study.description.empty() ? study.name : study.description, config.licence);
   if (task.writes("coco")) {
-    CocoFiles coco(config.classes, study.description.empty() ? study.name : study.description,
-                   config.licence);
+    CocoFiles coco(config.classes, head);
     for (const CellPictures& cell : cells) {
       for (const PictureRecord& record : cell.records) coco.add(record);
     }
     coco.write(out / "annotations");
+  }
+  if (task.writes("coco_panoptic")) {
+    PanopticFiles panoptic(config.classes, head);
+    for (const CellPictures& cell : cells) {
+      for (const PictureRecord& record : cell.records) panoptic.add(record);
+    }
+    panoptic.write(out / "annotations");
   }
   for (const auto& [format, yolo_task] : kYoloFormats) {
     if (!task.writes(format)) continue;

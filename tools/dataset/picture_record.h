@@ -20,6 +20,15 @@ inline const char* to_string(Split split) {
   return kSplitNames[static_cast<std::size_t>(split)];
 }
 
+/// Pixels of a panoptic picture that belong together.
+struct Segment {
+  std::uint32_t id = 0;     ///< in the picture, from 1
+  int category = 0;         ///< of panoptic.h
+  std::uint32_t thing = 0;  ///< number in instance pictures; 0: none
+  int area = 0;             ///< pixels
+  int left = 0, top = 0, width = 0, height = 0;
+};
+
 struct PictureRecord {
   int index = 0;  ///< from 0, in the order of cells and time
   Split split = Split::kTrain;
@@ -31,6 +40,7 @@ struct PictureRecord {
   Geodetic place;
   std::vector<Annotation> things;
   std::vector<RowAnnotation> rows;
+  std::vector<Segment> segments;  ///< only of the format coco_panoptic
 
   std::string name() const;  ///< "000012.png"
 };

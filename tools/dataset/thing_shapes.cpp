@@ -48,6 +48,12 @@ const ThingShape* ThingShapes::find(std::uint32_t number) {
   return &known_.emplace(number, make(thing)).first->second;
 }
 
+std::string ThingShapes::class_name(std::uint32_t number) const {
+  if (number >= vehicles()) return "vehicle";
+  const sensors::ThingNumbers::Thing thing = numbers_.thing(number);
+  return thing.mesh < 0 ? "" : class_of(world_.meshes[static_cast<std::size_t>(thing.mesh)]);
+}
+
 ThingShape ThingShapes::make(const sensors::ThingNumbers::Thing& thing) const {
   const MeshInstance& instance = world_.meshes[static_cast<std::size_t>(thing.mesh)];
   const TriangleMesh& mesh = *instance.mesh;

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "engine/api/messages/commands.h"
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "engine/sensors/camera/depth_reading.h"
@@ -150,6 +152,11 @@ class Camera final : public MountedSensor<Picture> {
                        false) {
     info_.tx_px_m = -info_.fx_px * params.stereo_baseline_m + 0.0;
     info_readings_.prefill(info_);
+    if (!is_depth_camera_) {
+      exposure_readings_.emplace(reading_table().read(parameters, context.part),
+                                 with_name(context, "_exposure"), false);
+      exposure_readings_->prefill(exposure_);
+    }
     picture_ = make_picture(lens_, params.picture == Content::kColour ? Picture::Format::kRgb8
                                                                       : Picture::Format::kMono16);
     truth_ = picture_;
@@ -183,12 +190,14 @@ class Camera final : public MountedSensor<Picture> {
   void connect(Ports& ports) override {
     MountedSensor::connect(ports);
     info_readings_.connect(ports);
+    if (exposure_readings_) exposure_readings_->connect(ports);
     for (Layer& layer : layers_) layer.readings.connect(ports);
   }
 
   void deliver(Time now) override {
     MountedSensor::deliver(now);
     info_readings_.deliver();
+    if (exposure_readings_) exposure_readings_->deliver();
     for (Layer& layer : layers_) layer.readings.deliver();
   }
 
@@ -206,6 +215,10 @@ class Camera final : public MountedSensor<Picture> {
     }
     readings_.push_or_silence(now, picture_, truth_);
     info_readings_.push_or_silence(now, info_, info_);
+    if (exposure_readings_) {
+      exposure_.values = {imager_.exposure_s(), imager_.gain()};
+      exposure_readings_->push_or_silence(now, exposure_, exposure_);
+    }
     for (Layer& layer : layers_) {
       (this->*layer.fill)(layer.picture);
       layer.readings.push_or_silence(now, layer.picture, layer.picture);
@@ -277,6 +290,8 @@ class Camera final : public MountedSensor<Picture> {
   Picture picture_, truth_;
   CameraInfo info_;
   Readings<CameraInfo> info_readings_;
+  NamedValues exposure_{{"exposure_s", "gain"}, {0.0, 0.0}};  ///< of the last picture
+  std::optional<Readings<NamedValues>> exposure_readings_;
   std::vector<Layer> layers_;
 };
 
@@ -298,6 +313,7 @@ PartSpec camera_spec() {
       "depth, with depth, normals and labels of each pixel",
       10.0, camera_table());
   spec.writes.push_back(std::string("<name>_info: ") + CameraInfo::kType);
+  spec.writes.push_back(std::string("<name>_exposure: ") + NamedValues::kType);
   for (const char* layer : {"depth", "normals", "semantic", "instance"}) {
     spec.writes.push_back(fmt::format("<name>_{}: {}", layer, Picture::kType));
   }

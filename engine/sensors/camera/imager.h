@@ -74,6 +74,8 @@ class Imager {
 
   /// Exposure time of the last picture, s; before the first the longest.
   double exposure_s() const { return exposure_s_; }
+  /// Gain of the last picture; 1 before the first and with a fixed exposure.
+  double gain() const { return gain_; }
 
   /// @param radiance  channels of each pixel, relative (scene_look.h)
   /// @param reading   with noise  @param truth  the same exposure without

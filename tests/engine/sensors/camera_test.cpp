@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "engine/api/messages/commands.h"
 #include "engine/core/parallel.h"
 #include "tests/engine/sensors/camera_bench.h"
 
@@ -174,6 +175,85 @@ TEST(Camera, AllLayersHaveTheSameStampAndTheInfoTheBaseline) {
     const std::uint32_t byte = number(bench.picture("_normals"), 60, 80) >> (8 * k) & 0xffu;
     EXPECT_EQ(byte, std::lround(127.5 * (n[k] + 1.0))) << k;
   }
+}
+
+TEST(Camera, APictureIsLostTogetherWithItsLayersAndFacts) {
+  CameraBench bench(flat_world(), with(kSmall, {{"depth", true},
+                                                {"normals", true},
+                                                {"semantic", true},
+                                                {"instance", true},
+                                                {"dropout_share", 0.5}}));
+  int lost = 0;
+  std::int64_t last_ns = -1;
+  for (int i = 0; i < 40; ++i) {
+    bench.step(at(0.0, 0.0, 1.0, 30.0));
+    const SignalBase& picture = *bench.bus().find("rover/s");
+    if (picture.sequence() == 0) {
+      ++lost;
+      continue;
+    }
+    lost += picture.stamp().ns == last_ns ? 1 : 0;
+    last_ns = picture.stamp().ns;
+    for (const char* other :
+         {"_depth", "_normals", "_semantic", "_instance", "_info", "_exposure"}) {
+      const SignalBase& signal = *bench.bus().find(std::string("rover/s") + other);
+      EXPECT_EQ(signal.stamp().ns, last_ns) << other;
+      EXPECT_EQ(signal.sequence(), picture.sequence()) << other;
+    }
+  }
+  // 20 of 40, with a standard deviation of 3.2.
+  EXPECT_NEAR(lost, 20, 13);
+}
+
+TEST(Camera, AFixedExposureAsReportedTakesTheSamePicture) {
+  const auto world = flat_world();
+  world->meshes = {box("wall", {4.0, 0.5, 0.5}, {0.1f, 0.5f, 0.5f}, SurfaceClass::kObstacle)};
+  const auto mono = with(kSmall, {{"picture", std::string("mono")}});
+  const auto step = [&](const test::SensorValues& more) {
+    auto bench = std::make_unique<CameraBench>(world, with(mono, more));
+    // The first picture is taken with the longest exposure; only a moving camera would show that.
+    bench->step(at(0.0, 0.0, 1.0, 10.0));
+    return bench;
+  };
+  const auto exposure = [](CameraBench& bench) {
+    const auto& values = bench.value<NamedValues>("rover/s_exposure");
+    EXPECT_EQ(values.names, (std::vector<std::string>{"exposure_s", "gain"}));
+    return values.values;
+  };
+  // In daylight the exposure is short enough for a gain of 1.
+  const auto automatic = step({});
+  const std::vector<double> chosen = exposure(*automatic);
+  EXPECT_EQ(chosen[1], 1.0);
+  EXPECT_LT(chosen[0], 0.01);
+  const auto fixed = step({{"exposure_s", chosen[0]}});
+  EXPECT_EQ(exposure(*fixed), chosen);
+  EXPECT_EQ(fixed->picture().data, automatic->picture().data);
+
+  // A quarter of it is the most: four times the gain, and each number four times that of the fixed
+  // exposure, within the steps of 12 bits.
+  const double most_s = 0.25 * chosen[0];
+  const auto amplified = step({{"exposure_min_s", 1e-6}, {"exposure_max_s", most_s}});
+  const std::vector<double> short_one = exposure(*amplified);
+  EXPECT_EQ(short_one[0], most_s);
+  EXPECT_NEAR(short_one[1], 4.0, 1e-9);
+  const auto plain = step({{"exposure_s", most_s}});
+  int compared = 0;
+  constexpr double kStep = 65535.0 / 4095.0;
+  for (int y = 0; y < 90; ++y) {
+    for (int x = 0; x < 120; ++x) {
+      const double high = number(amplified->picture(), x, y);
+      if (high > 65000.0) continue;
+      EXPECT_NEAR(high, 4.0 * number(plain->picture(), x, y), 2.5 * kStep + 3.0) << x << " " << y;
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 5000);
+}
+
+TEST(Camera, DepthAloneHasNoExposure) {
+  CameraBench bench(flat_world(), with(kSmall, {{"picture", std::string("depth")}}));
+  EXPECT_EQ(bench.bus().find("rover/s_exposure"), nullptr);
+  EXPECT_NE(bench.bus().find("rover/s_info"), nullptr);
 }
 
 TEST(Camera, RefusesPicturesThatTakeLongerThanThePeriod) {

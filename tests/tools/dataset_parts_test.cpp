@@ -13,6 +13,7 @@
 #include "tools/dataset/annotate.h"
 #include "tools/dataset/mask.h"
 #include "tools/dataset/outline.h"
+#include "tools/dataset/panoptic.h"
 #include "tools/dataset/splits.h"
 
 namespace vinerow::dataset::dataset_parts_test {
@@ -202,6 +203,11 @@ class Scene {
                                     const CameraPath& camera = at_rest()) {
     return annotate(layers_, lens_, camera, shapes_, vehicles, classes, min_pixels);
   }
+  /// @param labels  of each pixel
+  PanopticPicture panoptic(const std::vector<std::uint8_t>& labels,
+                           const std::vector<std::string>& classes, int min_pixels) {
+    return make_panoptic(layers_, labels, shapes_, annotated(classes, min_pixels), classes);
+  }
   const Layers& layers() const { return layers_; }
   const Lens& lens() const { return lens_; }
 
@@ -387,6 +393,47 @@ TEST(Annotate, VehiclesAreTurnedAsKittiTurnsThem) {
   EXPECT_NEAR(box({0, -1, 0}).length_m, 1.0, 1e-12);
   EXPECT_NEAR(box({0, -1, 0}).width_m, 2.0, 1e-12);
   EXPECT_LT((box({-1, 0, 0}).bottom_C - Vector3d(0, 1, 5)).norm(), 1e-12);
+}
+
+TEST(Panoptic, SmallThingsOfAClassBelongToNoSegment) {
+  // Sky over ground; a post of 20 pixels, and one of 4.
+  Scene scene;
+  scene.paint(2, 14, 16, 10, 20, 4000);
+  scene.paint(3, 38, 40, 10, 12, 4000);
+  std::vector<std::uint8_t> labels(1200, static_cast<std::uint8_t>(Label::kSky));
+  std::fill(labels.begin() + 40 * 20, labels.end(), static_cast<std::uint8_t>(Label::kGround));
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (scene.layers().thing[i] > 1) labels[i] = static_cast<std::uint8_t>(Label::kPost);
+  }
+  const auto id_at = [](const PanopticPicture& picture, int x, int y) {
+    const std::uint8_t* rgb = &picture.ids.data[static_cast<std::size_t>(3 * (40 * y + x))];
+    return rgb[0] + 256u * rgb[1] + 65536u * rgb[2];
+  };
+  const auto facts = [](const Segment& s) {
+    return std::array<int, 8>{static_cast<int>(s.id),
+                              s.category,
+                              static_cast<int>(s.thing),
+                              s.area,
+                              s.left,
+                              s.top,
+                              s.width,
+                              s.height};
+  };
+  // Things are category 1, then come the 12 labels.
+  const PanopticPicture things = scene.panoptic(labels, {"post"}, 5);
+  ASSERT_EQ(things.segments.size(), 3u);
+  EXPECT_EQ(facts(things.segments[0]), (std::array{1, 2, 0, 776, 0, 0, 40, 20}));
+  EXPECT_EQ(facts(things.segments[1]), (std::array{2, 3, 0, 400, 0, 20, 40, 10}));
+  EXPECT_EQ(facts(things.segments[2]), (std::array{3, 1, 2, 20, 14, 10, 2, 10}));
+  EXPECT_EQ(id_at(things, 15, 19), 3u);
+  EXPECT_EQ(id_at(things, 15, 20), 2u);
+  EXPECT_EQ(id_at(things, 39, 11), 0u);
+  // Both are stuff if posts are no class.
+  const PanopticPicture stuff = scene.panoptic(labels, {"bunch"}, 5);
+  ASSERT_EQ(stuff.segments.size(), 3u);
+  EXPECT_EQ(facts(stuff.segments[2]), (std::array{3, 8, 0, 24, 14, 10, 26, 10}));
+  EXPECT_EQ(id_at(stuff, 15, 19), 3u);
+  EXPECT_EQ(id_at(stuff, 39, 11), 3u);
 }
 
 TEST(Annotate, EndsOfRowsAreHiddenByWhatIsNearer) {

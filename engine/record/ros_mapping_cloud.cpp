@@ -1,9 +1,16 @@
 /// Mapping of point clouds.
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <limits>
+#include <string_view>
+#include <type_traits>
+#include <vector>
 
 #include "engine/record/ros_fields.h"
 #include "engine/record/ros_mapping.h"
@@ -12,10 +19,9 @@ namespace vinerow::record {
 namespace {
 
 // Constants of sensor_msgs/msg/PointField.
-constexpr std::uint8_t kUint8 = 2, kUint16 = 4, kFloat32 = 7;
+constexpr std::uint8_t kUint8 = 2, kUint16 = 4, kUint32 = 6, kFloat32 = 7;
 
-/// A point as the log has it. Velodyne's and Ouster's drivers name x, y, z, intensity, ring and
-/// time alike.
+/// A point of a list. Velodyne's driver names x, y, z, intensity, ring and time alike.
 struct PackedPoint {
   float x, y, z, intensity, time;
   std::uint16_t ring;
@@ -23,31 +29,89 @@ struct PackedPoint {
 };
 static_assert(sizeof(PackedPoint) == 24);
 
+/// A point of an organised cloud. Ouster's driver names and stores x, y, z, intensity, t, range,
+/// ring and reflectivity alike; t, range and reflectivity follow from the others.
+struct OrganisedPoint {
+  float x, y, z, intensity;
+  std::uint32_t t;      ///< ns from the stamp
+  std::uint32_t range;  ///< mm; 0: nothing was seen
+  float time;
+  std::uint16_t ring, reflectivity;  ///< reflectivity: percent, at most 255
+  std::uint8_t return_number, unused[3];
+};
+static_assert(sizeof(OrganisedPoint) == 36);
+
 struct PackedField {
   const char* name;
   std::uint32_t offset;
   std::uint8_t type;
 };
-constexpr std::array kFields = {
-    PackedField{"x", offsetof(PackedPoint, x), kFloat32},
-    PackedField{"y", offsetof(PackedPoint, y), kFloat32},
-    PackedField{"z", offsetof(PackedPoint, z), kFloat32},
-    PackedField{"intensity", offsetof(PackedPoint, intensity), kFloat32},
-    PackedField{"time", offsetof(PackedPoint, time), kFloat32},
-    PackedField{"ring", offsetof(PackedPoint, ring), kUint16},
-    PackedField{"return_number", offsetof(PackedPoint, return_number), kUint8}};
 
-}  // namespace
+template <class Point>
+constexpr auto fields_of() {
+  constexpr std::array kShared = {
+      PackedField{"x", offsetof(Point, x), kFloat32},
+      PackedField{"y", offsetof(Point, y), kFloat32},
+      PackedField{"z", offsetof(Point, z), kFloat32},
+      PackedField{"intensity", offsetof(Point, intensity), kFloat32},
+      PackedField{"time", offsetof(Point, time), kFloat32},
+      PackedField{"ring", offsetof(Point, ring), kUint16},
+      PackedField{"return_number", offsetof(Point, return_number), kUint8}};
+  if constexpr (std::is_same_v<Point, PackedPoint>) {
+    return kShared;
+  } else {
+    std::array<PackedField, kShared.size() + 3> all{};
+    std::copy(kShared.begin(), kShared.end(), all.begin());
+    all[kShared.size()] = {"t", offsetof(Point, t), kUint32};
+    all[kShared.size() + 1] = {"range", offsetof(Point, range), kUint32};
+    all[kShared.size() + 2] = {"reflectivity", offsetof(Point, reflectivity), kUint16};
+    return all;
+  }
+}
 
-void RosMapping<PointCloud>::write(CdrWriter& out, const WriteContext& to,
-                                   const PointCloud& value) {
-  // A part may leave its lists of different length; only whole points count.
-  const std::size_t count =
-      std::min({value.x.size(), value.y.size(), value.z.size(), value.intensity.size(),
-                value.time_s.size(), value.ring.size(), value.return_number.size()});
-  write_header(out, to.stamp, to.frames.own);
-  out.add(std::uint32_t{1});  // height: points in no order
-  out.add(static_cast<std::uint32_t>(count));
+/// @param i  of the cloud
+PackedPoint pack_listed(const PointCloud& cloud, std::size_t i) {
+  return {cloud.x[i],
+          cloud.y[i],
+          cloud.z[i],
+          cloud.intensity[i],
+          cloud.time_s[i],
+          cloud.ring[i],
+          cloud.return_number[i],
+          0};
+}
+
+/// Nearest whole number from 0 to `most`.
+std::uint32_t whole(double value, double most) {
+  return value > 0.0 ? static_cast<std::uint32_t>(std::llround(std::min(value, most))) : 0u;
+}
+
+OrganisedPoint pack_organised(const PointCloud& cloud, std::size_t i) {
+  constexpr double kMost = std::numeric_limits<std::uint32_t>::max();
+  OrganisedPoint point{};
+  point.t = whole(1e9 * double{cloud.time_s[i]}, kMost);
+  point.time = cloud.time_s[i];
+  point.ring = cloud.ring[i];
+  point.return_number = cloud.return_number[i];
+  if (point.return_number == 0) {
+    point.x = point.y = point.z = std::numeric_limits<float>::quiet_NaN();
+    return point;
+  }
+  point.x = cloud.x[i];
+  point.y = cloud.y[i];
+  point.z = cloud.z[i];
+  point.intensity = cloud.intensity[i];
+  const Eigen::Vector3d p(cloud.x[i], cloud.y[i], cloud.z[i]);
+  point.range = whole(1e3 * p.norm(), kMost);
+  constexpr double kMostReflectivity = 255.0;
+  point.reflectivity = static_cast<std::uint16_t>(whole(point.intensity, kMostReflectivity));
+  return point;
+}
+
+/// Fields and points, after height and width.
+template <class Point, class Pack>
+void write_points(CdrWriter& out, std::size_t count, std::size_t width, Pack&& pack) {
+  constexpr auto kFields = fields_of<Point>();
   out.add_count(kFields.size());
   for (const PackedField& field : kFields) {
     out.add(std::string_view(field.name));
@@ -56,50 +120,40 @@ void RosMapping<PointCloud>::write(CdrWriter& out, const WriteContext& to,
     out.add(std::uint32_t{1});
   }
   out.add(false);  // is_bigendian
-  out.add(static_cast<std::uint32_t>(sizeof(PackedPoint)));
-  out.add(static_cast<std::uint32_t>(count * sizeof(PackedPoint)));
-  out.add_count(count * sizeof(PackedPoint));
-  std::uint8_t* bytes = out.extend_octets(count * sizeof(PackedPoint));
+  out.add(static_cast<std::uint32_t>(sizeof(Point)));
+  out.add(static_cast<std::uint32_t>(width * sizeof(Point)));
+  out.add_count(count * sizeof(Point));
+  std::uint8_t* bytes = out.extend_octets(count * sizeof(Point));
   for (std::size_t i = 0; i < count; ++i) {
-    const PackedPoint point{value.x[i],
-                            value.y[i],
-                            value.z[i],
-                            value.intensity[i],
-                            value.time_s[i],
-                            value.ring[i],
-                            value.return_number[i],
-                            0};
+    const Point point = pack(i);
     std::memcpy(bytes + i * sizeof point, &point, sizeof point);
   }
-  out.add(true);  // is_dense: no point is invalid
 }
 
-bool RosMapping<PointCloud>::read(CdrReader& in, const FrameNames&, PointCloud& value) {
-  skip_header(in);
-  const auto height = in.read<std::uint32_t>();
-  const auto width = in.read<std::uint32_t>();
-  // Only clouds of the form above are read: those of our own logs.
-  constexpr std::size_t kSmallestField = 16;
-  bool is_ours = height == 1 && in.read_count(kSmallestField) == kFields.size();
-  for (std::size_t i = 0; is_ours && i < kFields.size(); ++i) {
-    is_ours = in.read_text() == kFields[i].name && in.read<std::uint32_t>() == kFields[i].offset &&
-              in.read<std::uint8_t>() == kFields[i].type && in.read<std::uint32_t>() == 1;
+/// What follows the field count. Only clouds as write() makes them are read: those of our own logs.
+template <class Point>
+bool read_points(CdrReader& in, std::size_t count, PointCloud& value) {
+  bool is_ours = true;
+  for (const PackedField& field : fields_of<Point>()) {
+    is_ours = is_ours && in.read_text() == field.name && in.read<std::uint32_t>() == field.offset &&
+              in.read<std::uint8_t>() == field.type && in.read<std::uint32_t>() == 1;
   }
-  is_ours = is_ours && !in.read_bool() && in.read<std::uint32_t>() == sizeof(PackedPoint);
+  is_ours = is_ours && !in.read_bool() && in.read<std::uint32_t>() == sizeof(Point);
   if (!is_ours) return false;
   in.read<std::uint32_t>();  // row_step
   const std::size_t bytes = in.read_count(1);
-  if (!in.ok() || bytes != std::size_t{width} * sizeof(PackedPoint)) return false;
+  if (!in.ok() || bytes % sizeof(Point) != 0 || bytes / sizeof(Point) != count) return false;
   for (std::vector<float>* list : {&value.x, &value.y, &value.z, &value.intensity, &value.time_s}) {
-    list->resize(width);
+    list->resize(count);
   }
-  value.ring.resize(width);
-  value.return_number.resize(width);
-  for (std::size_t i = 0; i < width; ++i) {
-    std::array<std::uint8_t, sizeof(PackedPoint)> raw{};
+  value.ring.resize(count);
+  value.return_number.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::array<std::uint8_t, sizeof(Point)> raw{};
     in.read_octets(raw.data(), raw.size());
-    PackedPoint point{};
+    Point point{};
     std::memcpy(&point, raw.data(), sizeof point);
+    if (value.rows > 0 && point.return_number == 0) point.x = point.y = point.z = 0.0F;
     value.x[i] = point.x;
     value.y[i] = point.y;
     value.z[i] = point.z;
@@ -110,6 +164,47 @@ bool RosMapping<PointCloud>::read(CdrReader& in, const FrameNames&, PointCloud& 
   }
   in.read_bool();
   return in.ok();
+}
+
+}  // namespace
+
+void RosMapping<PointCloud>::write(CdrWriter& out, const WriteContext& to,
+                                   const PointCloud& value) {
+  // A part may leave its lists of different length; only whole points count.
+  const std::size_t count =
+      std::min({value.x.size(), value.y.size(), value.z.size(), value.intensity.size(),
+                value.time_s.size(), value.ring.size(), value.return_number.size()});
+  write_header(out, to.stamp, to.frames.own);
+  const bool is_organised = value.rows > 0 && count % value.rows == 0;
+  const std::size_t rows = is_organised ? value.rows : 1;
+  out.add(static_cast<std::uint32_t>(rows));
+  out.add(static_cast<std::uint32_t>(count / rows));
+  if (!is_organised) {
+    write_points<PackedPoint>(out, count, count,
+                              [&](std::size_t i) { return pack_listed(value, i); });
+    out.add(true);  // is_dense: no point is invalid
+    return;
+  }
+  write_points<OrganisedPoint>(out, count, count / rows,
+                               [&](std::size_t i) { return pack_organised(value, i); });
+  out.add(std::find(value.return_number.begin(), value.return_number.end(), 0) ==
+          value.return_number.end());
+}
+
+bool RosMapping<PointCloud>::read(CdrReader& in, const FrameNames&, PointCloud& value) {
+  skip_header(in);
+  const auto height = in.read<std::uint32_t>();
+  const auto width = in.read<std::uint32_t>();
+  constexpr std::size_t kSmallestField = 16;
+  const std::size_t fields = in.read_count(kSmallestField);
+  const std::size_t count = std::size_t{height} * width;
+  if (fields == fields_of<OrganisedPoint>().size()) {
+    value.rows = height;
+    return height > 0 && read_points<OrganisedPoint>(in, count, value);
+  }
+  value.rows = 0;
+  return height == 1 && fields == fields_of<PackedPoint>().size() &&
+         read_points<PackedPoint>(in, count, value);
 }
 
 }  // namespace vinerow::record

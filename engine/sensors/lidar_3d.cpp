@@ -16,6 +16,7 @@
 #include "engine/sensors/blindness.h"
 #include "engine/sensors/laser_optics.h"
 #include "engine/sensors/mounted_sensor.h"
+#include "engine/sensors/resolution.h"
 #include "engine/sensors/scan_links.h"
 #include "engine/sensors/scan_pattern.h"
 
@@ -36,7 +37,18 @@ struct Lidar3dParams {
   int sub_rays = 1;
   double pulse_m = 0.75;
   Returns returns = Returns::kStrongest;
+  double resolution_m = 0.0;
+  bool organised = false;
 };
+
+std::string find_fault_in_grid(const Lidar3dParams& p) {
+  if (!p.organised) return "";
+  if (p.pattern.is_rosette || p.pattern.column_s > 0.0) {
+    return "organised = true, which only a spinning pattern with columns can have; set it to false";
+  }
+  if (p.returns != Returns::kDual) return "";
+  return "organised = true, which has one point of each pulse; set returns to strongest or last";
+}
 
 const ParameterTable<Lidar3dParams>& lidar_3d_table() {
   using P = Lidar3dParams;
@@ -58,7 +70,13 @@ const ParameterTable<Lidar3dParams>& lidar_3d_table() {
                   {{"strongest", Returns::kStrongest},
                    {"last", Returns::kLast},
                    {"dual", Returns::kDual}},
-                  "echoes of a pulse that are reported");
+                  "echoes of a pulse that are reported")
+          .number("resolution_m", "m", &P::resolution_m, between(0.0, 1.0),
+                  "step of a range; 0: none")
+          .boolean("organised", &P::organised,
+                   "true: clouds have rows, the highest laser first, and columns of one azimuth, "
+                   "with a point for each pulse, also where nothing was seen")
+          .rule(find_fault_in_grid);
   return table;
 }
 
@@ -92,7 +110,6 @@ class Lidar3d final : public MountedSensor<PointCloud> {
         world_(context.world),
         light_(&context.light()),
         find_vehicles_(context.vehicles),
-        period_(context.period),
         sampling_(sampling_of(params, context)),
         pattern_(make_scan_pattern(params.pattern, context.period.s(), context.part)),
         optics_(params.ranging, draw_offset_m(params.ranging, context)),
@@ -114,6 +131,12 @@ class Lidar3d final : public MountedSensor<PointCloud> {
     }
     order_.reserve(pulses);
     first_ray_.reserve(pulses);
+    if (params.organised) {
+      lay_out_rows();
+      cloud_ = true_cloud_ = empty_;
+      readings_.prefill(cloud_);
+      return;
+    }
     resize(cloud_, params.returns == Returns::kDual ? 2 * pulses : pulses);
     resize(true_cloud_, pulses);
     readings_.prefill(cloud_);
@@ -141,7 +164,7 @@ class Lidar3d final : public MountedSensor<PointCloud> {
       readings_.push_nothing();
       return;
     }
-    readings_.push(now, cloud_, true_cloud_);
+    readings_.push(*begin_, cloud_, true_cloud_);
     ++frame_;
     begin_frame(now);
   }
@@ -154,6 +177,27 @@ class Lidar3d final : public MountedSensor<PointCloud> {
     }
     cloud.ring.resize(count);
     cloud.return_number.resize(count);
+  }
+
+  /// Rows of an organised cloud: of each ring its row, and a cloud in which nothing was seen. The
+  /// pulses of all frames are the same.
+  void lay_out_rows() {
+    pulses_ = pattern_->pulses(0);
+    const std::size_t lasers = params_.pattern.elevations_deg.size();
+    columns_ = pattern_->most_pulses() / lasers - 1;
+    empty_.rows = static_cast<std::uint32_t>(lasers);
+    resize(empty_, lasers * columns_);
+    for (std::size_t i = 0; i < empty_.ring.size(); ++i) {
+      empty_.ring[i] = static_cast<std::uint16_t>(i / columns_);
+    }
+    for (const LaserPulse& pulse : pulses_) {
+      empty_.time_s[place_of(pulse)] = static_cast<float>(pulse.time_s);
+    }
+  }
+
+  /// Of a pulse in an organised cloud.
+  std::size_t place_of(const LaserPulse& pulse) const {
+    return (empty_.rows - 1u - pulse.ring) * columns_ + pulse.column;
   }
 
   /// Before the first pulse.
@@ -169,6 +213,10 @@ class Lidar3d final : public MountedSensor<PointCloud> {
     begin_ = now;
     next_pulse_ = 0;
     pulses_ = pattern_->pulses(frame_);
+    if (params_.organised) {
+      cloud_ = true_cloud_ = empty_;
+      return;
+    }
     resize(cloud_, 0);
     resize(true_cloud_, 0);
   }
@@ -305,17 +353,26 @@ class Lidar3d final : public MountedSensor<PointCloud> {
     const double reading_m = optics_.reading_m(echo.distance_m, noise);
     if (!std::isfinite(reading_m)) return;
     const double percent = 100.0 * optics_.apparent_reflectance(echo.power, echo.distance_m);
-    add(cloud_, pulse, reading_m, percent, number);
+    add(cloud_, pulse, round_to_step(reading_m, params_.resolution_m), percent, number);
   }
 
   void add(PointCloud& cloud, const LaserPulse& pulse, double range_m, double intensity,
            std::uint8_t number) const {
     const Eigen::Vector3d p_S = range_m * pulse.dir_S;
+    if (params_.organised) {
+      const std::size_t i = place_of(pulse);
+      cloud.x[i] = static_cast<float>(p_S.x());
+      cloud.y[i] = static_cast<float>(p_S.y());
+      cloud.z[i] = static_cast<float>(p_S.z());
+      cloud.intensity[i] = static_cast<float>(intensity);
+      cloud.return_number[i] = number;
+      return;
+    }
     cloud.x.push_back(static_cast<float>(p_S.x()));
     cloud.y.push_back(static_cast<float>(p_S.y()));
     cloud.z.push_back(static_cast<float>(p_S.z()));
     cloud.intensity.push_back(static_cast<float>(intensity));
-    cloud.time_s.push_back(static_cast<float>(pulse.time_s - period_.s()));
+    cloud.time_s.push_back(static_cast<float>(pulse.time_s));
     cloud.ring.push_back(pulse.ring);
     cloud.return_number.push_back(number);
   }
@@ -360,7 +417,7 @@ class Lidar3d final : public MountedSensor<PointCloud> {
   const RayScene* light_;
   std::function<VehicleScene&()> find_vehicles_;  ///< empty: there are none
   std::optional<ScanLinks> links_;                ///< from the first sample on
-  Duration period_, sampling_;
+  Duration sampling_;
   std::unique_ptr<ScanPattern> pattern_;
   LaserOptics optics_;
   RandomStream random_;
@@ -377,6 +434,8 @@ class Lidar3d final : public MountedSensor<PointCloud> {
   std::vector<std::size_t> order_;      ///< in which the pulses of a slice are cast
   std::vector<std::size_t> first_ray_;  ///< of each pulse of a slice: the beam's middle
   std::array<Echo3d, kMaxSubRays3d> echoes_;
+  std::size_t columns_ = 0;  ///< of an organised cloud
+  PointCloud empty_;         ///< an organised cloud in which nothing was seen
   PointCloud cloud_, true_cloud_;
 };
 

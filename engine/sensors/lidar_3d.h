@@ -4,8 +4,8 @@
 /// A frame takes a whole period. The scanner moves meanwhile: it is sampled `slices` times in a
 /// period (by default as many as divide it, up to 20), and within a slice its pose
 /// goes evenly from the one to the other (position linearly, rotation by its matrix). Each point is
-/// in S at its own instant, as drivers deliver it, with its time before the stamp, which is the end
-/// of the frame.
+/// in S at its own instant, as drivers deliver it, with its time after the stamp, which is the
+/// start of the frame.
 ///
 /// A beam is `sub_rays` rays: one in its middle and the others on a circle of 0.7 of its half
 /// width, where half of the area is inside. What they meet within one pulse length makes one echo:
@@ -16,9 +16,13 @@
 ///
 /// Own and other vehicles: scan_links.h.
 ///
-/// Reading: laser_optics.h. Intensity: 100 x the reflectance times the cosine of incidence
-/// that a whole beam would need for that power, as calibrated scanners report it. The truth signal
-/// is the first surface along the beam's middle.
+/// `organised`: clouds as Ouster's driver gives them. A row has the points of one laser, the
+/// highest first; lasers that look to the side are shifted by whole columns, so that a column has
+/// one azimuth. `ring` is then the row.
+///
+/// Reading: laser_optics.h, rounded to `resolution_m`. Intensity: 100 x the reflectance times the
+/// cosine of incidence that a whole beam would need for that power, as calibrated scanners report
+/// it. The truth signal is the first surface along the beam's middle.
 
 #include <memory>
 

@@ -96,15 +96,22 @@ class Spinning final : public ScanPattern {
     const std::size_t lasers = params.elevations_deg.size();
     for (std::size_t laser = 0; laser < lasers; ++laser) {
       const double elevation_deg = params.elevations_deg[laser];
-      const auto ring = std::count_if(params.elevations_deg.begin(), params.elevations_deg.end(),
-                                      [&](double other) { return other < elevation_deg; });
+      // Of two at the same elevation the first counts as the lower one.
+      std::uint16_t ring = 0;
+      for (std::size_t other = 0; other < lasers; ++other) {
+        const double other_deg = params.elevations_deg[other];
+        if (other_deg < elevation_deg || (other_deg == elevation_deg && other < laser)) ++ring;
+      }
+      const double delay_s =
+          params.firing_s * static_cast<double>(laser) / static_cast<double>(lasers);
+      const double azimuth_deg =
+          params.azimuth_offsets_deg.empty() ? 0.0 : params.azimuth_offsets_deg[laser];
       lasers_.push_back(
-          {.delay_s = params.firing_s * static_cast<double>(laser) / static_cast<double>(lasers),
+          {.delay_s = delay_s,
            .elevation_rad = rad_from_deg(elevation_deg),
-           .azimuth_offset_rad = params.azimuth_offsets_deg.empty()
-                                     ? 0.0
-                                     : rad_from_deg(params.azimuth_offsets_deg[laser]),
-           .ring = static_cast<std::uint16_t>(ring)});
+           .azimuth_offset_rad = rad_from_deg(azimuth_deg),
+           .column_shift = std::lround(delay_s / column_s_ - azimuth_deg / 360.0 * columns_),
+           .ring = ring});
     }
     pulses_.reserve(most_pulses());
     fill(0);
@@ -123,6 +130,7 @@ class Spinning final : public ScanPattern {
   struct Laser {
     double delay_s;  ///< from the column's first laser
     double elevation_rad, azimuth_offset_rad;
+    std::int64_t column_shift;  ///< from the column that it fires in to the one that it looks at
     std::uint16_t ring;
   };
 
@@ -142,9 +150,18 @@ class Spinning final : public ScanPattern {
         const double azimuth_rad =
             wrap_angle(kPi - 2.0 * kPi * time_s / period_s_ + laser.azimuth_offset_rad);
         if (std::abs(azimuth_rad) > half_view_rad_ + kRounding_rad) continue;
-        pulses_.push_back({time_s, direction(azimuth_rad, laser.elevation_rad), laser.ring});
+        pulses_.push_back({time_s, direction(azimuth_rad, laser.elevation_rad), laser.ring,
+                           has_clock_ ? 0u : picture_column(column, frame, laser)});
       }
     }
+  }
+
+  /// @pre a turn has a whole number of columns
+  std::uint32_t picture_column(std::int64_t column, std::uint64_t frame, const Laser& laser) const {
+    const auto columns = static_cast<std::int64_t>(columns_);
+    const std::int64_t seen =
+        column - static_cast<std::int64_t>(frame) * columns + laser.column_shift;
+    return static_cast<std::uint32_t>((seen % columns + columns) % columns);
   }
 
   double period_s_;

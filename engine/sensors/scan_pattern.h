@@ -27,6 +27,9 @@ struct LaserPulse {
   double time_s = 0.0;  ///< from the start of its frame
   Eigen::Vector3d dir_S = Eigen::Vector3d::UnitX();
   std::uint16_t ring = 0;
+  /// In the picture of a turn, whose columns begin behind and have one azimuth, to half a column.
+  /// Only of a spinning scanner with `columns`.
+  std::uint32_t column = 0;
 };
 
 inline constexpr int kColumns = 1800;

@@ -67,11 +67,8 @@ struct GnssFix {
 inline std::span<const EnumName> enum_names(GnssFix::Mode) {
   using enum GnssFix::Mode;
   static constexpr EnumName kNames[] = {
-      enum_name(kNone, "NONE"),
-      enum_name(kStandalone, "STANDALONE"),
-      enum_name(kSbas, "SBAS"),
-      enum_name(kFloat, "FLOAT"),
-      enum_name(kFixed, "FIXED")};
+      enum_name(kNone, "NONE"), enum_name(kStandalone, "STANDALONE"), enum_name(kSbas, "SBAS"),
+      enum_name(kFloat, "FLOAT"), enum_name(kFixed, "FIXED")};
   return kNames;
 }
 
@@ -145,18 +142,24 @@ struct LaserScan {
   }
 };
 
-/// Points of a scanning laser or of a depth camera, in the sensor's own frame at the instant of each
-/// measurement: those of a moving sensor are not corrected for its motion. All lists have the same
-/// length; what was not seen is left out. ROS 2: sensor_msgs/msg/PointCloud2 with the fields x, y,
-/// z, intensity, time (float32), ring (uint16), return_number (uint8).
+/// Points of a scanning laser or of a depth camera, in the sensor's own frame at the instant of
+/// each measurement: those of a moving sensor are not corrected for its motion. All lists have the
+/// same length. What was not seen is left out, except in an organised cloud: there its
+/// return_number is 0, and so are its coordinates and its intensity. ROS 2:
+/// sensor_msgs/msg/PointCloud2 with the fields x, y, z, intensity, time (float32), ring (uint16),
+/// return_number (uint8); an organised one also has t, range (uint32) and reflectivity (uint16),
+/// and NaN where nothing was seen.
 struct PointCloud {
   static constexpr const char* kType = "PointCloud";
   static constexpr MessageFrame kFrame = MessageFrame::kOwn;
-  std::vector<float> x, y, z;               ///< m
-  std::vector<float> intensity;             ///< received power; 1: see the sensor
-  std::vector<float> time_s;                ///< from the stamp, not positive
-  std::vector<std::uint16_t> ring;          ///< number of the laser
-  std::vector<std::uint8_t> return_number;  ///< 1: the strongest echo of its pulse, 2: the last one
+  /// Of an organised cloud, whose points are in rows one after the other; 0: a list of points.
+  std::uint32_t rows = 0;
+  std::vector<float> x, y, z;       ///< m
+  std::vector<float> intensity;     ///< received power; 1: see the sensor
+  std::vector<float> time_s;        ///< from the stamp, not negative
+  std::vector<std::uint16_t> ring;  ///< number of the laser
+  /// 1: the strongest echo of its pulse, 2: the last one, 0: not seen
+  std::vector<std::uint8_t> return_number;
 
   template <class Self, class F>
   static void fields(Self& self, F&& f) {
@@ -164,9 +167,11 @@ struct PointCloud {
     f({"y", "m"}, self.y);
     f({"z", "m"}, self.z);
     f({"intensity", "", "received power"}, self.intensity);
-    f({"time", "s", "from the stamp, not positive"}, self.time_s);
+    f({"time", "s", "from the stamp, not negative"}, self.time_s);
     f({"ring", "", "number of the laser"}, self.ring);
-    f({"return_number", "", "1: strongest echo of its pulse, 2: last one"}, self.return_number);
+    f({"return_number", "", "1: strongest echo of its pulse, 2: last one, 0: not seen"},
+      self.return_number);
+    f({"rows", "", "of an organised cloud, one after the other; 0: a list"}, self.rows);
   }
 };
 

@@ -38,7 +38,7 @@ const std::map<std::string, Digests> kDigests = {
     {"LaserScan",
      {"71d1d3beca374c24df04887955cba02b", "7b9da5773057fbc69a2277707016b54b"}},
     {"PointCloud",
-     {"22bc2ac365bec16e2bbdfd815a2b6717", "8f4eeb1dd10b94be2fdd8ec677cce495"}},
+     {"ddcac65bf2effe59bfe0e606084d62fc", "b9b490b8eda07ab69f810cd0ad326101"}},
     {"Picture",
      {"d32b2a50f1c97b34730f0403a2daa921", ""}},
     {"CameraInfo",

@@ -93,6 +93,15 @@ void fill(RandomStream& random, T& value) {
   if constexpr (std::is_same_v<T, ReferenceTrajectory>) value.points.resize(size);
   if constexpr (std::is_same_v<T, LineList>) value.points_W.resize(2 * size);
   T::fields(value, FillField{random});
+  if constexpr (std::is_same_v<T, PointCloud>) {
+    // Half of them organised, and there some points not seen.
+    value.rows = size > 0 && random.uniform() < 0.5 ? static_cast<std::uint32_t>(size) : 0;
+    for (std::size_t i = 0; value.rows > 0 && i < size; ++i) {
+      value.return_number[i] = static_cast<std::uint8_t>(i % 3);
+      if (value.return_number[i] > 0) continue;
+      value.x[i] = value.y[i] = value.z[i] = value.intensity[i] = 0.0F;
+    }
+  }
   if constexpr (std::is_same_v<T, Picture>) {
     value.format = static_cast<Picture::Format>(random.next_u64() % 3);
     value.width = static_cast<std::uint32_t>(size);

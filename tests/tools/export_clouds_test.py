@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""`vinerow export` of clouds, from logs written by hand: PLY read by OpenCV, PCD by the letter of its specification, poses by SciPy.
+"""`vinerow export` of clouds, from logs written by hand: PLY read by OpenCV, LAS by laspy, PCD by the letter of its specification, poses
+by SciPy.
 
     export_clouds_test.py VINEROW
 """
 
 import csv
+import math
 import pathlib
 import subprocess
 import sys
@@ -12,6 +14,7 @@ import tempfile
 import unittest
 
 import cv2
+import laspy
 import numpy
 from scipy.spatial.transform import Rotation, Slerp
 
@@ -22,9 +25,10 @@ from mcap_file import CLOUD, HEADER, Cdr, Log  # noqa: E402
 
 VINEROW = sys.argv[1]
 # As the log has points, with an unused byte at the end.
-POINT = numpy.dtype({"names": ["x", "y", "z", "time", "ring"], "formats": ["<f4", "<f4", "<f4", "<f4", "<u2"],
-                     "offsets": [0, 4, 8, 12, 16], "itemsize": 20})  # fmt: skip
-DATATYPES = {"<f4": 7, "<u2": 4}
+POINT = numpy.dtype({"names": ["x", "y", "z", "time", "intensity", "ring", "return_number"],
+                     "formats": ["<f4", "<f4", "<f4", "<f4", "<f4", "<u2", "|u1"],
+                     "offsets": [0, 4, 8, 12, 16, 20, 22], "itemsize": 24})  # fmt: skip
+DATATYPES = {"<f4": 7, "<u2": 4, "|u1": 2}
 PERIOD_S, ORIGIN_S = 0.1, 10.0
 
 
@@ -67,6 +71,25 @@ def mounting_message(p, q, sensor: str = "rover/lidar") -> bytes:
     return Cdr().add("I", 1).header(0, "rover/base_link").text(sensor).add("d", *p, *q).message()
 
 
+def krueger(latitude, longitude, meridian):
+    """UTM easting and northing, m, on the ellipsoid of WGS 84: Krueger 1912, in the form of Karney, J. Geodesy 85 (2011), eq. 7 to 11, 35."""
+    a, f = 6378137.0, 1 / 298.257223563
+    n = f / (2 - f)
+    e = math.sqrt(f * (2 - f))
+    radius = a / (1 + n) * (1 + n**2 / 4 + n**4 / 64)
+    alpha = (n / 2 - 2 / 3 * n**2 + 5 / 16 * n**3, 13 / 48 * n**2 - 3 / 5 * n**3, 61 / 240 * n**3)
+    tau = numpy.tan(latitude)
+    sigma = numpy.sinh(e * numpy.arctanh(e * tau / numpy.hypot(1, tau)))
+    conformal = tau * numpy.hypot(1, sigma) - sigma * numpy.hypot(1, tau)
+    xi = numpy.arctan2(conformal, numpy.cos(longitude - meridian))
+    eta = numpy.arcsinh(numpy.sin(longitude - meridian) / numpy.hypot(conformal, numpy.cos(longitude - meridian)))
+    east, north = eta.copy(), xi.copy()
+    for k, factor in enumerate(alpha, 1):
+        east += factor * numpy.cos(2 * k * xi) * numpy.sinh(2 * k * eta)
+        north += factor * numpy.sin(2 * k * xi) * numpy.cosh(2 * k * eta)
+    return 500_000 + 0.9996 * radius * east, 0.9996 * radius * north
+
+
 class ExportOfClouds(unittest.TestCase):
     def setUp(self):
         scratch = tempfile.TemporaryDirectory()
@@ -84,6 +107,9 @@ class ExportOfClouds(unittest.TestCase):
         self.p_W = random.uniform([-5, 0, 0], [15, 25, 6], (self.count, 3))
         self.seen_s = numpy.linspace(self.times[0], self.times[-1], self.count)
         self.rings = random.integers(0, 16, self.count)
+        self.intensities = random.uniform(0, 120, self.count)
+        self.intensities[0] = 700  # of a reflector
+        self.returns = random.integers(1, 3, self.count)
 
     def write_log(self, frame="rover/lidar", mounted="rover/lidar"):
         log = Log()
@@ -103,6 +129,7 @@ class ExportOfClouds(unittest.TestCase):
             for k, name in enumerate("xyz"):
                 points[name] = p_S[part, k]
             points["time"], points["ring"] = self.seen_s[part] - stamp_ns / 1e9, self.rings[part]
+            points["intensity"], points["return_number"] = self.intensities[part], self.returns[part]
             log.message(lidar, stamp_ns, cloud_message(stamp_ns, points, frame))
             self.last = points
         other = log.channel("/rover/note", "std_msgs/msg/Header", "std_msgs/Header header\n" + HEADER)
@@ -152,6 +179,46 @@ class ExportOfClouds(unittest.TestCase):
         self.run_export("--topic", "rover/lidar", "-o", "all.ply", "--poses", "rover/truth")
         numpy.testing.assert_array_equal(ply_positions(self.folder / "all.ply"), positions(points))
 
+    def test_a_las_file_keeps_time_intensity_and_ring(self):
+        self.write_log()
+        run = self.run_export("--topic", "/rover/lidar", "-o", "new/all.las")
+        self.assertEqual(run.stdout, "new/all.las  600 points in the frame of the map, by /rover/truth\n")
+        las = laspy.read(self.folder / "new" / "all.las")
+        self.assertEqual((str(las.header.version), las.header.point_format.id, las.header.point_count), ("1.2", 1, 600))
+        self.assertLess(numpy.abs(las.xyz - self.p_W).max(), 1.2e-4)  # steps of 0.1 mm, and single precision in the log
+        numpy.testing.assert_allclose(las.header.mins, las.xyz.min(axis=0), atol=1e-9)
+        numpy.testing.assert_allclose(las.gps_time, self.seen_s, atol=2e-8)
+        numpy.testing.assert_array_equal(las.user_data, self.rings)
+        numpy.testing.assert_array_equal(numpy.array(las.return_number), self.returns)
+        self.assertTrue((numpy.array(las.number_of_returns) >= self.returns).all())
+        numpy.testing.assert_array_equal(las.header.number_of_points_by_return[:2], numpy.bincount(self.returns)[1:])
+        expected = numpy.minimum(numpy.round(100 * self.intensities.astype(numpy.float32).astype(float)), 65535)
+        numpy.testing.assert_array_equal(las.intensity, expected)
+
+    def test_a_las_file_in_a_reference_system(self):
+        """Against Krueger's series for the transverse Mercator projection, which is exact to nanometres."""
+        out = self.folder / "run"
+        scenario = pathlib.Path(__file__).resolve().parents[2] / "assets" / "scenarios" / "vineyard_scan.yaml"
+        subprocess.run([VINEROW, "run", scenario, "--quiet", "--no-pictures", "--no-report", "--set", "duration_s=0.3", "--set", "criteria=[]",
+                        "--out", out], check=True, capture_output=True)  # fmt: skip
+        self.log = out / "log.mcap"
+        self.run_export("--topic", "/rover/lidar", "-o", "map.las")
+        self.run_export("--topic", "/rover/lidar", "-o", "utm.las", "--crs", "EPSG:32632")
+        self.run_export("--topic", "/rover/lidar", "-o", "geographic.las", "--crs", "EPSG:4326")
+        p_W, utm, lonlat = (laspy.read(self.folder / name).xyz for name in ("map.las", "utm.las", "geographic.las"))
+        easting, northing = krueger(numpy.radians(lonlat[:, 1]), numpy.radians(lonlat[:, 0]), math.radians(9))
+        self.assertLess(numpy.abs(utm[:, 0] - easting).max(), 2e-4)
+        self.assertLess(numpy.abs(utm[:, 1] - northing).max(), 2e-4)
+        # Lengths are those of the map, but for the projection's scale 2 degrees beside its meridian and 300 m up.
+        pairs = numpy.random.default_rng(1).integers(0, len(p_W), (200, 2))
+        lengths = [numpy.linalg.norm((points[pairs[:, 0]] - points[pairs[:, 1]])[:, :2], axis=1) for points in (p_W, utm)]
+        ratios = (lengths[1] / lengths[0])[lengths[0] > 5]
+        self.assertGreater(len(ratios), 20)
+        self.assertLess(numpy.abs(ratios - 0.9996).max(), 2e-4)
+        keys = [bytes(record.record_data_bytes()) for record in laspy.read(self.folder / "utm.las").header.vlrs]
+        self.assertTrue(any((32632).to_bytes(2, "little") in key for key in keys))
+        self.assertIn("crs = 'EPSG:99' is not a coordinate reference system", self.refused("--topic", "/rover/lidar", "-o", "n/x.las", "--crs", "EPSG:99"))
+
     def test_points_without_a_pose_are_left_out_and_counted(self):
         self.seen_s = self.seen_s + 0.5  # the last poses are half a second before the last points
         self.write_log()
@@ -174,7 +241,9 @@ class ExportOfClouds(unittest.TestCase):
         self.assertIn("topic '/rover/note' has no clouds", self.refused("--topic", "/rover/note", "-o", "x.ply"))
         self.assertIn("no topic '/rover/gone'", self.refused("--topic", "/rover/lidar", "-o", "x.ply", "--poses", "/rover/gone"))
         self.assertIn("has clouds of 'rover', whose poses '/drone/truth' does not hold", self.refused("--topic", "/rover/lidar", "-o", "x.ply", "--poses", "/drone/truth"))
-        self.assertIn("-o must be a .pcd or .ply file", self.refused("--topic", "/rover/lidar", "--ply", "--poses", "/rover/truth"))
+        self.assertIn("-o must be a .pcd, .ply or .las file", self.refused("--topic", "/rover/lidar", "--ply", "--poses", "/rover/truth"))
+        self.assertIn("--crs is that of a LAS file, -o must be a .las file", self.refused("--topic", "/rover/lidar", "-o", "x.ply", "--crs", "EPSG:32632"))
+        self.assertIn("-o is a .las file, with --pcd it must be a folder or a .pcd file", self.refused("--topic", "/rover/lidar", "--pcd", "-o", "x.las"))
         self.assertIn("--pcd excludes --ply", self.refused("--topic", "/rover/lidar", "--ply", "--pcd"))
         self.assertIn("-o is a .ply file, with --pcd it must be a folder or a .pcd file", self.refused("--topic", "/rover/lidar", "--pcd", "-o", "x.ply"))
         self.assertIn("--ply cannot be printed to the terminal", self.refused("--topic", "/rover/lidar", "--ply", "-o", "-"))

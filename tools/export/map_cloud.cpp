@@ -19,18 +19,16 @@ std::optional<std::size_t> place_of(const std::vector<CloudField>& fields, const
 
 }  // namespace
 
-MapCloud::MapCloud(CloudFormat format, const std::filesystem::path& file,
-                   playback::Trace<Odometry> poses, const Pose& X_BS)
-    : format_(format), output_(file), poses_(std::move(poses)), X_BS_(X_BS) {}
+MapCloud::MapCloud(std::unique_ptr<MapCloudFile> file, playback::Trace<Odometry> poses,
+                   const Pose& X_BS)
+    : file_(std::move(file)), poses_(std::move(poses)), X_BS_(X_BS) {}
 
 bool MapCloud::begin(const std::vector<CloudField>& fields) {
   const auto x = place_of(fields, "x"), y = place_of(fields, "y"), z = place_of(fields, "z");
   if (!x || !y || !z) return false;
   at_ = {*x, *y, *z, place_of(fields, "time")};
-  fields_ = written_ = fields;
-  // Single precision has steps of 0.1 ms after half an hour.
-  if (at_.time) written_[*at_.time].kind = RosKind::kFloat64;
-  output_.put_text(cloud_header(format_, written_, 0));
+  fields_ = fields;
+  file_->begin(fields);
   has_begun_ = true;
   return true;
 }
@@ -76,29 +74,12 @@ void MapCloud::put_point(const CloudMessage& cloud, std::size_t i, std::int64_t 
     ++without_pose_;
     return;
   }
-  const Eigen::Vector3f p_W = (R_WS_ * p_S + p_WS_).cast<float>();
-  for (std::size_t k = 0; k < fields_.size(); ++k) {
-    if (k == at_.x) {
-      output_.put(p_W.x());
-    } else if (k == at_.y) {
-      output_.put(p_W.y());
-    } else if (k == at_.z) {
-      output_.put(p_W.z());
-    } else if (k == at_.time) {
-      output_.put(time_->s());
-    } else {
-      output_.put_text({reinterpret_cast<const char*>(point + fields_[k].offset),
-                        record::size_of(fields_[k].kind)});
-    }
-  }
+  file_->put(point, R_WS_ * p_S + p_WS_, *time_);
   ++count_;
-  output_.flush_if_long();
 }
 
 std::uint64_t MapCloud::finish() {
-  output_.flush();
-  output_.overwrite_text(0, cloud_header(format_, written_, count_));
-  output_.close();
+  file_->finish(count_);
   return count_;
 }
 

@@ -3,29 +3,25 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
-#include "engine/io/clouds/cloud_output.h"
 #include "engine/math/pose.h"
 #include "engine/playback/log_trace.h"
 #include "tools/export/cloud_message.h"
-#include "tools/export/scan_files.h"
+#include "tools/export/map_cloud_file.h"
 
 namespace vinerow::tools {
 
 /// Writes the points of a topic one after the other. Each is moved by the pose that the vehicle has
 /// at the point's own time (stamp and field `time`), so that the vehicle's motion within a frame
-/// bends nothing. Fields are kept; `time` becomes the time of the run.
+/// bends nothing.
 class MapCloud {
  public:
   /// @param poses  of the vehicle in W; not empty  @param X_BS  mounting of the scanner
-  /// @throws ConfigError if the file cannot be made
-  MapCloud(CloudFormat format, const std::filesystem::path& file, playback::Trace<Odometry> poses,
-           const Pose& X_BS);
+  MapCloud(std::unique_ptr<MapCloudFile> file, playback::Trace<Odometry> poses, const Pose& X_BS);
 
   /// @param message  a PointCloud2 with single-precision x, y, z
   /// @returns false if it is none, or has other fields than those before
@@ -47,13 +43,11 @@ class MapCloud {
   void put_point(const CloudMessage& cloud, std::size_t i, std::int64_t stamp_ns);
   bool move_to(Time t);
 
-  CloudFormat format_;
-  io::CloudOutput output_;
+  std::unique_ptr<MapCloudFile> file_;
   playback::Trace<Odometry> poses_;
   Pose X_BS_;
   bool has_begun_ = false;
   std::vector<CloudField> fields_;  ///< of the messages
-  std::vector<CloudField> written_;
   Places at_;
   std::optional<Time> time_;  ///< of the pose
   Eigen::Matrix3d R_WS_ = Eigen::Matrix3d::Identity();

@@ -6,13 +6,17 @@
 #include <optional>
 #include <vector>
 
+#include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "engine/io/files/output_folder.h"
 #include "engine/playback/log_trace.h"
+#include "engine/playback/run_frames.h"
 #include "engine/record/cdr.h"
 #include "engine/record/log_reader.h"
+#include "engine/sim/simulation.h"
 #include "tools/export/log_mountings.h"
 #include "tools/export/map_cloud.h"
+#include "tools/vinerow/subcommands.h"
 
 namespace vinerow::tools {
 namespace {
@@ -30,10 +34,27 @@ std::string frame_of(record::McapReader& log, const TopicSource& source) {
   return frame.value_or("");
 }
 
+std::unique_ptr<MapCloudFile> file_of(const ExportArguments& arguments) {
+  if (!arguments.las) {
+    io::make_folder_of(arguments.out);
+    return make_table_cloud(arguments.out);
+  }
+  std::optional<CrsPlace> place;
+  if (!arguments.crs.empty()) {
+    // The log does not name the origin; the world that its scenario describes has it.
+    const Registry registry = registry_of_run(arguments.log, {});
+    place = {arguments.crs,
+             build_world(playback::scenario_of_log(arguments.log, registry), registry)->origin};
+  }
+  std::unique_ptr<MapCloudFile> file = make_las_cloud(arguments.out, place);
+  io::make_folder_of(arguments.out);
+  return file;
+}
+
 }  // namespace
 
 void write_map_cloud(record::McapReader& log, const std::string& topic, const TopicSource& source,
-                     const ExportArguments& arguments, CloudFormat format) {
+                     const ExportArguments& arguments) {
   const auto fail = [&](const std::string& sentence) {
     throw ConfigError(fmt::format("{}: topic '{}' {}", arguments.log.string(), topic, sentence));
   };
@@ -65,12 +86,11 @@ void write_map_cloud(record::McapReader& log, const std::string& topic, const To
     throw ConfigError(
         fmt::format("{}: topic '{}' has no poses", arguments.log.string(), poses_topic));
   }
-  io::make_folder_of(arguments.out);
-  MapCloud cloud(format, arguments.out, poses, mounting->X_BS);
+  MapCloud cloud(file_of(arguments), std::move(poses), mounting->X_BS);
   add_messages(log, topic, source, arguments, cloud);
   if (!cloud.has_begun()) fail("has no clouds between --from and --to");
-  fmt::print("{}  {} points in the frame of the map, by {}\n", arguments.out.string(),
-             cloud.finish(), poses_topic);
+  fmt::print("{}  {} points in {}, by {}\n", arguments.out.string(), cloud.finish(),
+             arguments.crs.empty() ? "the frame of the map" : arguments.crs, poses_topic);
   if (cloud.without_pose() > 0) {
     fmt::print(stderr,
                "vinerow: {} points before the first or after the last pose of {} were left out\n",

@@ -43,16 +43,17 @@ std::string file_stem(const std::string& topic, std::set<std::string>& taken) {
   return name;
 }
 
-/// A format of files, as its option names it.
+/// A format of files.
 struct OutFormat {
   const char* ending;
-  const char* option;
+  const char* option;  ///< ".las" is chosen by the ending alone
   bool ExportArguments::*is_wanted;
 };
 constexpr OutFormat kFormats[] = {{".csv", "--csv", &ExportArguments::csv},
                                   {".npz", "--npz", &ExportArguments::npz},
                                   {".pcd", "--pcd", &ExportArguments::pcd},
-                                  {".ply", "--ply", &ExportArguments::ply}};
+                                  {".ply", "--ply", &ExportArguments::ply},
+                                  {".las", "", &ExportArguments::las}};
 
 /// Derives the format from -o. @returns whether -o names one file
 bool read_out(ExportArguments& arguments) {
@@ -74,13 +75,13 @@ bool read_out(ExportArguments& arguments) {
     }
   }
   // A folder of such a name is hardly what is meant.
-  static const std::set<std::string> kOthers = {".h5",   ".jpg",     ".json", ".las", ".laz",
-                                                ".mat",  ".npy",     ".png",  ".tsv", ".txt",
-                                                ".xlsx", ".parquet", ".xyz"};
+  static const std::set<std::string> kOthers = {".h5",  ".jpg",  ".json",    ".laz",
+                                                ".mat", ".npy",  ".png",     ".tsv",
+                                                ".txt", ".xlsx", ".parquet", ".xyz"};
   if (kOthers.contains(ending) && !std::filesystem::is_directory(arguments.out)) {
     throw ConfigError(
-        fmt::format("export: -o '{}' must be a file .csv, .npz, .pcd or .ply, - for the terminal, "
-                    "or a folder",
+        fmt::format("export: -o '{}' must be a file .csv, .npz, .pcd, .ply or .las, - for the "
+                    "terminal, or a folder",
                     arguments.out.string()));
   }
   bool has_format = false;
@@ -89,9 +90,13 @@ bool read_out(ExportArguments& arguments) {
     has_format = has_format || arguments.*format.is_wanted;
   }
   if (!has_format) arguments.csv = true;
-  const bool is_map_cloud = one_file && (arguments.pcd || arguments.ply);
+  const bool is_map_cloud = one_file && (arguments.pcd || arguments.ply || arguments.las);
   if (!arguments.poses.empty() && !is_map_cloud) {
-    throw ConfigError("export: --poses moves clouds into one file, -o must be a .pcd or .ply file");
+    throw ConfigError(
+        "export: --poses moves clouds into one file, -o must be a .pcd, .ply or .las file");
+  }
+  if (!arguments.crs.empty() && !arguments.las) {
+    throw ConfigError("export: --crs is that of a LAS file, -o must be a .las file");
   }
   return one_file;
 }
@@ -123,15 +128,16 @@ void export_topics(ExportArguments arguments) {
     const std::string& topic = chosen.name;
     const TopicSource source = source_of(log, topic, arguments);
     const std::string& type = source.schema->name;
-    if (cloud_format && !is_cloud_type(type)) {
+    const bool to_clouds = cloud_format || arguments.las;
+    if (to_clouds && !is_cloud_type(type)) {
       // A pattern exports every topic that can be exported.
       if (chosen.by_pattern) return false;
       throw ConfigError(
           fmt::format("export: topic '{}' has no clouds, it is of type {}", topic, type));
     }
     const std::string stem = file_stem(topic, taken);
-    if (cloud_format && one_file) {
-      write_map_cloud(log, topic, source, arguments, *cloud_format);
+    if (to_clouds && one_file) {
+      write_map_cloud(log, topic, source, arguments);
       return true;
     }
     if (cloud_format) {
@@ -210,12 +216,16 @@ void add_export_command(CLI::App& app, int& exit_status) {
                                              "each cloud as a PLY file, in the scanner's frame");
   for (CLI::Option* const cloud : {pcd, ply}) cloud->excludes(csv)->excludes(npz);
   pcd->excludes(ply);
-  command->add_option("-o,--out", arguments->out,
-                      "file .csv or .npz; .pcd or .ply for all clouds of a topic in the frame of "
-                      "the map; - for the terminal; or a folder (default: export next to the log)");
+  command->add_option(
+      "-o,--out", arguments->out,
+      "file .csv or .npz; .pcd, .ply or .las for all clouds of a topic in the "
+      "frame of the map; - for the terminal; or a folder (default: export next to the log)");
   command->add_option("--poses", arguments->poses,
                       "topic of the poses that bring clouds into the frame of the map (default: "
                       "the true ones, /<vehicle>/truth)");
+  command->add_option("--crs", arguments->crs,
+                      "coordinates of a .las file, like EPSG:25832 (default: m east, north, up of "
+                      "the world's origin)");
   command->add_option("--from", arguments->from_s, "only messages from this simulated time on, s");
   command->add_option("--to", arguments->to_s, "only messages up to this simulated time, s");
   command->add_flag("--long", arguments->long_form,

@@ -17,8 +17,9 @@ namespace vinerow::tools {
 struct ExportArguments {
   std::filesystem::path log, out;
   std::vector<std::string> topics;
-  bool csv = false, npz = false, pcd = false, ply = false, long_form = false;
+  bool csv = false, npz = false, pcd = false, ply = false, las = false, long_form = false;
   std::string poses;  ///< topic, for clouds in the frame of the map
+  std::string crs;    ///< of the LAS file; "": the frame of the map
   double from_s = -std::numeric_limits<double>::infinity();
   double to_s = std::numeric_limits<double>::infinity();
 };

@@ -57,7 +57,8 @@ constexpr std::array kHelpTexts = {
     HelpText{"export", kTables,
              "export runs/x --topic /rover/follower -o follower.csv\n"
              "export runs/x --topic '/rover/*' --npz -o arrays\n"
-             "export runs/x --topic /rover/lidar -o drive.ply",
+             "export runs/x --topic /rover/lidar -o drive.ply\n"
+             "export runs/x --topic /rover/lidar -o drive.las --crs EPSG:32632",
              ""},
     HelpText{"compare", kTables,
              "compare runs/before runs/after --fail-on regression\n"

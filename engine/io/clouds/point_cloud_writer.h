@@ -14,9 +14,18 @@ namespace vinerow::io {
 struct PointCloudWriterOptions {
   bool has_colour = false;          ///< points without colour become black
   bool has_classification = false;  ///< points without one become 0; LAS always stores it, below 32
+  bool has_pulses = false;          ///< of LAS: points have a time
   std::string crs;                  ///< LAS: "EPSG:25832" or ""; PLY and XYZ do not store it
   Eigen::Vector3d las_offset = {0, 0, 0};          ///< near the cloud, in its unit
   Eigen::Vector3d las_scale = {1e-3, 1e-3, 1e-3};  ///< > 0: positions are rounded to it
+};
+
+/// What LAS also keeps of a point of a laser scanner.
+struct CloudPulse {
+  std::uint16_t intensity = 0;
+  std::uint8_t return_number = 1;  ///< 1 to 5
+  std::uint8_t user_data = 0;
+  double time_s = 0.0;
 };
 
 /// Writer of one file. Memory does not grow with the number of points.
@@ -28,7 +37,9 @@ class PointCloudWriter {
 
   /// @throws ConfigError naming the file: it cannot be written, or a position is not finite; for
   /// LAS also if a scaled position does not fit into 32 bits or a classification exceeds 31
-  virtual void write(std::span<const CloudPoint> points) = 0;
+  void write(std::span<const CloudPoint> points) { write(points, {}); }
+  /// @param pulses  of the points, if the options have has_pulses; only LAS keeps them
+  virtual void write(std::span<const CloudPoint> points, std::span<const CloudPulse> pulses) = 0;
   /// Completes the file: counts and bounds in its header are valid only after this call. @throws
   /// ConfigError
   virtual void finish() = 0;
@@ -41,8 +52,8 @@ class PointCloudWriter {
 std::unique_ptr<PointCloudWriter> create_ply_cloud(const std::filesystem::path& file,
                                                    const PointCloudWriterOptions& options = {});
 
-/// LAS 1.2, point format 0 or (with colour) 2, the EPSG code as GeoTIFF keys. Colours are written
-/// in 16 bits as 257 times the byte.
+/// LAS 1.2, point format 0, with colour 2, with pulses 1 and 3, the EPSG code as GeoTIFF keys.
+/// Colours are written in 16 bits as 257 times the byte.
 /// @throws ConfigError also if `crs` is neither "" nor the EPSG code of a geographic or projected
 /// system
 std::unique_ptr<PointCloudWriter> create_las_cloud(const std::filesystem::path& file,

@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
 
+#include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "engine/io/clouds/cloud_output.h"
 #include "engine/io/clouds/las_header.h"
@@ -45,20 +47,29 @@ class LasWriter : public PointCloudWriter {
     output_.flush();
   }
 
-  void write(std::span<const CloudPoint> points) override {
-    for (const CloudPoint& point : points) {
+  void write(std::span<const CloudPoint> points, std::span<const CloudPulse> pulses) override {
+    VINEROW_DEMAND(pulses.size() == (options_.has_pulses ? points.size() : 0));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const CloudPoint& point = points[i];
+      const CloudPulse pulse = options_.has_pulses ? pulses[i] : CloudPulse{};
       output_.check_finite(point);
       const Eigen::Vector3d stored = put_position(point.position);
       bounds_.extend(stored);
+      VINEROW_DEMAND(pulse.return_number >= 1 && pulse.return_number <= by_return_.size());
       const std::uint8_t classification = point.classification.value_or(0);
       if (classification > 31) {
         output_.fail(
             fmt::format("cannot hold the classification {}, LAS 1.2 has 0 to 31", classification));
       }
-      output_.put(std::uint16_t{0});    // intensity
-      output_.put(std::uint8_t{0x09});  // first return of one
+      output_.put(pulse.intensity);
+      // The number of the return, and the least number of returns that it allows.
+      output_.put(static_cast<std::uint8_t>(pulse.return_number * 0x09u));
+      ++by_return_[pulse.return_number - 1u];
       output_.put(classification);
-      output_.put(std::uint32_t{0});  // scan angle, user data, point source
+      output_.put(std::uint8_t{0});  // scan angle
+      output_.put(pulse.user_data);
+      output_.put(std::uint16_t{0});  // point source
+      if (options_.has_pulses) output_.put(pulse.time_s);
       if (options_.has_colour) {
         for (const std::uint8_t c : point.rgb.value_or(std::array<std::uint8_t, 3>{})) {
           output_.put(static_cast<std::uint16_t>(257 * c));
@@ -73,8 +84,8 @@ class LasWriter : public PointCloudWriter {
   }
 
   void finish() override {
-    const auto count = static_cast<std::uint32_t>(count_);
-    output_.overwrite(kCountAt, std::array{count, count});  // all are first returns
+    output_.overwrite(kCountAt, static_cast<std::uint32_t>(count_));
+    output_.overwrite(kCountAt + 4, by_return_);
     if (count_ > 0) {
       const Eigen::Vector3d& lower = bounds_.min();
       const Eigen::Vector3d& upper = bounds_.max();
@@ -85,9 +96,8 @@ class LasWriter : public PointCloudWriter {
   }
 
  private:
-
   void put_header(const std::optional<GeoKeys>& keys) {
-    const int format = options_.has_colour ? 2 : 0;
+    const int format = (options_.has_colour ? 2 : 0) + (options_.has_pulses ? 1 : 0);
     output_.put_text("LASF");
     output_.put_text("", 4 + 16);  // file source, global encoding, GUID
     output_.put(std::array<std::uint8_t, 2>{1, 2});
@@ -136,6 +146,7 @@ class LasWriter : public PointCloudWriter {
   CloudOutput output_;
   Eigen::AlignedBox3d bounds_;
   std::uint64_t count_ = 0;
+  std::array<std::uint32_t, 5> by_return_{};
 };
 
 }  // namespace

@@ -30,7 +30,7 @@ class PlyWriter : public PointCloudWriter {
     output_.flush();
   }
 
-  void write(std::span<const CloudPoint> points) override {
+  void write(std::span<const CloudPoint> points, std::span<const CloudPulse> /*pulses*/) override {
     for (const CloudPoint& point : points) {
       output_.check_finite(point);
       for (int k = 0; k < 3; ++k) output_.put(point.position[k]);

@@ -14,7 +14,7 @@ class XyzWriter : public PointCloudWriter {
                                  options.has_classification ? " classification" : ""));
   }
 
-  void write(std::span<const CloudPoint> points) override {
+  void write(std::span<const CloudPoint> points, std::span<const CloudPulse> /*pulses*/) override {
     for (const CloudPoint& point : points) {
       output_.check_finite(point);
       const Eigen::Vector3d& p = point.position;

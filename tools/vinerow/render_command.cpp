@@ -2,6 +2,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/whole_file.h"
+#include "tools/report/html.h"
 #include "tools/vinerow/number_checks.h"
 #include "tools/vinerow/picture_arguments.h"
 #include "tools/vinerow/subcommands.h"
@@ -38,18 +39,19 @@ void add_render_command(CLI::App& app, int& exit_status) {
     const std::filesystem::path log = log_of(arguments->pictures.log);
     const std::filesystem::path out =
         arguments->out.empty() ? log.parent_path() / "frames" : arguments->out;
-    const playback::PictureReport report = render_pictures(log, out, registry, options);
-    if (!report.write_failure.empty()) throw WriteError(report.write_failure);
-    if (!report.note.empty()) throw ConfigError("no pictures: " + report.note);
-    if (report.files.empty()) {
+    const playback::PictureReport drawn = render_pictures(log, out, registry, options);
+    if (!drawn.write_failure.empty()) throw WriteError(drawn.write_failure);
+    if (!drawn.note.empty()) throw ConfigError("no pictures: " + drawn.note);
+    if (drawn.files.empty()) {
       throw ConfigError(fmt::format("no frame: none of the times is within {}", log.string()));
     }
-    for (std::size_t i = 0; i < report.files.size(); ++i) {
-      fmt::print("{}{}\n", arguments->digest ? report.digests[i] + "  " : "",
-                 report.files[i].string());
+    for (std::size_t i = 0; i < drawn.files.size(); ++i) {
+      fmt::print("{}{}\n", arguments->digest ? drawn.digests[i] + "  " : "",
+                 drawn.files[i].string());
     }
-    fmt::print("{} frames, {:.0f} ms each\n", report.files.size(),
-               1e3 * report.wall_s / static_cast<double>(report.files.size()));
+    fmt::print("{}, {:.0f} ms each\n",
+               report::counted(static_cast<long>(drawn.files.size()), "frame"),
+               1e3 * drawn.wall_s / static_cast<double>(drawn.files.size()));
     exit_status = 0;
   });
 }

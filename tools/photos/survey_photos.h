@@ -28,9 +28,8 @@ SurveyCamera photo_camera(const SurveyCamera& camera, const SurveyPhotoOptions& 
 ///
 ///   <folder>/photo_0001.jpg ...  Exif has the position that the vehicle estimated, or the true one
 ///                                without estimates
-///   <folder>/geo.txt             the same positions as OpenDroneMap reads them, with yaw, pitch
-///   and
-///                                roll of the XMP, and the rms of the positions' errors
+///   <folder>/geo.txt             the same positions for OpenDroneMap, with the angles of the XMP
+///                                and the rms of the positions' errors
 ///   <folder>/truth.csv           true position and orientation, in W and in WGS84
 ///
 /// The folder is complete or absent. @param drawn  is called after each photograph with their

@@ -7,8 +7,8 @@
 ///
 /// `picture` is what the signal of the sensor's name has: colours (RGB8, sRGB), one band (MONO16,
 /// linear) or depth (MONO16, mm). Further signals, the layers as parameters request them:
-///   <name>_info      CameraInfo, of all pictures: their stamps are equal, and they are lost
-///   together <name>_exposure  NamedValues: exposure_s, gain of the picture; not of depth alone
+///   <name>_info      CameraInfo of all pictures, with their stamps; lost together with them
+///   <name>_exposure  NamedValues: exposure_s, gain of the picture; not of depth alone
 ///   <name>_depth     MONO16, mm along the axis; 0: none (with the errors of depth_reading.h)
 ///   <name>_normals   RGB8: (n + 1) / 2 x 255 in the optical frame; 0, 0, 0: nothing is seen
 ///   <name>_semantic  MONO8: Label

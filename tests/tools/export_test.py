@@ -309,9 +309,9 @@ class Export(unittest.TestCase):
 
     def test_a_file_of_another_format_is_refused(self):
         self.write_kinds()
-        out = self.folder / "cloud.las"
+        out = self.folder / "cloud.laz"
         refused = self.run_export("--topic", "/rover/kinds", "-o", str(out), status=2).stderr
-        self.assertEqual(refused, f"vinerow: export: -o '{out}' must be a file .csv, .npz, .pcd or .ply, - for the terminal, or a folder\n")
+        self.assertEqual(refused, f"vinerow: export: -o '{out}' must be a file .csv, .npz, .pcd, .ply or .las, - for the terminal, or a folder\n")
         self.assertFalse(out.exists())
         out.mkdir()
         self.run_export("--topic", "/rover/kinds", "-o", str(out))

@@ -174,6 +174,10 @@ TriangleMesh convert_mesh(const aiMesh& source, bool file_is_linear) {
   return mesh;
 }
 
+/// Coordinates have 32 bits: their steps are 8 mm at this distance, and half a metre at the
+/// northings of UTM, where a post is no body any more.
+constexpr double kFarthest_m = 1e5;
+
 /// Transforms a mesh to the result's axes and unit, and removes degenerate triangles.
 void place_mesh(TriangleMesh& mesh, const Eigen::Matrix4d& transform, const std::string& name,
                 const std::filesystem::path& file) {
@@ -186,6 +190,13 @@ void place_mesh(TriangleMesh& mesh, const Eigen::Matrix4d& transform, const std:
       throw ConfigError(
           fmt::format("mesh file '{}': vertex {} of '{}' has a coordinate that is not finite",
                       file.string(), i, name));
+    }
+    if (p.cwiseAbs().maxCoeff() > kFarthest_m) {
+      throw ConfigError(
+          fmt::format("mesh file '{}': vertex {} of '{}' is {:.0f} m from the file's origin, must "
+                      "be at most {:.0f} m, since coordinates of 32 bits are too coarse there: "
+                      "subtract the same offset from all coordinates, or set the unit",
+                      file.string(), i, name, p.cwiseAbs().maxCoeff(), kFarthest_m));
     }
     mesh.vertices[i] = p.cast<float>();
   }

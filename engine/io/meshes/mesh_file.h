@@ -45,7 +45,7 @@ struct MeshFile {
 
 /// @throws ConfigError naming the file: it does not exist, is empty, is of an unknown format, is
 /// broken (with assimp's
-///         reason), has no triangles, or has a coordinate that is not finite.
+///         reason), has no triangles, or has a coordinate that is not finite or beyond 100 km.
 MeshFile load_mesh(const std::filesystem::path& file, const MeshFileOptions& options = {});
 
 /// Joins all parts into one mesh, for collision. Colours and texture coordinates are dropped unless

@@ -434,6 +434,29 @@ TEST_F(MeshFileTest, CoordinateThatIsNotFiniteIsRefused) {
   EXPECT_NE(error.find("has a coordinate that is not finite"), std::string::npos) << error;
 }
 
+// A post of 0.2 m at coordinates of UTM: the step of a 32-bit northing is 0.5 m there (2^22 to 2^23
+// m, 24 bits), so that its sides coincide.
+TEST_F(MeshFileTest, CoordinatesThatAreTooCoarseAreRefused) {
+  const std::string post =
+      "o post\nv 499999.9 4899999.9 0\nv 500000.1 4899999.9 0\nv 500000 4900000.1 0\n"
+      "v 500000 4900000 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+  const std::string error = error_of(write("utm.obj", post));
+  EXPECT_NE(error.find("utm.obj': vertex 0 of 'post' is 4900000 m from the file's origin, must be "
+                       "at most 100000 m"),
+            std::string::npos)
+      << error;
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\n"
+      "property double z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+      "0 0 0\n1 0 0\n0 100001 0\n3 0 1 2\n";
+  EXPECT_NE(error_of(write("far.ply", ply)).find("vertex 2 of 'far' is 100001 m"),
+            std::string::npos);
+  // 4.9e6 millimetres are 4.9 km, with steps of 0.5 mm.
+  MeshFileOptions millimetres;
+  millimetres.unit_m = 1e-3;
+  EXPECT_NEAR(load_mesh(write("mm.obj", post), millimetres).bounds().max().y(), 4900.0, 1e-3);
+}
+
 TEST_F(MeshFileTest, ConeOfTwoFormatsIsTheSameBody) {
   VINEROW_OUTSIDE_DATA(meshes, "bullet3/data/racecar/meshes");
   const MeshFile dae = load_mesh(meshes / "cone.dae");

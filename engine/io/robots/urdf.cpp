@@ -10,10 +10,12 @@
 #include <set>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "engine/core/error.h"
 #include "engine/core/files.h"
 #include "engine/core/program.h"
+#include "engine/core/suggest.h"
 
 namespace vinerow::io {
 namespace {
@@ -28,13 +30,14 @@ class ComplaintCatcher final : public console_bridge::OutputHandler {
   }
   ~ComplaintCatcher() override { console_bridge::useOutputHandler(before_); }
   void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
-    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR && first_.empty()) first_ = text;
+    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR) texts_.push_back(text);
   }
-  std::string first() const { return first_.empty() ? "no reason given" : first_; }
+  const std::vector<std::string>& texts() const { return texts_; }
+  std::string first() const { return texts_.empty() ? "no reason given" : texts_.front(); }
 
  private:
   console_bridge::OutputHandler* before_;
-  std::string first_;
+  std::vector<std::string> texts_;
 };
 
 std::string read_urdf_text(const std::filesystem::path& file) {
@@ -325,6 +328,11 @@ UrdfModel load_urdf(const std::filesystem::path& file, const Packages& packages)
   }
   if (!parsed || !parsed->getRoot()) {
     throw ConfigError(fmt::format("{}: not a URDF ({})", file.string(), complaints.first()));
+  }
+  // liburdfdom leaves out an inertial with a number that it cannot read, and returns the rest.
+  if (!complaints.texts().empty()) {
+    throw ConfigError(
+        fmt::format("{}: not a URDF ({})", file.string(), join(complaints.texts(), ": ")));
   }
   model.name = parsed->getName();
   add_tree(*parsed->getRoot(), -1, packages, model);

@@ -151,6 +151,24 @@ TEST(Urdf, FaultsAreOneClearSentence) {
             std::string::npos);
 }
 
+/// liburdfdom leaves out the inertial and returns the rest: a robot without its mass.
+TEST(Urdf, InertialsWithNumbersThatCannotBeReadAreRefused) {
+  const auto robot = [](const std::string& mass, const std::string& ixx) {
+    return "<robot name='a'><link name='b'><inertial><mass value='" + mass + "'/><inertia ixx='" +
+           ixx + "' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial></link></robot>";
+  };
+  EXPECT_EQ(load_urdf(write_file("good.urdf", robot("20.5", "1"))).links.at(0).mass_kg, 20.5);
+  const auto comma = write_file("comma.urdf", robot("20,5", "1"));
+  EXPECT_EQ(error_of(comma),
+            comma.string() +
+                ": not a URDF (Inertial: mass [20,5] is not a float: Could not parse inertial "
+                "element for Link [b])");
+  EXPECT_NE(error_of(write_file("nan.urdf", robot("nan", "1"))).find("mass [nan]"),
+            std::string::npos);
+  EXPECT_NE(error_of(write_file("text.urdf", robot("20", "one"))).find("element for Link [b])"),
+            std::string::npos);
+}
+
 /// liburdfdom would take the value that it complains about for a format of printf.
 TEST(Urdf, APercentSignIsRefusedButInNamesOfFiles) {
   const auto origin = write_file("percent.urdf",

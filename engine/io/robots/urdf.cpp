@@ -309,6 +309,22 @@ void add_tree(const urdf::Link& source, int parent_joint, const Packages& packag
   }
 }
 
+/// liburdfdom leaves out an element with a number that it cannot read, and returns the rest. The
+/// looks of a robot may lack it; its masses and shapes may not. The complaint about an element
+/// follows those about its parts.
+void judge_complaints(const std::vector<std::string>& texts, const std::string& file,
+                      std::vector<std::string>& notes) {
+  std::vector<std::string> about_one;
+  for (const std::string& text : texts) {
+    about_one.push_back(text);
+    if (!text.starts_with("Could not parse visual element")) continue;
+    notes.push_back(join(about_one, ": "));
+    about_one.clear();
+  }
+  if (about_one.empty()) return;
+  throw ConfigError(fmt::format("{}: not a URDF ({})", file, join(about_one, ": ")));
+}
+
 }  // namespace
 
 UrdfModel load_urdf(const std::filesystem::path& file, const Packages& packages) {
@@ -329,11 +345,7 @@ UrdfModel load_urdf(const std::filesystem::path& file, const Packages& packages)
   if (!parsed || !parsed->getRoot()) {
     throw ConfigError(fmt::format("{}: not a URDF ({})", file.string(), complaints.first()));
   }
-  // liburdfdom leaves out an inertial with a number that it cannot read, and returns the rest.
-  if (!complaints.texts().empty()) {
-    throw ConfigError(
-        fmt::format("{}: not a URDF ({})", file.string(), join(complaints.texts(), ": ")));
-  }
+  judge_complaints(complaints.texts(), file.string(), model.notes);
   model.name = parsed->getName();
   add_tree(*parsed->getRoot(), -1, packages, model);
   return model;

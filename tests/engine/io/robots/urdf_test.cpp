@@ -167,6 +167,17 @@ TEST(Urdf, InertialsWithNumbersThatCannotBeReadAreRefused) {
             std::string::npos);
   EXPECT_NE(error_of(write_file("text.urdf", robot("20", "one"))).find("element for Link [b])"),
             std::string::npos);
+  // A visual is for pictures only.
+  const auto visual =
+      write_file("visual.urdf",
+                 "<robot name='a'><link name='b'><inertial><mass value='2'/><inertia ixx='1' "
+                 "iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial><visual><geometry><box "
+                 "size='1 1 a'/></geometry></visual></link></robot>");
+  const UrdfModel model = load_urdf(visual);
+  EXPECT_EQ(model.links.at(0).mass_kg, 2.0);
+  ASSERT_EQ(model.notes.size(), 1u);
+  EXPECT_NE(model.notes[0].find("Could not parse visual element for Link [b]"), std::string::npos)
+      << model.notes[0];
 }
 
 /// liburdfdom would take the value that it complains about for a format of printf.

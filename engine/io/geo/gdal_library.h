@@ -24,8 +24,9 @@ namespace vinerow::io {
   X(GDALAllRegister) X(GDALClose) X(GDALCreate) X(GDALDatasetCreateLayer) X(GDALDatasetGetLayer)  \
   X(GDALDatasetGetLayerCount) X(GDALGetDriverByName) X(GDALGetGeoTransform) X(GDALGetRasterBand)  \
   X(GDALGetRasterCount) X(GDALGetRasterNoDataValue) X(GDALGetRasterOffset) X(GDALGetRasterScale)  \
-  X(GDALGetRasterXSize) X(GDALGetRasterYSize) X(GDALGetSpatialRef) X(GDALOpenEx) X(GDALRasterIO)  \
-  X(GDALSetDescription) X(GDALSetGeoTransform) X(GDALSetRasterNoDataValue)                        \
+  X(GDALGetRasterUnitType) X(GDALGetRasterXSize) X(GDALGetRasterYSize) X(GDALGetSpatialRef)       \
+  X(GDALOpenEx) X(GDALRasterIO) X(GDALSetDescription) X(GDALSetGeoTransform)                      \
+  X(GDALSetRasterNoDataValue)                                                                     \
   X(GDALSetRasterOffset) X(GDALSetRasterScale) X(GDALSetRasterUnitType) X(GDALSetSpatialRef)      \
   X(OCTDestroyCoordinateTransformation) X(OCTNewCoordinateTransformation) X(OCTTransform)         \
   X(OSRClone) X(OSRDestroySpatialReference) X(OSRExportToWkt) X(OSRGetAuthorityCode)              \

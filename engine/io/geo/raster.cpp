@@ -1,6 +1,7 @@
 #include "engine/io/geo/raster.h"
 
 #include <fmt/format.h>
+#include <strings.h>
 
 #include <algorithm>
 #include <array>
@@ -30,21 +31,27 @@ class ToRaster {
     inverse_ = {g[5] / determinant, -g[2] / determinant, -g[4] / determinant, g[1] / determinant};
   }
 
-  /// Bilinear between pixel centres. @returns NaN outside or at "no data"
-  double height_m(double latitude_rad, double longitude_rad) const {
+  /// Column and row of a position, whole at pixel centres; nullopt outside the raster.
+  std::optional<Eigen::Vector2d> pixel(double latitude_rad, double longitude_rad) const {
     double x = deg_from_rad(longitude_rad), y = deg_from_rad(latitude_rad);
-    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-    if (!transformation_.apply(x, y)) return kNone;
+    if (!transformation_.apply(x, y)) return std::nullopt;
     const double dx = x - raster_.geo_transform[0], dy = y - raster_.geo_transform[3];
     const double column = inverse_[0] * dx + inverse_[1] * dy - 0.5;
     const double row = inverse_[2] * dx + inverse_[3] * dy - 0.5;
-    // The outer half of a border pixel has no neighbour: its height is extrapolated as constant.
     if (!(column >= -0.5 && row >= -0.5 && column <= raster_.columns - 0.5 &&
           row <= raster_.rows - 0.5)) {
-      return kNone;
+      return std::nullopt;
     }
-    const double c = std::clamp(column, 0.0, raster_.columns - 1.0);
-    const double r = std::clamp(row, 0.0, raster_.rows - 1.0);
+    return Eigen::Vector2d(column, row);
+  }
+
+  /// Bilinear between pixel centres. @returns NaN outside or at "no data"
+  double height_m(double latitude_rad, double longitude_rad) const {
+    const auto place = pixel(latitude_rad, longitude_rad);
+    if (!place) return std::numeric_limits<double>::quiet_NaN();
+    // The outer half of a border pixel has no neighbour: its height is extrapolated as constant.
+    const double c = std::clamp(place->x(), 0.0, raster_.columns - 1.0);
+    const double r = std::clamp(place->y(), 0.0, raster_.rows - 1.0);
     const int i = std::min(static_cast<int>(c), std::max(raster_.columns - 2, 0));
     const int j = std::min(static_cast<int>(r), std::max(raster_.rows - 2, 0));
     const int i1 = std::min(i + 1, raster_.columns - 1), j1 = std::min(j + 1, raster_.rows - 1);
@@ -64,19 +71,46 @@ class ToRaster {
 
 namespace {
 
-[[noreturn]] void fail_outside(const ElevationRaster& raster, const ToRaster& to_raster,
-                               double latitude_rad, double longitude_rad) {
+/// "; its middle is at latitude 45.0 deg, longitude 9.0 deg", or "" if WGS84 does not reach it.
+std::string name_middle(const ElevationRaster& raster) {
+  const double* g = raster.geo_transform;
+  double x = g[0] + 0.5 * (raster.columns * g[1] + raster.rows * g[2]);
+  double y = g[3] + 0.5 * (raster.columns * g[4] + raster.rows * g[5]);
+  const Transformation to_wgs84(parse_wkt(raster.crs_wkt), make_wgs84());
+  if (!to_wgs84 || !to_wgs84.apply(x, y)) return "";
+  return fmt::format("; its middle is at latitude {:.6f} deg, longitude {:.6f} deg", y, x);
+}
+
+[[noreturn]] void fail_without_height(const ElevationRaster& raster, const ToRaster& to_raster,
+                                      double latitude_rad, double longitude_rad) {
+  if (to_raster.pixel(latitude_rad, longitude_rad)) {
+    throw ConfigError(fmt::format(
+        "raster '{}' has a hole (\"no data\") at latitude {:.6f} deg, longitude {:.6f} deg, where "
+        "the world has ground: fill it, as with gdal_fillnodata.py, or move the world",
+        raster.file.string(), deg_from_rad(latitude_rad), deg_from_rad(longitude_rad)));
+  }
   const double* g = raster.geo_transform;
   const bool is_swapped = std::abs(longitude_rad) <= 0.5 * kPi &&
                           std::isfinite(to_raster.height_m(longitude_rad, latitude_rad));
   throw ConfigError(
       fmt::format("raster '{}' has no height at latitude {:.6f} deg, longitude {:.6f} deg; it "
-                  "covers x {:.0f} to {:.0f}, y {:.0f} "
-                  "to {:.0f} of {}{}",
+                  "covers x {:.9g} to {:.9g}, y {:.9g} to {:.9g} of {}{}",
                   raster.file.string(), deg_from_rad(latitude_rad), deg_from_rad(longitude_rad),
                   g[0], g[0] + raster.columns * g[1] + raster.rows * g[2],
                   g[3] + raster.columns * g[4] + raster.rows * g[5], g[3], raster.crs_name,
-                  is_swapped ? "; are latitude and longitude swapped?" : ""));
+                  is_swapped ? "; are latitude and longitude swapped?" : name_middle(raster)));
+}
+
+/// Metres in a unit of heights by GDAL's names for those of GeoTIFF and other files. A name that is
+/// not known, and none, is the metre.
+double height_unit_m(const char* name) {
+  for (const char* foot : {"ft", "foot", "feet", "international foot"}) {
+    if (strcasecmp(name, foot) == 0) return 0.3048;
+  }
+  for (const char* foot : {"us survey foot", "us-ft", "ftus", "us_ft", "foot_us"}) {
+    if (strcasecmp(name, foot) == 0) return 1200.0 / 3937.0;
+  }
+  return 1.0;
 }
 
 void read_crs(ElevationRaster& raster, GDALDatasetH dataset, const std::string& wanted) {
@@ -142,11 +176,13 @@ ElevationRaster read_elevation(const std::filesystem::path& file, const std::str
   int has_scale = 0, has_offset = 0;
   const double scale = gdal().GDALGetRasterScale(band, &has_scale),
                offset = gdal().GDALGetRasterOffset(band, &has_offset);
+  const double unit_m = height_unit_m(gdal().GDALGetRasterUnitType(band));
   for (float& height : raster.heights_m) {
     if ((has_no_data && height == no_data) || !std::isfinite(height)) {
       height = std::numeric_limits<float>::quiet_NaN();
-    } else if (has_scale || has_offset) {
-      height = static_cast<float>((has_scale ? scale : 1.0) * height + (has_offset ? offset : 0.0));
+    } else if (has_scale || has_offset || unit_m != 1.0) {
+      height = static_cast<float>(
+          unit_m * ((has_scale ? scale : 1.0) * height + (has_offset ? offset : 0.0)));
     }
   }
   return raster;
@@ -190,10 +226,11 @@ HeightField resample_elevation(const ElevationRaster& raster, const GeoOrigin& o
       const Geodetic point = frame.to_geodetic(p_W);
       const double height = to_raster.height_m(point.latitude_rad, point.longitude_rad);
       if (!std::isfinite(height)) {
-        fail_outside(raster, to_raster, point.latitude_rad, point.longitude_rad);
+        fail_without_height(raster, to_raster, point.latitude_rad, point.longitude_rad);
       }
-      constexpr double kHighest_m = 20e3;
-      if (std::abs(height) > kHighest_m) {
+      // The lowest ground on land is 430 m below the sea, the highest 8849 m above it.
+      constexpr double kLowest_m = -500.0, kHighest_m = 9000.0;
+      if (height < kLowest_m || height > kHighest_m) {
         throw ConfigError(fmt::format(
             "raster '{}' has a height of {:g} m at latitude {:.6f} deg, longitude {:.6f} deg: is "
             "this an undeclared \"no data\" value?",

@@ -25,7 +25,7 @@ struct ElevationRaster {
   std::filesystem::path file;
 };
 
-/// Reads band 1.
+/// Reads band 1. Heights in feet become metres if the file names this unit.
 /// @param crs  "EPSG:21781": replaces the file's own CRS; "" uses the file's
 /// @throws ConfigError naming the file: missing, not a raster, without georeference, without CRS
 /// ("... has no
@@ -46,8 +46,8 @@ struct FieldExtent {
 /// Heights are relative to the origin's altitude: h_W = h_raster - origin.altitude_m, minus the
 /// ellipsoid's drop below the tangent plane. No geoid is applied: give the origin's altitude in the
 /// raster's height system.
-/// @throws ConfigError if the extent leaves the raster or contains "no data", naming the position
-/// and the raster's bounds
+/// @throws ConfigError if the extent leaves the raster, naming the position, the raster's bounds
+/// and its middle; if it contains "no data", or heights that no ground has
 HeightField resample_elevation(const ElevationRaster& raster, const GeoOrigin& origin,
                                const FieldExtent& extent);
 

@@ -1,5 +1,6 @@
 #include "engine/io/geo/raster.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -159,6 +160,65 @@ TEST(Raster, RefusesBadInputInOneSentence) {
   EXPECT_NE(error.find("has no height at latitude"), std::string::npos) << error;
   EXPECT_NE(error.find("it covers x 499800 to 500200"), std::string::npos) << error;
   EXPECT_EQ(error.find("swapped"), std::string::npos) << error;
+}
+
+/// The middle of the plane is the origin by construction, on the central meridian.
+TEST(Raster, AWorldBesideItIsShownWhereItIs) {
+  const ElevationRaster raster = read_elevation(write_plane("beside.tif", 32632));
+  GeoOrigin beside = kOrigin;
+  beside.latitude_rad = rad_from_deg(44.0);
+  const std::string error = error_of([&] {
+    resample_elevation(raster, beside, {{-5, -5}, 10, 10, 5.0});
+  });
+  EXPECT_TRUE(
+      error.ends_with("of WGS 84 / UTM zone 32N; its middle is at latitude 45.000000 deg, "
+                      "longitude 9.000000 deg"))
+      << error;
+  // In degrees the bounds need their decimals.
+  const auto degrees = write_tiff("degrees.tif", 2, 2, 9.0, 45.0, 0.0001, {1.f, 1.f, 1.f, 1.f}, 0);
+  const std::string fine = error_of([&] {
+    resample_elevation(read_elevation(degrees, "EPSG:4326"), beside, {{-5, -5}, 10, 10, 5.0});
+  });
+  EXPECT_NE(fine.find("it covers x 9 to 9.0002, y 44.9998 to 45 of WGS 84"), std::string::npos)
+      << fine;
+}
+
+TEST(Raster, HolesAndUndeclaredNoDataAreRefusedByWhatTheyAre) {
+  const auto error_with = [](float height) {
+    std::vector<float> heights(100, 100.f);
+    heights[55] = height;
+    const auto file = write_tiff("hole.tif", 10, 10, 9.0, 45.0, 0.001, heights, 0);
+    const GeoOrigin middle{rad_from_deg(44.9945), rad_from_deg(9.0055), 100.0};  // of pixel (5, 5)
+    return error_of([&] {
+      resample_elevation(read_elevation(file, "EPSG:4326"), middle, {{-5, -5}, 10, 10, 5.0});
+    });
+  };
+  EXPECT_EQ(error_with(101.f), "no error");
+  EXPECT_NE(error_with(std::numeric_limits<float>::quiet_NaN()).find("has a hole (\"no data\") at"),
+            std::string::npos);
+  // -9999 is the usual mark of ESRI's grids.
+  for (const float mark : {-9999.f, 65535.f, -32768.f}) {
+    EXPECT_NE(error_with(mark).find("is this an undeclared \"no data\" value?"), std::string::npos)
+        << error_with(mark);
+  }
+}
+
+/// 100 m are 328.084 ft, and 328.083 ft of the US survey (1 m = 39.37 in).
+TEST(Raster, HeightsInFeetBecomeMetres) {
+  write_plane("feet.tif", 32632);
+  const auto height_m = [](const std::string& unit) {
+    const auto file = temporary("feet.vrt");
+    std::ofstream(file)
+        << "<VRTDataset rasterXSize=\"80\" rasterYSize=\"80\"><SRS>EPSG:32632</SRS><GeoTransform>"
+        << fmt::format("{:.6f}, 5, 0, {:.6f}, 0, -5", 500000.0 - 200.0, kNorthing45_m + 200.0)
+        << "</GeoTransform><VRTRasterBand dataType=\"Float32\" band=\"1\"><UnitType>" << unit
+        << "</UnitType><SimpleSource><SourceFilename relativeToVRT=\"1\">feet.tif</SourceFilename>"
+           "<SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>";
+    return height_at(read_elevation(file), kOrigin.latitude_rad, kOrigin.longitude_rad);
+  };
+  EXPECT_NEAR(height_m("m"), 100.0, 1e-3);
+  EXPECT_NEAR(height_m("ft"), 30.48, 1e-3);
+  EXPECT_NEAR(height_m("US survey foot"), 100.0 / 3.2808333333, 1e-3);
 }
 
 TEST(Raster, SwappedLatitudeAndLongitudeAreSuspected) {

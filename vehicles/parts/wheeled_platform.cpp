@@ -32,14 +32,44 @@ double largest_eigenvalue(const Eigen::Matrix3d& K, const Eigen::Matrix3d& M) {
   return solver.eigenvalues().maxCoeff();
 }
 
-/// Heave, roll and pitch on the struts: a step must be short beside the fastest of them.
-void demand_step_for_struts(Duration step, const WheeledPlatformParams& params) {
-  Eigen::Matrix3d K = Eigen::Matrix3d::Zero(), D = Eigen::Matrix3d::Zero();
+/// Of all struts together over heave, roll and pitch.
+Eigen::Matrix3d calc_strut_matrix(const WheeledPlatformParams& params,
+                                  double SuspensionParams::*each) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (const WheelParams& wheel : params.wheels) {
     const Eigen::Vector3d lever(1.0, wheel.hub_B.y(), -wheel.hub_B.x());
-    K += wheel.suspension.stiffness_N_per_m * lever * lever.transpose();
-    D += wheel.suspension.damping_Ns_per_m * lever * lever.transpose();
+    sum += wheel.suspension.*each * lever * lever.transpose();
   }
+  return sum;
+}
+
+/// The springs under a centre of mass at the height h must resist a tilt by more than the m g h by
+/// which the weight tips it: softer ones leave the vehicle on its bump stops, and below those a
+/// strut would follow the ground for metres.
+void demand_upright(double gravity_mps2, const WheeledPlatformParams& params) {
+  const Eigen::Matrix3d K = calc_strut_matrix(params, &SuspensionParams::stiffness_N_per_m);
+  // Tilting without a heave force.
+  const Eigen::Matrix2d tilt =
+      K.bottomRightCorner<2, 2>() - K.bottomLeftCorner<2, 1>() * K.topRightCorner<1, 2>() / K(0, 0);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(tilt, Eigen::EigenvaluesOnly);
+  double height_m = 0.0;
+  for (const WheelParams& wheel : params.wheels) {
+    height_m += (wheel.radius_m - wheel.hub_B.z()) / static_cast<double>(params.wheels.size());
+  }
+  const double holds_Nm = solver.eigenvalues().minCoeff();
+  const double tips_Nm = params.mass_kg * gravity_mps2 * height_m;
+  if (holds_Nm > tips_Nm) return;
+  throw ConfigError(fmt::format(
+      "{}: its springs cannot keep it upright: they resist a tilt by {:.3g} Nm/rad, and {:g} kg "
+      "with the centre of mass {:.3g} m above the ground tip it by {:.3g} Nm/rad; take springs "
+      "more than {:.4g} times as stiff",
+      params.name, holds_Nm, params.mass_kg, height_m, tips_Nm, tips_Nm / holds_Nm));
+}
+
+/// Heave, roll and pitch on the struts: a step must be short beside the fastest of them.
+void demand_step_for_struts(Duration step, const WheeledPlatformParams& params) {
+  const Eigen::Matrix3d K = calc_strut_matrix(params, &SuspensionParams::stiffness_N_per_m);
+  const Eigen::Matrix3d D = calc_strut_matrix(params, &SuspensionParams::damping_Ns_per_m);
   Eigen::Matrix3d M = Eigen::Matrix3d::Zero();
   M(0, 0) = params.mass_kg;
   M.bottomRightCorner<2, 2>() = params.inertia_B.topLeftCorner<2, 2>();
@@ -98,6 +128,7 @@ WheeledPlatform::WheeledPlatform(WheeledPlatformParams params) : params_(std::mo
 void WheeledPlatform::spawn(physics::PhysicsWorld& world, const Pose& X_WB) {
   demand_step(world.settings().step, kMaxWheelStep, params_.name, "its wheels");
   demand_step_for_struts(world.settings().step, params_);
+  demand_upright(world.settings().gravity_mps2, params_);
   world_ = &world;
   physics::BodySpec spec;
   spec.name = params_.name;

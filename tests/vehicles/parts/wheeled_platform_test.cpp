@@ -246,6 +246,34 @@ TEST(WheeledPlatform, RefusesStrutsThatAreTooStiffForTheStep) {
   EXPECT_NE(fault_of(490.0, 1100.0).find("damp by 1.1 in a step"), std::string::npos);
 }
 
+/// Roll: four springs at half the track B give k B^2, here with B = 1 m; the weight tips by m g h.
+TEST(WheeledPlatform, RefusesSpringsThatCannotKeepItUpright) {
+  const double limit_N_per_m = 180.0 * kGravity * 0.38;
+  const auto fault_of = [](double stiffness_N_per_m) {
+    WheeledPlatformParams params = rover_params();
+    for (WheelParams& wheel : params.wheels) {
+      wheel.suspension.stiffness_N_per_m = stiffness_N_per_m;
+    }
+    WheeledPlatform platform(params);
+    WorldModel model = make_flat_world();
+    physics::PhysicsWorld world(settings_with_step(1'000'000), model);
+    try {
+      platform.spawn(world, pose_on_ground(model, 0.0, 0.0, 0.0, 0.38));
+    } catch (const ConfigError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(fault_of(1.001 * limit_N_per_m), "");
+  EXPECT_NE(fault_of(0.999 * limit_N_per_m).find("rover: its springs cannot keep it upright"),
+            std::string::npos);
+  EXPECT_EQ(
+      fault_of(10.0),
+      "rover: its springs cannot keep it upright: they resist a tilt by 10 Nm/rad, and 180 kg "
+      "with the centre of mass 0.38 m above the ground tip it by 671 Nm/rad; take springs "
+      "more than 67.08 times as stiff");
+}
+
 TEST(WheeledPlatform, BrakingMovesLoadToTheFront) {
   Rig rig(make_flat_world(), rover_params());
   rig.command(5.0, 5.0);

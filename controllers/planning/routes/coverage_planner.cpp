@@ -69,7 +69,10 @@ const ParameterTable<CoverageParams>& coverage_table() {
 class Coverage final : public Planner {
  public:
   Coverage(const CoverageParams& params, const PlannerContext& context)
-      : params_(params), map_(*context.map), scene_(context.scene) {}
+      : params_(params),
+        map_(*context.map),
+        scene_(context.scene),
+        half_width_m_(find_half_width_m(*context.vehicle_description)) {}
 
   Result<PlannedPath> plan(const Pose& start) override {
     const Pose2 pose = {start.p.head<2>(), yaw_from_quaternion(start.q)};
@@ -98,7 +101,7 @@ class Coverage final : public Planner {
     }
 
     PlannedPath path = make_planned_path(pieces, params_.pitch_m);
-    if (const auto fault = find_path_into_row(path, map_, params_.clearance_m)) {
+    if (const auto fault = find_path_into_row(path, map_, params_.clearance_m, half_width_m_)) {
       return Failure{*fault};
     }
     if (const auto fault = lift_to_ground(scene_, start.p.z(), path)) return Failure{*fault};
@@ -133,6 +136,7 @@ class Coverage final : public Planner {
   CoverageParams params_;
   const RowMap& map_;
   const SceneQuery* scene_;
+  double half_width_m_;
 };
 
 }  // namespace

@@ -4,10 +4,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 #include "controllers/parts/paths/pose2.h"
 #include "engine/api/map.h"
 #include "engine/api/messages/path.h"
+#include "engine/api/vehicle.h"
 #include "engine/math/polyline.h"
 
 namespace vinerow::controllers {
@@ -24,19 +26,18 @@ double distance_between_segments(const Vec& a, const Vec& b, const Vec& c, const
                    distance_to_segment_m<2>(c, a, b), distance_to_segment_m<2>(d, a, b)});
 }
 
-std::string describe(const PathPoint& point) {
-  if (point.kind == PathKind::kLeg && point.alley >= 0) {
-    return fmt::format("the leg in alley {}", point.alley);
-  }
-  return point.kind == PathKind::kTurn ? "the turn" : "the path";
-}
+/// A stretch of a path that comes too near to a row.
+struct Approach {
+  std::size_t point = 0;  ///< at which it begins
+  const PlantRow* row = nullptr;
+  double distance_m = 0.0;
+};
 
-}  // namespace
-
-std::optional<std::string> find_path_into_row(const PlannedPath& path, const RowMap& map,
-                                              double clearance_m) {
+/// First stretch that is nearer to the centre line of a row than its reach.
+template <class Reach>
+std::optional<Approach> find_approach(const PlannedPath& path, const RowMap& map, Reach&& reach_m) {
   for (const PlantRow& row : map.rows) {
-    const double reach = 0.5 * row.canopy_width_m + clearance_m;
+    const double reach = reach_m(row);
     Eigen::AlignedBox2d box;
     for (const Eigen::Vector3d& p : row.line_W) box.extend(Vec(p.head<2>()));
     for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
@@ -46,17 +47,46 @@ std::optional<std::string> find_path_into_row(const PlannedPath& path, const Row
       for (std::size_t j = 0; j + 1 < row.line_W.size(); ++j) {
         const double distance = distance_between_segments(from, to, row.line_W[j].head<2>(),
                                                           row.line_W[j + 1].head<2>());
-        if (distance >= reach) continue;
-        return fmt::format(
-            "path into a row: {} passes ({:.2f}, {:.2f}), {:.2f} m from the centre line of row {}, "
-            "whose canopy is {:.2f} m wide{}",
-            describe(path.points[i]), from.x(), from.y(), distance, row.id, row.canopy_width_m,
-            clearance_m > 0.0 ? fmt::format(" and needs a clearance of {:.2f} m", clearance_m)
-                              : "");
+        if (distance < reach) return Approach{i, &row, distance};
       }
     }
   }
   return std::nullopt;
+}
+
+std::string describe(const PlannedPath& path, const Approach& approach) {
+  const PathPoint& point = path.points[approach.point];
+  std::string what = point.kind == PathKind::kTurn ? "the turn" : "the path";
+  if (point.kind == PathKind::kLeg && point.alley >= 0) {
+    what = fmt::format("the leg in alley {}", point.alley);
+  }
+  return fmt::format(
+      "path into a row: {} passes ({:.2f}, {:.2f}), {:.2f} m from the centre line of row {}", what,
+      point.p_W.x(), point.p_W.y(), approach.distance_m, approach.row->id);
+}
+
+}  // namespace
+
+double find_half_width_m(const VehicleDescription& vehicle) {
+  double half_m = 0.0;
+  if (vehicle.flies()) return half_m;
+  for (const Vec& p : vehicle.outline_B()) half_m = std::max(half_m, std::abs(p.y()));
+  return half_m;
+}
+
+std::optional<std::string> find_path_into_row(const PlannedPath& path, const RowMap& map,
+                                              double clearance_m, double half_width_m) {
+  const auto canopy = find_approach(
+      path, map, [&](const PlantRow& row) { return 0.5 * row.canopy_width_m + clearance_m; });
+  if (canopy) {
+    return fmt::format(
+        "{}, whose canopy is {:.2f} m wide{}", describe(path, *canopy), canopy->row->canopy_width_m,
+        clearance_m > 0.0 ? fmt::format(" and needs a clearance of {:.2f} m", clearance_m) : "");
+  }
+  const auto post = find_approach(path, map, [&](const PlantRow&) { return half_width_m; });
+  if (!post) return std::nullopt;
+  return fmt::format("{}, and the vehicle is {:.2f} m wide", describe(path, *post),
+                     2.0 * half_width_m);
 }
 
 }  // namespace vinerow::controllers

@@ -324,5 +324,23 @@ TEST(Waypoints, RefusesAPathIntoARow) {
   EXPECT_NE(path.reason().find("path into a row: the path passes"), std::string::npos);
 }
 
+/// Beside a canopy of 0.6 m the path's middle is free from 0.3 m on, a vehicle 1.2 m wide from 0.6.
+TEST(Waypoints, RefusesAPathOnWhichTheVehicleHitsThePosts) {
+  const RowMap map = make_narrow_map(2);
+  VehicleDescription rover = make_rover_description();
+  rover.footprint_B = {{-0.8, -0.6}, {0.8, -0.6}, {0.8, 0.6}, {-0.8, 0.6}};
+  const auto plan_beside = [&](double distance_m) {
+    const Values values = {{"x_m", std::vector<double>{distance_m, distance_m}},
+                           {"y_m", std::vector<double>{2, 12}}};
+    return make_planner({"waypoints", values}, map, &rover)->plan(Pose{});
+  };
+  EXPECT_TRUE(plan_beside(0.61).ok());
+  const auto path = plan_beside(0.59);
+  ASSERT_FALSE(path.ok());
+  EXPECT_EQ(path.reason(),
+            "path into a row: the path passes (0.59, 2.00), 0.59 m from the centre line of row 0, "
+            "and the vehicle is 1.20 m wide");
+}
+
 }  // namespace
 }  // namespace vinerow::test::coverage_test

@@ -72,7 +72,7 @@ class Coverage final : public Planner {
       : params_(params),
         map_(*context.map),
         scene_(context.scene),
-        half_width_m_(find_half_width_m(*context.vehicle_description)) {}
+        vehicle_(*context.vehicle_description) {}
 
   Result<PlannedPath> plan(const Pose& start) override {
     const Pose2 pose = {start.p.head<2>(), yaw_from_quaternion(start.q)};
@@ -101,7 +101,7 @@ class Coverage final : public Planner {
     }
 
     PlannedPath path = make_planned_path(pieces, params_.pitch_m);
-    if (const auto fault = find_path_into_row(path, map_, params_.clearance_m, half_width_m_)) {
+    if (const auto fault = find_path_into_row(path, map_, params_.clearance_m, &vehicle_)) {
       return Failure{*fault};
     }
     if (const auto fault = lift_to_ground(scene_, start.p.z(), path)) return Failure{*fault};
@@ -136,7 +136,7 @@ class Coverage final : public Planner {
   CoverageParams params_;
   const RowMap& map_;
   const SceneQuery* scene_;
-  double half_width_m_;
+  const VehicleDescription& vehicle_;
 };
 
 }  // namespace

@@ -22,6 +22,12 @@ constexpr double kSameSpot_m = 1e-3;
 /// Distance of bends from fences, in addition to half the vehicle's width.
 constexpr double kFenceMargin_m = 0.5;
 
+double find_half_width_m(const VehicleDescription& vehicle) {
+  double half_m = 0.0;
+  for (const Vec& p : vehicle.outline_B()) half_m = std::max(half_m, std::abs(p.y()));
+  return half_m;
+}
+
 class GroundMission final : public Planner {
  public:
   GroundMission(const io::MissionFile& mission, const GroundMissionParams& params,
@@ -31,12 +37,13 @@ class GroundMission final : public Planner {
         origin_(context.origin),
         map_(context.map),
         scene_(context.scene),
-        half_width_m_(find_half_width_m(*context.vehicle_description)),
+        vehicle_(*context.vehicle_description),
         radius_m_(find_corner_radius_m(params.turning_radius_m, *context.vehicle_description, who)),
         places_(place_mission(mission, context.origin, false, who)),
         // A rounded corner is up to R (sqrt(2) - 1) inside a right angle.
         fences_(mission, context.origin,
-                kFenceMargin_m + half_width_m_ + (std::sqrt(2.0) - 1.0) * radius_m_) {}
+                kFenceMargin_m + find_half_width_m(*context.vehicle_description) +
+                    (std::sqrt(2.0) - 1.0) * radius_m_) {}
 
   const PlanReport* report() const override { return &report_; }
 
@@ -126,7 +133,7 @@ class GroundMission final : public Planner {
 
   std::optional<std::string> check(const PlannedPath& path) const {
     if (map_ != nullptr) {
-      if (auto fault = find_path_into_row(path, *map_, 0.0, half_width_m_)) return fault;
+      if (auto fault = find_path_into_row(path, *map_, 0.0, &vehicle_)) return fault;
     }
     if (!params_.keeps_fences) return std::nullopt;
     for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
@@ -155,7 +162,7 @@ class GroundMission final : public Planner {
   const GeoOrigin origin_;
   const RowMap* map_;
   const SceneQuery* scene_;
-  double half_width_m_;
+  const VehicleDescription& vehicle_;
   double radius_m_;
   MissionPlaces places_;
   FencePaths fences_;

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "controllers/parts/paths/pose2.h"
 #include "engine/api/map.h"
@@ -26,6 +27,12 @@ double distance_between_segments(const Vec& a, const Vec& b, const Vec& c, const
                    distance_to_segment_m<2>(c, a, b), distance_to_segment_m<2>(d, a, b)});
 }
 
+Eigen::AlignedBox2d box_of(const PlantRow& row) {
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector3d& p : row.line_W) box.extend(Vec(p.head<2>()));
+  return box;
+}
+
 /// A stretch of a path that comes too near to a row.
 struct Approach {
   std::size_t point = 0;  ///< at which it begins
@@ -33,13 +40,12 @@ struct Approach {
   double distance_m = 0.0;
 };
 
-/// First stretch that is nearer to the centre line of a row than its reach.
-template <class Reach>
-std::optional<Approach> find_approach(const PlannedPath& path, const RowMap& map, Reach&& reach_m) {
+/// First stretch that is nearer to a canopy than the clearance.
+std::optional<Approach> find_approach(const PlannedPath& path, const RowMap& map,
+                                      double clearance_m) {
   for (const PlantRow& row : map.rows) {
-    const double reach = reach_m(row);
-    Eigen::AlignedBox2d box;
-    for (const Eigen::Vector3d& p : row.line_W) box.extend(Vec(p.head<2>()));
+    const double reach = 0.5 * row.canopy_width_m + clearance_m;
+    const Eigen::AlignedBox2d box = box_of(row);
     for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
       const Vec from = path.points[i].p_W.head<2>(), to = path.points[i + 1].p_W.head<2>();
       Eigen::AlignedBox2d stretch(from.cwiseMin(to), from.cwiseMax(to));
@@ -54,39 +60,76 @@ std::optional<Approach> find_approach(const PlannedPath& path, const RowMap& map
   return std::nullopt;
 }
 
-std::string describe(const PlannedPath& path, const Approach& approach) {
-  const PathPoint& point = path.points[approach.point];
+/// True if a segment has a point inside a convex, counter-clockwise polygon.
+bool meets_outline(const std::vector<Vec>& outline, const Vec& a, const Vec& b) {
+  double first = 0.0, last = 1.0;  // the share of the segment that is inside the edges so far
+  for (std::size_t k = 0; k < outline.size(); ++k) {
+    const Vec edge = outline[(k + 1) % outline.size()] - outline[k];
+    const double at_a = cross(edge, a - outline[k]), at_b = cross(edge, b - outline[k]);
+    if (at_a <= 0.0 && at_b <= 0.0) return false;
+    if (at_a < 0.0) first = std::max(first, at_a / (at_a - at_b));
+    if (at_b < 0.0) last = std::min(last, at_a / (at_a - at_b));
+  }
+  return first < last;
+}
+
+/// First stretch along which the outline of the vehicle, in the direction of travel, lies on the
+/// centre line of a row.
+std::optional<Approach> find_outline_on_row(const PlannedPath& path, const RowMap& map,
+                                            const std::vector<Vec>& outline_B) {
+  constexpr double kStep_m = 0.1;
+  double reach_m = 0.0;
+  for (const Vec& corner : outline_B) reach_m = std::max(reach_m, corner.norm());
+  for (const PlantRow& row : map.rows) {
+    const Eigen::AlignedBox2d box = box_of(row);
+    for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
+      const Vec from = path.points[i].p_W.head<2>(), to = path.points[i + 1].p_W.head<2>();
+      const double length_m = (to - from).norm();
+      Eigen::AlignedBox2d stretch(from.cwiseMin(to), from.cwiseMax(to));
+      if (length_m <= 0.0 || box.squaredExteriorDistance(stretch) >= reach_m * reach_m) continue;
+      const Eigen::Rotation2Dd R_BW(-std::atan2(to.y() - from.y(), to.x() - from.x()));
+      const int steps = static_cast<int>(std::ceil(length_m / kStep_m));
+      for (int k = 0; k <= steps; ++k) {
+        const Vec p_W = from + (to - from) * k / steps;
+        for (std::size_t j = 0; j + 1 < row.line_W.size(); ++j) {
+          const Vec a = R_BW * (row.line_W[j].head<2>() - p_W);
+          const Vec b = R_BW * (row.line_W[j + 1].head<2>() - p_W);
+          if (meets_outline(outline_B, a, b)) return Approach{i, &row, 0.0};
+        }
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+std::string describe(const PlannedPath& path, std::size_t at) {
+  const PathPoint& point = path.points[at];
   std::string what = point.kind == PathKind::kTurn ? "the turn" : "the path";
   if (point.kind == PathKind::kLeg && point.alley >= 0) {
     what = fmt::format("the leg in alley {}", point.alley);
   }
-  return fmt::format(
-      "path into a row: {} passes ({:.2f}, {:.2f}), {:.2f} m from the centre line of row {}", what,
-      point.p_W.x(), point.p_W.y(), approach.distance_m, approach.row->id);
+  return fmt::format("path into a row: {} passes ({:.2f}, {:.2f})", what, point.p_W.x(),
+                     point.p_W.y());
 }
 
 }  // namespace
 
-double find_half_width_m(const VehicleDescription& vehicle) {
-  double half_m = 0.0;
-  if (vehicle.flies()) return half_m;
-  for (const Vec& p : vehicle.outline_B()) half_m = std::max(half_m, std::abs(p.y()));
-  return half_m;
-}
-
 std::optional<std::string> find_path_into_row(const PlannedPath& path, const RowMap& map,
-                                              double clearance_m, double half_width_m) {
-  const auto canopy = find_approach(
-      path, map, [&](const PlantRow& row) { return 0.5 * row.canopy_width_m + clearance_m; });
+                                              double clearance_m,
+                                              const VehicleDescription* vehicle) {
+  const auto canopy = find_approach(path, map, clearance_m);
   if (canopy) {
     return fmt::format(
-        "{}, whose canopy is {:.2f} m wide{}", describe(path, *canopy), canopy->row->canopy_width_m,
+        "{}, {:.2f} m from the centre line of row {}, whose canopy is {:.2f} m wide{}",
+        describe(path, canopy->point), canopy->distance_m, canopy->row->id,
+        canopy->row->canopy_width_m,
         clearance_m > 0.0 ? fmt::format(" and needs a clearance of {:.2f} m", clearance_m) : "");
   }
-  const auto post = find_approach(path, map, [&](const PlantRow&) { return half_width_m; });
-  if (!post) return std::nullopt;
-  return fmt::format("{}, and the vehicle is {:.2f} m wide", describe(path, *post),
-                     2.0 * half_width_m);
+  if (vehicle == nullptr || vehicle->flies()) return std::nullopt;
+  const auto outline = find_outline_on_row(path, map, vehicle->outline_B());
+  if (!outline) return std::nullopt;
+  return fmt::format("{}, where the vehicle's outline touches row {}",
+                     describe(path, outline->point), outline->row->id);
 }
 
 }  // namespace vinerow::controllers

@@ -92,7 +92,7 @@ class Waypoints final : public Planner {
         radius_m_(find_corner_radius_m(params.turning_radius_m, *context.vehicle_description, who)),
         map_(context.map),
         scene_(context.scene),
-        half_width_m_(find_half_width_m(*context.vehicle_description)) {
+        vehicle_(*context.vehicle_description) {
     if (!params.file.empty()) {
       points_ = *keep<std::vector<Eigen::Vector2d>>(context.shelf, file_mark(params.file),
                                                     [&] { return read_csv(params.file); });
@@ -128,7 +128,7 @@ class Waypoints final : public Planner {
     if (!heights_m_.empty()) return plan_flight();
     PlannedPath path = make_planned_path(lay_path(), pitch_m_ > 0.0 ? pitch_m_ : kNotSplit_m);
     if (map_ != nullptr) {
-      if (const auto fault = find_path_into_row(path, *map_, clearance_m_, half_width_m_))
+      if (const auto fault = find_path_into_row(path, *map_, clearance_m_, &vehicle_))
         return Failure{*fault};
     }
     if (const auto fault = lift_to_ground(scene_, start.p.z(), path)) return Failure{*fault};
@@ -179,7 +179,7 @@ class Waypoints final : public Planner {
   PlanReport report_;
   const RowMap* map_;
   const SceneQuery* scene_;
-  double half_width_m_;
+  const VehicleDescription& vehicle_;
   std::vector<Eigen::Vector2d> points_;
   std::vector<double> heights_m_;  ///< empty: on the ground
 };

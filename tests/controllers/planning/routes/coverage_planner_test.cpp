@@ -337,9 +337,10 @@ TEST(Waypoints, RefusesAPathOnWhichTheVehicleHitsThePosts) {
   EXPECT_TRUE(plan_beside(0.61).ok());
   const auto path = plan_beside(0.59);
   ASSERT_FALSE(path.ok());
-  EXPECT_EQ(path.reason(),
-            "path into a row: the path passes (0.59, 2.00), 0.59 m from the centre line of row 0, "
-            "and the vehicle is 1.20 m wide");
+  EXPECT_EQ(
+      path.reason(),
+      "path into a row: the path passes (0.59, 2.00), where the vehicle's outline touches row "
+      "0");
 }
 
 }  // namespace

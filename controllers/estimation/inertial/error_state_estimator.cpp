@@ -7,6 +7,7 @@
 #include "controllers/estimation/inertial/error_state_sources.h"
 #include "controllers/estimation/inertial/navigation_start.h"
 #include "controllers/estimation/parts/estimator_events.h"
+#include "controllers/estimation/parts/mounting.h"
 
 namespace vinerow::controllers {
 namespace {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "controllers/estimation/inertial/navigation_start.h"
+#include "controllers/estimation/parts/mounting.h"
 #include "engine/math/angles.h"
 
 namespace vinerow::controllers {
@@ -16,13 +17,6 @@ constexpr double kRestartVelocityStd_mps = 5.0;
 constexpr int kRestartRejections = 5;  // 5 s of a receiver at 1 Hz
 
 }  // namespace
-
-Pose mounting_of(const EstimatorContext& context, const std::string& name) {
-  for (const SensorMounting& sensor : context.sensors) {
-    if (sensor.name == name) return sensor.X_BS;
-  }
-  return {};
-}
 
 ErrorStateSources::ErrorStateSources(const ErrorStateOptions& options,
                                      const EstimatorContext& context, const Eigen::Vector3d& p_BI_B,

@@ -101,7 +101,4 @@ class ErrorStateSources {
   SignalReader<GnssHeading> baseline_;
 };
 
-/// Mounting of a sensor; identity if no sensor of that name has one.
-Pose mounting_of(const EstimatorContext& context, const std::string& sensor);
-
 }  // namespace vinerow::controllers

@@ -1,14 +1,17 @@
 #include "controllers/estimation/odometry/gps_pose.h"
 
+#include <optional>
+
 #include "controllers/estimation/parts/heading_source.h"
+#include "controllers/estimation/parts/mounting.h"
 #include "engine/api/parameter_table.h"
 
 namespace vinerow::controllers {
 namespace {
 
 struct GpsPoseParams {
-  std::string gps = "gps";                         ///< signal
-  Eigen::Vector3d p_BA = Eigen::Vector3d::Zero();  ///< antenna in B
+  std::string gps = "gps";              ///< signal
+  std::optional<Eigen::Vector3d> p_BA;  ///< antenna in B; absent: as mounted
   bool extrapolate = false;
   HeadingParams heading;
 };
@@ -19,7 +22,8 @@ const ParameterTable<GpsPoseParams>& gps_pose_table() {
       ParameterTable<P>()
           .text("gps", &P::gps, "signal of the satellite receiver")
           .numbers("antenna_m", "m", &P::p_BA, between(-100.0, 100.0),
-                   "position of the antenna in B (x, y, z); subtracted from the fix")
+                   "position of the antenna in B (x, y, z), subtracted from the fix; default: "
+                   "where the receiver is mounted")
           .boolean("extrapolate", &P::extrapolate,
                    "extrapolate the fix with its velocity until the next one")
           .include(&P::heading, heading_table());
@@ -31,8 +35,8 @@ class GpsPose final : public Estimator {
   GpsPose(const GpsPoseParams& params, const EstimatorContext& context)
       : gps_name_(params.gps),
         extrapolate_(params.extrapolate),
-        heading_(params.heading, context.period, context.random("heading")),
-        p_BA_(params.p_BA) {}
+        heading_(params.heading, context),
+        p_BA_(antenna_of(context, params.gps, params.p_BA)) {}
 
   void connect(Ports& ports) override {
     gps_ = ports.read<GnssFix>(gps_name_);

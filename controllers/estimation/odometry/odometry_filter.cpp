@@ -9,6 +9,7 @@
 #include "controllers/estimation/parts/estimator_events.h"
 #include "controllers/estimation/parts/heading_source.h"
 #include "controllers/estimation/parts/initial_pose.h"
+#include "controllers/estimation/parts/mounting.h"
 #include "controllers/estimation/parts/trace.h"
 #include "controllers/parts/ground_drive/differential_drive.h"
 #include "controllers/parts/paths/pose2.h"
@@ -22,8 +23,8 @@ namespace {
 struct OdometryFilterParams {
   enum class Source { kCommand, kWheels, kGpsVelocity };
 
-  std::string gps = "gps", wheels = "wheels";      ///< signals
-  Eigen::Vector3d p_BA = Eigen::Vector3d::Zero();  ///< antenna in B
+  std::string gps = "gps", wheels = "wheels";  ///< signals
+  std::optional<Eigen::Vector3d> p_BA;         ///< antenna in B; absent: as mounted
   Source source = Source::kCommand;
   double odometry_scale = 1.0;
   bool gain_is_fixed = false;
@@ -40,7 +41,8 @@ const ParameterTable<OdometryFilterParams>& odometry_filter_table() {
       ParameterTable<P>()
           .text("gps", &P::gps, "signal of the satellite receiver")
           .numbers("antenna_m", "m", &P::p_BA, between(-100.0, 100.0),
-                   "position of the antenna in B (x, y, z); subtracted from the fix")
+                   "position of the antenna in B (x, y, z), subtracted from the fix; default: "
+                   "where the receiver is mounted")
           .choice(
               "odometry_source", &P::source,
               {{"command", P::Source::kCommand},
@@ -86,9 +88,9 @@ class OdometryFilter final : public Estimator {
         gps_std_m_(params.gps_std_m),
         period_s_(context.period.s()),
         filter_(make_kalman_params(params)),
-        heading_(params.heading, context.period, context.random("heading")),
+        heading_(params.heading, context),
         initial_pose_(params.initial_pose),
-        p_BA_(params.p_BA) {
+        p_BA_(antenna_of(context, params.gps, params.p_BA)) {
     if (source_ == Source::kWheels) {
       const std::string who = context.part + " (odometry_filter)";
       const VehicleDescription& vehicle = *context.vehicle_description;

@@ -13,7 +13,7 @@ void OdometryKalman::start(const Eigen::Vector2d& p, const Eigen::Vector2d& std_
 
 void OdometryKalman::predict(const Eigen::Vector2d& d) {
   x_.head<2>() += scale() * d;
-  if (params_.fixed_gain > 0.0) return;
+  if (params_.fixed_gain) return;
   Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
   F.topRightCorner<2, 1>() = d;
   const double distance_m = d.norm();
@@ -25,8 +25,8 @@ void OdometryKalman::predict(const Eigen::Vector2d& d) {
 }
 
 void OdometryKalman::correct(const Eigen::Vector2d& innovation, const Eigen::Vector2d& std_m) {
-  if (params_.fixed_gain > 0.0) {
-    x_.head<2>() += params_.fixed_gain * innovation;
+  if (params_.fixed_gain) {
+    x_.head<2>() += *params_.fixed_gain * innovation;
     return;
   }
   const Eigen::Matrix2d R = std_m.cwiseAbs2().asDiagonal();

@@ -8,6 +8,7 @@
 /// 1/n; the estimated scale prevents such a small gain from lagging behind.
 
 #include <Eigen/Core>
+#include <optional>
 
 namespace vinerow::controllers {
 
@@ -15,7 +16,7 @@ struct OdometryKalmanParams {
   double drift_m_per_sqrt_m = 0.002;  ///< q
   double scale_std = 0.03;            ///< of s at the start
   double scale_drift_per_sqrt_m = 1e-4;
-  double fixed_gain = 0.0;  ///< > 0: this gain on the position, scale not estimated
+  std::optional<double> fixed_gain;  ///< on the position; the scale is not estimated
 };
 
 class OdometryKalman {

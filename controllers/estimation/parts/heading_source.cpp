@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "controllers/estimation/parts/mounting.h"
 #include "engine/api/parameter_table.h"
+#include "engine/core/random.h"
 #include "engine/math/angles.h"
 
 namespace vinerow::controllers {
@@ -28,10 +30,11 @@ const ParameterTable<HeadingParams>& heading_table() {
   return table;
 }
 
-HeadingSource::HeadingSource(const HeadingParams& params, Duration period, RandomStream random)
+HeadingSource::HeadingSource(const HeadingParams& params, const EstimatorContext& context)
     : params_(params),
-      period_s_(period.s()),
-      start_error_rad_(params.start_yaw_std_rad * random.normal()) {}
+      period_s_(context.period.s()),
+      start_error_rad_(params.start_yaw_std_rad * context.random("heading").normal()),
+      q_BI_(mounting_of(context, params.imu).q) {}
 
 void HeadingSource::connect(Ports& ports) {
   truth_ = ports.read<Odometry>("truth");
@@ -48,7 +51,7 @@ void HeadingSource::step(const GnssFix* fix) {
     return;
   }
   if (!imu_.has_value() || !truth_.has_value()) return;
-  w_WB_B_ = imu_.value().w_WS_S;
+  w_WB_B_ = q_BI_ * imu_.value().w_WS_S;
   if (!ready_) {
     yaw_rad_ = yaw_from_quaternion(truth_.value().X_WB.q) + start_error_rad_;
     ready_ = true;

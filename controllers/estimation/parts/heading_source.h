@@ -7,7 +7,6 @@
 #include "engine/api/messages/sensors.h"
 #include "engine/api/parameter_table_fwd.h"
 #include "engine/api/stepped_parts.h"
-#include "engine/core/random.h"
 #include "engine/math/angles.h"
 
 namespace vinerow::controllers {
@@ -32,8 +31,8 @@ const ParameterTable<HeadingParams>& heading_table();
 
 class HeadingSource {
  public:
-  /// @param random  draws the heading error at the start
-  HeadingSource(const HeadingParams& params, Duration period, RandomStream random);
+  /// The stream "heading" of the part draws the heading error at the start.
+  HeadingSource(const HeadingParams& params, const EstimatorContext& context);
 
   void connect(Ports& ports);
   /// Advances to `now`. @param fix  a new satellite fix, or nullptr
@@ -52,6 +51,7 @@ class HeadingSource {
   HeadingParams params_;
   double period_s_;
   double start_error_rad_;
+  Eigen::Quaterniond q_BI_;  ///< of the inertial unit
   bool ready_ = false;
   double yaw_rad_ = 0.0;
   double previous_rate_radps_ = 0.0;

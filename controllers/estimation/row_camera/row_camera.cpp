@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "controllers/estimation/parts/estimator_events.h"
+#include "controllers/estimation/parts/mounting.h"
 #include "controllers/estimation/parts/trace.h"
 #include "controllers/estimation/parts/wheel_speed.h"
 #include "controllers/estimation/row_camera/net_labels.h"
@@ -104,7 +105,8 @@ class RowCamera final : public Estimator {
         filter_(params.filter, lines_of(context)),
         ground_(*context.map),
         height_m_(context.vehicle_description->height_above_ground_m),
-        random_(context.random("start")) {
+        random_(context.random("start")),
+        q_BI_(mounting_of(context, params.imu).q) {
     if (params.has_net()) net_.emplace(params.net, context.part + " (row_camera)");
   }
 
@@ -148,7 +150,7 @@ class RowCamera final : public Estimator {
     const double speed = wheels_.has_value() ? wheel_speed_.read_mps(wheels_.value()) : 0.0;
     return std::isfinite(speed) ? speed : 0.0;
   }
-  double rate_radps() const { return imu_.has_value() ? imu_.value().w_WS_S.z() : 0.0; }
+  double rate_radps() const { return imu_.has_value() ? (q_BI_ * imu_.value().w_WS_S).z() : 0.0; }
 
   void take_picture(Time now) {
     if (!marks_.has_camera() && info_.has_value()) marks_.set_camera(info_.value());
@@ -213,6 +215,7 @@ class RowCamera final : public Estimator {
   RowGround ground_;
   double height_m_;
   RandomStream random_;
+  Eigen::Quaterniond q_BI_;  ///< of the inertial unit
   double z_m_ = 0.0;
   RecentTrace<PastState> trace_;
   std::uint64_t seen_ = 0;

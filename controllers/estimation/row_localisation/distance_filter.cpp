@@ -8,6 +8,7 @@
 
 #include "controllers/estimation/parts/estimator_events.h"
 #include "controllers/estimation/parts/initial_pose.h"
+#include "controllers/estimation/parts/mounting.h"
 #include "controllers/estimation/row_localisation/distance_filter_law.h"
 #include "controllers/estimation/row_localisation/distance_filter_params.h"
 #include "controllers/estimation/row_localisation/ground_reference.h"
@@ -25,9 +26,9 @@ using Eigen::Vector3d;
 
 /// All parameters of the estimator.
 struct DistanceEstimatorParams {
-  std::string ins = "ins", gps = "gps";            ///< signals
-  Eigen::Vector3d p_BA = Eigen::Vector3d::Zero();  ///< antenna in B
-  std::vector<std::string> ranges;                 ///< range sensors; empty: all ultrasonic sensors
+  std::string ins = "ins", gps = "gps";  ///< signals
+  std::optional<Eigen::Vector3d> p_BA;   ///< antenna in B; absent: as mounted
+  std::vector<std::string> ranges;       ///< range sensors; empty: all ultrasonic sensors
   bool use_map = true;
   double start_std_m = 0.26;
   double range_bound_m = 0.003;
@@ -46,7 +47,8 @@ const ParameterTable<DistanceEstimatorParams>& distance_filter_table() {
           .text("ins", &P::ins, "signal of the inertial unit: velocity, attitude, position")
           .text("gps", &P::gps, "signal of the satellite receiver")
           .numbers("antenna_m", "m", &P::p_BA, between(-100.0, 100.0),
-                   "position of the antenna in B (x, y, z); subtracted from the fix")
+                   "position of the antenna in B (x, y, z), subtracted from the fix; default: "
+                   "where the receiver is mounted")
           .texts("ranges", &P::ranges, "names of the range sensors; empty: all ultrasonic sensors")
           .boolean("use_map", &P::use_map, "false: satellite fixes and inertial unit only")
           .number("start_std_m", "m", &P::start_std_m, between(1e-3, 100.0),
@@ -103,7 +105,7 @@ class DistanceFilter final : public Estimator {
              index_ ? &*index_ : nullptr, sensors_),
         random_(context.random()),
         initial_pose_(params.initial_pose),
-        p_BA_(params.p_BA),
+        p_BA_(antenna_of(context, params.gps, params.p_BA)),
         seen_ranges_(sensors_.size(), 0) {
     readings_.reserve(sensors_.size());
     handled_.resize(sensors_.size());

@@ -8,6 +8,7 @@
 
 #include "controllers/estimation/parts/estimator_events.h"
 #include "controllers/estimation/parts/initial_pose.h"
+#include "controllers/estimation/parts/mounting.h"
 #include "controllers/estimation/row_localisation/ground_reference.h"
 #include "controllers/estimation/row_localisation/map_localisation_law.h"
 #include "controllers/estimation/row_localisation/map_watch.h"
@@ -22,9 +23,9 @@ namespace {
 
 /// All parameters of the estimator.
 struct MapEstimatorParams {
-  std::string ins = "ins", gps = "gps";            ///< signals; gps empty: none
-  Eigen::Vector3d p_BA = Eigen::Vector3d::Zero();  ///< antenna in B
-  std::vector<std::string> ranges;                 ///< range sensors; empty: all ultrasonic sensors
+  std::string ins = "ins", gps = "gps";  ///< signals; gps empty: none
+  std::optional<Eigen::Vector3d> p_BA;   ///< antenna in B; absent: as mounted
+  std::vector<std::string> ranges;       ///< range sensors; empty: all ultrasonic sensors
   int cone_rays = 7;
   double range_bound_m = 0.003;
   double start_std_m = 0.26;
@@ -45,7 +46,8 @@ const ParameterTable<MapEstimatorParams>& map_localisation_table() {
           .text("ins", &P::ins, "signal of the aided inertial unit: velocity and attitude")
           .text("gps", &P::gps, "signal of the satellite receiver; '' = none")
           .numbers("antenna_m", "m", &P::p_BA, between(-100.0, 100.0),
-                   "position of the antenna in B (x, y, z); subtracted from the fix")
+                   "position of the antenna in B (x, y, z), subtracted from the fix; default: "
+                   "where the receiver is mounted")
           .texts("ranges", &P::ranges, "names of the range sensors; empty: all ultrasonic sensors")
           .integer("cone_rays", &P::cone_rays, between(1, 31),
                    "rays over a sensor's cone whose first return is predicted")
@@ -149,7 +151,7 @@ class MapLocalisation final : public Estimator {
         law_(params.law, map_, index_, sensors_),
         random_(context.random("start")),
         initial_pose_(params.initial_pose),
-        p_BA_(params.p_BA) {}
+        p_BA_(antenna_of(context, params.gps, params.p_BA)) {}
 
   void connect(Ports& ports) override {
     truth_ = ports.read<Odometry>("truth");

@@ -18,7 +18,8 @@ using Text = std::string;
 /// An estimator between signals that a test writes by hand. Tick: 25 ms.
 class Bench {
  public:
-  explicit Bench(const PartChoice& choice, std::uint64_t seed = 1)
+  explicit Bench(const PartChoice& choice, std::uint64_t seed = 1,
+                 std::vector<SensorMounting> sensors = {})
       : description_(make_rover_description()) {
     Ports world(bus_, "rover", "test");
     truth = world.write<Odometry>("truth");
@@ -33,6 +34,7 @@ class Bench {
     context.seed = seed;
     context.period = period;
     context.vehicle_description = &description_;
+    context.sensors = std::move(sensors);
     const PartSpec& spec = parts().spec(PartKind::kEstimator, choice.type);
     estimator_ = parts().make_estimator(choice.type, make_parameters(spec, choice.values), context);
     Ports ports(bus_, "rover", "rover.estimator");
@@ -105,6 +107,25 @@ TEST(GpsPose, TakesOffTheAntennasArmOnASlope) {
   EXPECT_NEAR((bench.estimate.value().X_WB.p - p_WB).norm(), 0.0, 1e-12);
 }
 
+/// The same place by the mounting alone; a given antenna wins.
+TEST(GpsPose, KnowsWhereTheReceiverIsMounted) {
+  const Eigen::Vector3d p_WB(4, 5, 6), p_BA(0.3, -0.1, 0.9);
+  const auto place = [&](Values values) {
+    SensorMounting receiver;
+    receiver.name = "gps";
+    receiver.X_BS.p = p_BA;
+    values.emplace_back("heading", Text("truth"));
+    Bench bench({"gps_pose", values}, 1, {receiver});
+    bench.write_truth(p_WB, {0.1, -0.2, 0.9});
+    bench.write_fix(p_WB + quaternion_from_rpy({0.1, -0.2, 0.9}) * p_BA, bench.now);
+    bench.tick();
+    return bench.estimate.value().X_WB.p;
+  };
+  EXPECT_NEAR((place({}) - p_WB).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((place({{"antenna_m", std::vector<double>{0, 0, 0}}}) - p_WB).norm(), p_BA.norm(),
+              1e-12);
+}
+
 TEST(GpsPose, CarriesTheFixOnByItsVelocityIfAsked) {
   Bench bench({"gps_pose", {{"heading", Text("truth")}, {"extrapolate", true}}});
   bench.write_truth({0, 0, 0});
@@ -147,6 +168,27 @@ TEST(HeadingSource, SumsUpTheGyroFromTheTrueStart) {
   EXPECT_NEAR(wrap_angle(yaw_from_quaternion(bench.estimate.value().X_WB.q) - 3.4), 0.0, 1e-9);
 }
 
+/// Mounted upside down, a unit measures the yaw rate about its -z; on its side about y.
+TEST(HeadingSource, KnowsHowTheInertialUnitIsMounted) {
+  const double quarter = 0.5 * kPi;
+  for (const RollPitchYaw& rpy : {RollPitchYaw{kPi, 0, 0}, RollPitchYaw{quarter, 0, 0}}) {
+    SensorMounting unit;
+    unit.name = "imu";
+    unit.X_BS.q = quaternion_from_rpy(rpy);
+    Bench bench({"gps_pose", {{"heading", Text("gyro")}, {"start_yaw_std_deg", 0.0}}}, 1, {unit});
+    bench.write_truth({0, 0, 0});
+    bench.write_fix({0, 0, 0}, bench.now);
+    ImuSample sample;
+    sample.w_WS_S = rpy.roll_rad == kPi ? Eigen::Vector3d(0, 0, -0.4) : Eigen::Vector3d(0, 0.4, 0);
+    for (int i = 0; i <= 40; ++i) {
+      bench.imu.write(bench.now, sample);
+      bench.tick();
+    }
+    EXPECT_NEAR(yaw_from_quaternion(bench.estimate.value().X_WB.q), 0.4, 1e-9);
+    EXPECT_NEAR(bench.estimate.value().w_WB_B.z(), 0.4, 1e-12);
+  }
+}
+
 TEST(HeadingSource, CourseTakesOutTheGyrosBias) {
   // Straight east at 1 m/s with a bias of 0.01 rad/s: gyro alone is 0.6 rad off after a minute;
   // drawn to the course over 5 s the error settles at bias times that time, 0.05 rad.
@@ -163,6 +205,18 @@ TEST(HeadingSource, CourseTakesOutTheGyrosBias) {
     const double error = yaw_from_quaternion(bench.estimate.value().X_WB.q);
     EXPECT_NEAR(error, Text(heading) == "gyro" ? 0.6 : 0.05, 0.003);
   }
+}
+
+TEST(OdometryFilter, AFixedGainOfZeroCorrectsNothing) {
+  Bench bench({"odometry_filter",
+               {{"heading", Text("truth")}, {"gain", Text("fixed")}, {"position_gain", 0.0}}});
+  bench.write_truth({0, 0, 0});
+  bench.command.write(bench.now, {0.0, 0.0});
+  bench.write_fix({0, 0, 0}, bench.now);
+  bench.tick();
+  bench.write_fix({1, 0, 0}, bench.now);
+  bench.tick();
+  EXPECT_EQ(bench.estimate.value().X_WB.p.x(), 0.0);
 }
 
 TEST(OdometryFilter, DeadReckonsExactlyOverArcs) {

@@ -43,7 +43,7 @@ double find_metric(const scenario::Criterion& criterion,
   throw ConfigError(fmt::format("{}: criteria: metric '{}' does not exist{} (known: {})",
                                 criterion.where.text(), criterion.metric,
                                 did_you_mean(criterion.metric, known),
-                                list_metrics(criterion.metric, known)));
+                                known.empty() ? "none" : list_metrics(criterion.metric, known)));
 }
 
 /// Reason why a metric has no value, derived from its name.

@@ -144,7 +144,7 @@ TEST(TrimCommand, RefusesInOneSentence) {
   expect_refused(vehicle_file("quadrotor_q4t"),
                  "quadrotor_q4t.yaml needs a vehicle with wings; vehicle type 'quadrotor' has "
                  "rotors");
-  expect_refused("none.yaml", "none.yaml");
+  expect_refused("none.yaml", "trim: 'none.yaml' is no file");
   expect_refused(test::scenario_file("survey_still"),
                  "is a scenario, must be the file of one vehicle");
   expect_refused(file + " --set mas_kg=1", "did you mean 'mass_kg'?");

@@ -40,6 +40,9 @@ void refuse_scenario(const std::filesystem::path& file) {
 
 /// Loads a vehicle from a file as `include` in a scenario does.
 scenario::VehicleConfig load_vehicle(const TrimArguments& arguments, const Registry& registry) {
+  if (!std::filesystem::is_regular_file(arguments.file)) {
+    throw ConfigError(fmt::format("trim: '{}' is no file", arguments.file.string()));
+  }
   refuse_scenario(arguments.file);
   std::string quoted;
   for (const char c : std::filesystem::absolute(arguments.file).string()) {

@@ -15,7 +15,7 @@ namespace {
 constexpr double kSpeedAccuracy_mps = 1e-3;
 constexpr double kSearchRatio = 1.05;
 constexpr double kSearchSpan = 5.0;
-constexpr const char* kAtTheLimit = "the wings are at their largest lift";
+constexpr const char* kNoBalance = "lift, thrust and moments do not balance";
 
 bool is_in_range(const Aircraft& aircraft, const AircraftControls& controls) {
   const AircraftControls limited = aircraft.limit(controls);
@@ -100,7 +100,7 @@ std::string say_reason(const Aircraft& aircraft, TrimSolver& solver, const TrimR
     return fmt::format("even the least throttle, {:g}, gives a climb of {:.2f} deg",
                        aircraft.throttle_min(), deg_from_rad(idle->request.climb_angle_rad));
   }
-  return kAtTheLimit;
+  return kNoBalance;
 }
 
 }  // namespace
@@ -125,7 +125,7 @@ Result<Trim> find_trim_at_throttle(const Aircraft& aircraft, const TrimRequest& 
     const std::string lift = say_lift(aircraft, solver, request);
     return Failure{fmt::format("no steady flight at {:.2f} m/s, throttle {:g}, bank {:.1f} deg: {}",
                                request.airspeed_mps, throttle, deg_from_rad(request.bank_rad),
-                               lift.empty() ? kAtTheLimit : lift)};
+                               lift.empty() ? kNoBalance : lift)};
   }
   const std::string elevons = say_elevons(aircraft, trim->controls);
   if (!elevons.empty()) {

@@ -144,6 +144,12 @@ TEST(FlightTrim, SaysWhatThrottleAndElevonsWouldBeNeeded) {
       fast.reason(),
       "no steady flight at 26.00 m/s, climb 0.0 deg, bank 0.0 deg: it takes throttle 1.161 of at "
       "most 1, full throttle gives a climb of -20.73 deg; it can fly so from 8.64 to 22.34 m/s");
+  // Far beyond, where nothing is solved, the wings lack no lift.
+  const Result<controllers::Trim> absurd = controllers::find_trim(aircraft, {100.0, 0.0, 0.0});
+  ASSERT_FALSE(absurd);
+  EXPECT_EQ(absurd.reason(),
+            "no steady flight at 100.00 m/s, climb 0.0 deg, bank 0.0 deg: lift, thrust and moments "
+            "do not balance; it can fly so from 8.64 to 22.34 m/s");
   const Result<controllers::Trim> dive = controllers::find_trim(aircraft, {12.0, -0.8, 0.0});
   ASSERT_FALSE(dive);
   EXPECT_EQ(dive.reason(),

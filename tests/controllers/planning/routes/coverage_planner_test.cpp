@@ -341,6 +341,14 @@ TEST(Waypoints, RefusesAPathOnWhichTheVehicleHitsThePosts) {
       path.reason(),
       "path into a row: the path passes (0.59, 2.00), where the vehicle's outline touches row "
       "0");
+  // Head on: its front is half of its length of 1.6 m ahead of its middle.
+  const auto plan_towards = [&](double end_x_m) {
+    const Values values = {{"x_m", std::vector<double>{-5, end_x_m}},
+                           {"y_m", std::vector<double>{0.1, 0.1}}};
+    return make_planner({"waypoints", values}, map, &rover)->plan(Pose{});
+  };
+  EXPECT_TRUE(plan_towards(-0.81).ok());
+  EXPECT_FALSE(plan_towards(-0.79).ok());
 }
 
 }  // namespace

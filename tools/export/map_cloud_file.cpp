@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <optional>
+#include <utility>
 
 #include "engine/io/clouds/cloud_output.h"
 #include "engine/io/clouds/point_cloud_crs.h"

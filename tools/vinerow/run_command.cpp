@@ -6,6 +6,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/profile.h"
+#include "engine/core/whole_file.h"
 #include "engine/run/run.h"
 #include "engine/sim/judge.h"
 #include "engine/sim/run_shelf.h"

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <optional>
 #include <utility>
 
 #include "engine/io/clouds/cloud_output.h"
 #include "engine/io/clouds/point_cloud_crs.h"
 #include "engine/io/clouds/point_cloud_writer.h"
+#include "tools/export/number_bytes.h"
 #include "tools/export/scan_files.h"
 
 namespace vinerow::tools {
@@ -85,7 +85,7 @@ class LasCloud final : public MapCloudFile {
     pulse.time_s = time.s();
     for (const CloudField& field : fields_) {
       const auto number = [&](double scale, double least, double most) {
-        const double value = scale * number_of(field, point + field.offset);
+        const double value = scale * number_of(field.kind, point + field.offset);
         return std::isfinite(value) ? std::round(std::clamp(value, least, most)) : least;
       };
       if (field.name == "intensity") {
@@ -107,33 +107,6 @@ class LasCloud final : public MapCloudFile {
 
  private:
   static constexpr double kIntensitySteps = 100.0;  // of a unit of intensity
-
-  template <class T>
-  static double as(const std::uint8_t* bytes) {
-    T value;
-    std::memcpy(&value, bytes, sizeof value);
-    return static_cast<double>(value);
-  }
-  static double number_of(const CloudField& field, const std::uint8_t* bytes) {
-    switch (field.kind) {
-      case RosKind::kInt8:
-        return as<std::int8_t>(bytes);
-      case RosKind::kInt16:
-        return as<std::int16_t>(bytes);
-      case RosKind::kUint16:
-        return as<std::uint16_t>(bytes);
-      case RosKind::kInt32:
-        return as<std::int32_t>(bytes);
-      case RosKind::kUint32:
-        return as<std::uint32_t>(bytes);
-      case RosKind::kFloat32:
-        return as<float>(bytes);
-      case RosKind::kFloat64:
-        return as<double>(bytes);
-      default:
-        return as<std::uint8_t>(bytes);
-    }
-  }
 
   /// In the file's frame.
   Eigen::Vector3d place_of(const Eigen::Vector3d& p_W) {

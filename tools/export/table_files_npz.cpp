@@ -5,6 +5,7 @@
 
 #include "engine/io/files/utf8.h"
 #include "engine/record/crc32.h"
+#include "tools/export/number_bytes.h"
 #include "tools/export/table_cells.h"
 #include "tools/export/table_files.h"
 
@@ -50,34 +51,6 @@ const char* type_code(RosKind kind) {
       return "<f4";
     default:
       return "<f8";
-  }
-}
-
-template <class T>
-double as_double(const char* bytes) {
-  T value;
-  std::memcpy(&value, bytes, sizeof value);
-  return static_cast<double>(value);
-}
-
-double whole_number(RosKind kind, const char* bytes) {
-  switch (kind) {
-    case RosKind::kInt8:
-      return as_double<std::int8_t>(bytes);
-    case RosKind::kInt16:
-      return as_double<std::int16_t>(bytes);
-    case RosKind::kUint16:
-      return as_double<std::uint16_t>(bytes);
-    case RosKind::kInt32:
-      return as_double<std::int32_t>(bytes);
-    case RosKind::kUint32:
-      return as_double<std::uint32_t>(bytes);
-    case RosKind::kInt64:
-      return as_double<std::int64_t>(bytes);
-    case RosKind::kUint64:
-      return as_double<std::uint64_t>(bytes);
-    default:
-      return as_double<std::uint8_t>(bytes);
   }
 }
 
@@ -194,7 +167,7 @@ std::string number_array(const MessageTable& table, const TableCells& cells, std
       if (i >= column.counts[row]) {
         data += gap;
       } else if (kind != column.kind) {
-        const double value = whole_number(column.kind, cells.number(c, row, i));
+        const double value = number_of(column.kind, cells.number(c, row, i));
         data.append(reinterpret_cast<const char*>(&value), sizeof value);
       } else {
         data.append(cells.number(c, row, i), size);

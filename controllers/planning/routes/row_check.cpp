@@ -5,12 +5,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "controllers/parts/paths/pose2.h"
 #include "engine/api/map.h"
 #include "engine/api/messages/path.h"
 #include "engine/api/vehicle.h"
+#include "engine/math/polygon.h"
 #include "engine/math/polyline.h"
 
 namespace vinerow::controllers {
@@ -60,24 +60,17 @@ std::optional<Approach> find_approach(const PlannedPath& path, const RowMap& map
   return std::nullopt;
 }
 
-/// True if a segment has a point inside a convex, counter-clockwise polygon.
-bool meets_outline(const std::vector<Vec>& outline, const Vec& a, const Vec& b) {
-  double first = 0.0, last = 1.0;  // the share of the segment that is inside the edges so far
-  for (std::size_t k = 0; k < outline.size(); ++k) {
-    const Vec edge = outline[(k + 1) % outline.size()] - outline[k];
-    const double at_a = cross(edge, a - outline[k]), at_b = cross(edge, b - outline[k]);
-    if (at_a <= 0.0 && at_b <= 0.0) return false;
-    if (at_a < 0.0) first = std::max(first, at_a / (at_a - at_b));
-    if (at_b < 0.0) last = std::min(last, at_a / (at_a - at_b));
-  }
-  return first < last;
+/// Whether a segment has a point inside a convex, counter-clockwise polygon.
+bool meets(const Polygon& outline, const Vec& a, const Vec& b) {
+  const Vec inside = clip_line(outline, a, b - a);
+  return std::max(inside[0], 0.0) < std::min(inside[1], 1.0);
 }
 
 /// First stretch along which the outline of the vehicle, in the direction of travel, lies on the
 /// centre line of a row.
 std::optional<Approach> find_outline_on_row(const PlannedPath& path, const RowMap& map,
-                                            const std::vector<Vec>& outline_B) {
-  constexpr double kStep_m = 0.1;
+                                            const Polygon& outline_B) {
+  constexpr double kStep_m = 0.1;  // finer than a post is thick
   double reach_m = 0.0;
   for (const Vec& corner : outline_B) reach_m = std::max(reach_m, corner.norm());
   for (const PlantRow& row : map.rows) {
@@ -94,7 +87,7 @@ std::optional<Approach> find_outline_on_row(const PlannedPath& path, const RowMa
         for (std::size_t j = 0; j + 1 < row.line_W.size(); ++j) {
           const Vec a = R_BW * (row.line_W[j].head<2>() - p_W);
           const Vec b = R_BW * (row.line_W[j + 1].head<2>() - p_W);
-          if (meets_outline(outline_B, a, b)) return Approach{i, &row, 0.0};
+          if (meets(outline_B, a, b)) return Approach{i, &row, 0.0};
         }
       }
     }

@@ -14,6 +14,22 @@ unsigned entry_of(const RTCIntersectContext& context, unsigned geometry) {
   return context.instID[0] != RTC_INVALID_GEOMETRY_ID ? context.instID[0] : geometry;
 }
 
+/// Bit i: ray i of the arguments may meet a triangle of the block.
+VINEROW_ALWAYS_INLINE unsigned find_near(RayCast& cast, const PlacedMesh& placed, unsigned entry,
+                                         const TriangleBlock& block, const int* valid,
+                                         unsigned count) {
+  if (count != kPacket) {
+    unsigned is_valid = 0;
+    for (unsigned i = 0; i < count; ++i) is_valid |= static_cast<unsigned>(valid[i] != 0) << i;
+    return is_valid;
+  }
+  const unsigned is_valid = PacketRays::bits_of_eight(valid);
+  if (cast.packet.entry != entry) {
+    cast.packet.enter(placed.R_MW, placed.p_MW, entry, cast.lanes, cast.first_in_packet);
+  }
+  return is_valid & cast.packet.find_near(block);
+}
+
 /// Called if rays meet the box of a block: one, or those of a packet.
 VINEROW_ALWAYS_INLINE void look_at_block(const RTCIntersectFunctionNArguments* arguments) {
   auto& cast = *static_cast<RayCast*>(arguments->context);
@@ -24,8 +40,9 @@ VINEROW_ALWAYS_INLINE void look_at_block(const RTCIntersectFunctionNArguments* a
   const unsigned count = arguments->N;
   RTCRayN* rays = RTCRayHitN_RayN(arguments->rayhit, count);
   RTCHitN* hits = RTCRayHitN_HitN(arguments->rayhit, count);
-  for (unsigned i = 0; i < count; ++i) {
-    if (arguments->valid[i] == 0) continue;
+  for (unsigned near = find_near(cast, placed, entry, block, arguments->valid, count); near != 0;
+       near &= near - 1) {
+    const auto i = static_cast<unsigned>(std::countr_zero(near));
     RayLane& lane = cast.lanes[RTCRayN_id(rays, count, i)];
     if (!lane.test(placed, entry, block)) continue;
     // Skip boxes that start farther away; test those at the same distance.
@@ -41,10 +58,12 @@ VINEROW_ALWAYS_INLINE void block_rays(const RTCOccludedFunctionNArguments* argum
   const auto& boxes = *static_cast<const BlockBoxes*>(arguments->geometryUserPtr);
   const unsigned entry = entry_of(cast, arguments->geomID);
   const TriangleBlock& block = (*boxes.blocks)[arguments->primID];
-  for (unsigned i = 0; i < arguments->N; ++i) {
-    if (arguments->valid[i] == 0) continue;
+  const PlacedMesh& placed = (*cast.placed)[entry];
+  for (unsigned near = find_near(cast, placed, entry, block, arguments->valid, arguments->N);
+       near != 0; near &= near - 1) {
+    const auto i = static_cast<unsigned>(std::countr_zero(near));
     RayLane& lane = cast.lanes[RTCRayN_id(arguments->ray, arguments->N, i)];
-    if (!lane.test((*cast.placed)[entry], entry, block)) continue;
+    if (!lane.test(placed, entry, block)) continue;
     RTCRayN_tfar(arguments->ray, arguments->N, i) = -std::numeric_limits<float>::infinity();
   }
 }
@@ -53,13 +72,7 @@ VINEROW_ALWAYS_INLINE void block_rays(const RTCOccludedFunctionNArguments* argum
 
 void find_block_box(const RTCBoundsFunctionArguments* arguments) {
   const auto& boxes = *static_cast<const BlockBoxes*>(arguments->geometryUserPtr);
-  Eigen::AlignedBox3d box;
-  const TriangleBlock& block = (*boxes.blocks)[arguments->primID];
-  for (std::uint32_t i = 0; i < block.count; ++i) {
-    for (const auto& corner_M : block.corners_M) {
-      box.extend(boxes.X * Vector3d(corner_M[0][i], corner_M[1][i], corner_M[2][i]));
-    }
-  }
+  const Eigen::AlignedBox3d box = calc_box((*boxes.blocks)[arguments->primID], boxes.X);
   const auto low = [&](int axis) { return static_cast<float>(box.min()[axis] - boxes.margin_m); };
   const auto high = [&](int axis) { return static_cast<float>(box.max()[axis] + boxes.margin_m); };
   *arguments->bounds_o = {low(0), low(1), low(2), 0.0f, high(0), high(1), high(2), 0.0f};

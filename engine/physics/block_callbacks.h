@@ -15,13 +15,11 @@
 #include "engine/api/world_model.h"
 #include "engine/math/pose.h"
 #include "engine/physics/mesh_trees.h"
+#include "engine/physics/packet_rays.h"
 #include "engine/physics/triangle_blocks.h"
 #include "engine/physics/triangle_ray.h"
 
 namespace vinerow::physics {
-
-/// Rays that Embree follows together.
-constexpr std::size_t kPacket = 8;
 
 /// Mesh instances, in the order of Embree's geometry ids.
 struct PlacedMesh {
@@ -42,7 +40,8 @@ struct BlockBoxes {
 
 /// A ray in Embree's tree traversal.
 struct RayLane {
-  Eigen::Vector3d p_W, dir_W;
+  // Some ray where there is none: the packet's are all transformed.
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero(), dir_W = Eigen::Vector3d::UnitZ();
   double tree_start_m = 0.0;  ///< distance along the ray at which Embree's ray starts
   // The ray in the frame of the last tested mesh.
   unsigned entry = RTC_INVALID_GEOMETRY_ID;
@@ -108,6 +107,8 @@ struct RayCast : RTCIntersectContext {
   const std::vector<PlacedMesh>* placed;
   double margin_m;
   RayLane* lanes;
+  unsigned first_in_packet = 0;  ///< lane of the first ray of a packet
+  PacketRays packet;
 };
 
 struct BlockFunctions {

@@ -61,7 +61,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 struct MeshRays::Impl {
   /// Embree's ray starts at the bounds of the meshes, so that a distant start costs no digits in
   /// single precision. @returns false if the ray misses them
-  bool begin(const SceneRay& ray, RayLane& lane) const {
+  VINEROW_ALWAYS_INLINE bool begin(const SceneRay& ray, RayLane& lane) const {
     if (placed.empty() || !ray.p_W.allFinite() || !ray.dir_W.allFinite() ||
         !(ray.max_distance_m >= 0.0)) {
       return false;
@@ -138,7 +138,8 @@ struct MeshRays::Impl {
                    const Search& search) {
     alignas(32) std::array<int, kPacket> valid{};  // -1: takes part
     RTCRayHit8 packet;
-    bool is_any = false;
+    RayCast cast = make_cast(lanes.data());
+    cast.first_in_packet = kPacket;
     for (std::size_t i = 0; i < kPacket; ++i) {
       if (i >= rays.size() || !begin(rays[i], lanes[i]) || cast_without_trees(lanes[i], mask)) {
         leave_out(packet.ray, i);
@@ -146,7 +147,7 @@ struct MeshRays::Impl {
       }
       const SceneRay& ray = rays[i];
       valid[i] = -1;
-      is_any = true;
+      cast.first_in_packet = std::min(cast.first_in_packet, static_cast<unsigned>(i));
       const Vector3d p_start_W = ray.p_W + lanes[i].tree_start_m * ray.dir_W;
       packet.ray.org_x[i] = static_cast<float>(p_start_W.x());
       packet.ray.org_y[i] = static_cast<float>(p_start_W.y());
@@ -164,9 +165,8 @@ struct MeshRays::Impl {
       packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
       packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
-    if (!is_any) return;
+    if (cast.first_in_packet == kPacket) return;
     ensure_trees();
-    RayCast cast = make_cast(lanes.data());
     cast.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     search(valid.data(), cast, packet);
   }
@@ -183,7 +183,7 @@ struct MeshRays::Impl {
     }
   }
 
-  std::optional<RayHit> hit_of(const RayLane& lane) const {
+  VINEROW_ALWAYS_INLINE std::optional<RayHit> hit_of(const RayLane& lane) const {
     if (!lane.has_hit()) return std::nullopt;
     const PlacedMesh& met = placed[lane.best_entry];
     // The block was read just now, unlike the mesh.

@@ -11,6 +11,7 @@
 
 #include "engine/api/world_model.h"
 #include "engine/core/random.h"
+#include "engine/math/angles.h"
 #include "engine/physics/height_field_ray.h"
 #include "engine/physics/static_geometry.h"
 #include "engine/physics/static_scene.h"

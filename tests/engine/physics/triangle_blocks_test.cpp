@@ -115,6 +115,61 @@ TEST(TriangleBlocks, TheyCostTheLeastOfAllCuts) {
   }
 }
 
+/// A wire of 5 m at 45 degrees, of two triangles, 4 mm wide.
+TriangleMesh make_wire(const Eigen::Vector3f& dir) {
+  const Eigen::Vector3f side = 0.004f * Eigen::Vector3f::UnitZ();
+  TriangleMesh mesh;
+  mesh.vertices = {Eigen::Vector3f::Zero(), 5.0f * dir, 5.0f * dir + side, side};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  return mesh;
+}
+
+TEST(TriangleBlocks, ASlantingWireHasABoxForEachSlice) {
+  const double half = std::sqrt(0.5);
+  const TriangleMesh wire = make_wire(Eigen::Vector3d(half, half, 0.0).cast<float>());
+  const std::vector<TriangleBlock> blocks = make_triangle_blocks(wire);
+  ASSERT_EQ(blocks.size(), 8u) << "slices of 0.5 m of 3.5 m along x";
+  Pose X;
+  X.p = {100.0, -20.0, 3.0};
+  X.q = Eigen::AngleAxisd(1.1, Eigen::Vector3d(0.1, 0.2, 1.0).normalized());
+  std::vector<Eigen::AlignedBox3d> boxes, boxes_X;
+  double surface_m2 = 0.0;
+  for (const TriangleBlock& block : blocks) {
+    EXPECT_EQ(block.first, 0u);
+    EXPECT_EQ(block.count, 2u);
+    boxes.push_back(calc_box(block, Pose{}));
+    boxes_X.push_back(calc_box(block, X));
+    surface_m2 += boxes.back().sizes().x() * boxes.back().sizes().y();
+  }
+  // Squares along the diagonal of one of 5 m / sqrt(2): an eighth of it.
+  EXPECT_NEAR(surface_m2, 12.5 / 8.0, 1e-5);
+  // Every point of the wire is in a slice's box.
+  RandomStream random(7, "", "wire");
+  for (int k = 0; k < 2000; ++k) {
+    const double u = random.uniform(0.0, 1.0), v = random.uniform(0.0, 1.0 - u);
+    const auto& [a, b, c] = wire.triangles[static_cast<std::size_t>(k % 2)];
+    const Eigen::Vector3d p = wire.vertices[a].cast<double>() * (1.0 - u - v) +
+                              wire.vertices[b].cast<double>() * u +
+                              wire.vertices[c].cast<double>() * v;
+    const auto is_in = [](const std::vector<Eigen::AlignedBox3d>& all, const Eigen::Vector3d& q) {
+      return std::any_of(all.begin(), all.end(), [&](const Eigen::AlignedBox3d& box) {
+        return box.squaredExteriorDistance(q) < 1e-24;
+      });
+    };
+    EXPECT_TRUE(is_in(boxes, p)) << p.transpose();
+    EXPECT_TRUE(is_in(boxes_X, X * p)) << p.transpose();
+  }
+}
+
+TEST(TriangleBlocks, OthersAreNotCut) {
+  EXPECT_EQ(make_triangle_blocks(make_wire(Eigen::Vector3f::UnitX())).size(), 1u)
+      << "along an axis";
+  TriangleMesh ground;
+  ground.vertices = {{0, 0, 0}, {40, 0, 1}, {40, 40, 2}, {0, 40, 1}};
+  ground.triangles = {{0, 1, 2}, {0, 2, 3}};
+  EXPECT_EQ(make_triangle_blocks(ground).size(), 1u) << "slices have as large boxes together";
+}
+
 /// Rays through corners, edges and the inside of triangles, beside them and in their planes.
 TEST(TriangleBlocks, ARayMeetsFourTrianglesAsItMeetsEachAlone) {
   RandomStream random(2, "", "rays");

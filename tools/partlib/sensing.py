@@ -2,8 +2,10 @@
 
 import csv
 import json
+from pathlib import Path
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.patches import Rectangle
 from PIL import Image
 
@@ -277,38 +279,57 @@ def draw_net(runs: Runs) -> None:
     runs.save(figure, "net")
 
 
+def make_dataset(runs: Runs, name: str) -> tuple[Path, list[dict[str, str]]]:
+    """Folder of a shipped data set, and its pictures for training."""
+    study = ASSETS / "studies" / f"{name}.yaml"
+    out = runs.once(name, study.read_text(encoding="utf-8"), lambda folder: runs.call(
+        "dataset", study, "--out", folder / "out", "--quiet")) / "out"
+    with (out / "pictures.csv").open(encoding="utf-8", newline="") as file:
+        return out, [row for row in csv.DictReader(file) if row["part"] == "train"]
+
+
+def show_labelled(ax: Axes, out: Path, picture_name: str, colours: dict[int, tuple[int, int, int]]) -> None:
+    """A picture with the masks and boxes of what is listed in it. colours: of each category's number."""
+    notes = json.loads((out / "annotations" / "instances_train.json").read_text(encoding="utf-8"))
+    picture = np.array(Image.open(out / "images" / "train" / picture_name)).astype(float)
+    things = np.array(Image.open(out / "instances" / "train" / picture_name)).astype(np.uint32) @ np.array([1, 256, 65536], np.uint32)
+    bare(ax)
+    for a in notes["annotations"]:
+        if a["image_id"] != int(picture_name[:6]):
+            continue
+        colour = np.array(colours[a["category_id"]])
+        inside = things == a["thing"]
+        picture[inside] = 0.5 * picture[inside] + 0.5 * colour
+        x, y, w, h = a["bbox"]
+        ax.add_patch(Rectangle((x - 0.5, y - 0.5), w, h, fill=False, edgecolor=colour / 255, linewidth=0.6))
+    ax.imshow(picture.astype(np.uint8))
+
+
 def draw_dataset(runs: Runs) -> None:
     """Pictures of the shipped data set with what is listed in them."""
-    study = ASSETS / "studies" / "vineyard_dataset.yaml"
-    out = runs.once("dataset", study.read_text(encoding="utf-8"), lambda folder: runs.call(
-        "dataset", study, "--out", folder / "out", "--quiet")) / "out"
-    notes = {kind: json.loads((out / "annotations" / f"{kind}_train.json").read_text(encoding="utf-8"))
-             for kind in ("instances", "keypoints")}
-    with (out / "pictures.csv").open(encoding="utf-8", newline="") as file:
-        rows = [row for row in csv.DictReader(file) if row["part"] == "train"]
+    out, rows = make_dataset(runs, "vineyard_dataset")
+    keypoints = json.loads((out / "annotations" / "keypoints_train.json").read_text(encoding="utf-8"))
     figure, axes = panels(1, 2, width=8.6, height=3.4)
-    colours = {1: (150, 40, 235), 2: (255, 150, 0), 3: (0, 205, 245)}
     for ax, season in zip(axes, ("harvest", "flowering")):
-        row = [row for row in rows if row["season"] == season][2]
-        number = int(row["picture"][:6])
-        picture = np.array(Image.open(out / "images" / "train" / row["picture"])).astype(float)
-        things = np.array(Image.open(out / "instances" / "train" / row["picture"])).astype(np.uint32) @ np.array([1, 256, 65536], np.uint32)
-        bare(ax)
+        picture = [row for row in rows if row["season"] == season][2]["picture"]
+        show_labelled(ax, out, picture, {1: (150, 40, 235), 2: (255, 150, 0), 3: (0, 205, 245)})
         ax.set_title(season)
-        for a in notes["instances"]["annotations"]:
-            if a["image_id"] != number:
-                continue
-            colour = np.array(colours[a["category_id"]])
-            inside = things == a["thing"]
-            picture[inside] = 0.5 * picture[inside] + 0.5 * colour
-            x, y, w, h = a["bbox"]
-            ax.add_patch(Rectangle((x - 0.5, y - 0.5), w, h, fill=False, edgecolor=colour / 255, linewidth=0.6))
-        ax.imshow(picture.astype(np.uint8))
-        for a in notes["keypoints"]["annotations"]:
+        for a in keypoints["annotations"]:
             points = np.array(a["keypoints"]).reshape(-1, 3)
-            for u, v, seen in points[points[:, 2] > 0] if a["image_id"] == number else ():
+            for u, v, seen in points[points[:, 2] > 0] if a["image_id"] == int(picture[:6]) else ():
                 ax.plot(u, v, "o", markersize=3, color="#20d040" if seen == 2 else "#e02020", markeredgecolor="black", markeredgewidth=0.4)
     runs.save(figure, "dataset", colours=160)
+
+
+def draw_weeds(runs: Runs) -> None:
+    """Weeds of the shipped data set with their masks and boxes."""
+    out, rows = make_dataset(runs, "weed_dataset")
+    figure, axes = panels(1, 2, width=8.6, height=3.4)
+    for ax, season in zip(axes, ("five leaves", "ripening")):
+        picture = [row for row in rows if row["season"] == season and row["weeds"] == "many"][2]["picture"]
+        show_labelled(ax, out, picture, {1: (255, 40, 40), 2: (255, 150, 0)})
+        ax.set_title(f"{season}, 16 plants per m²")
+    runs.save(figure, "weeds", colours=160)
 
 
 def draw_estimators(runs: Runs) -> None:

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "engine/api/map.h"
 #include "engine/api/parameter_table.h"
@@ -18,6 +19,7 @@
 #include "worlds/parts/obstacles.h"
 #include "worlds/parts/terrain.h"
 #include "worlds/plants/trees.h"
+#include "worlds/plants/weeds.h"
 
 namespace vinerow::worlds {
 namespace {
@@ -28,6 +30,7 @@ struct OrchardParams {
   std::optional<double> refinement_per_m2;  ///< given: the map is the paper's matrix
   double tree_spacing_m = 3.2;
   TreeParams trees;
+  std::optional<WeedParams> weeds;
   SlopeParams slope;
   TerrainParams terrain;
   GeoOrigin origin{rad_from_deg(45.0626), rad_from_deg(7.6624), 240.0};
@@ -71,6 +74,7 @@ const ParameterTable<OrchardParams>& orchard_table() {
                   between(20.0, 10000.0), "leaves drawn per tree at close range")
           .group("leaves", inside(&P::trees, &Trees::leaves), tree_leaves_table(),
                  "leaves and fruit one by one; absent: cards of leaves")
+          .group("weeds", &P::weeds, weed_table(), kWeedsText)
           .integer("plant_seed", inside(&P::trees, &Trees::seed), between(0, 9e15),
                    "seed of trees and ground, apart from the run's seed")
           .include(&P::slope, slope_table())
@@ -152,14 +156,20 @@ std::unique_ptr<WorldModel> make_orchard(const ParameterSet& parameters,
 
   MemoryMeshStore store;
   const mapping::GroundHeight ground = ground_of(*world->terrain);
+  std::vector<mapping::RowCurve> rows;
+  for (const PlantRow& row : world->rows->rows) {
+    rows.emplace_back(
+        std::vector<Eigen::Vector2d>{row.line_W.front().head<2>(), row.line_W.back().head<2>()});
+  }
+  if (params.weeds) check_weeds(rows, *params.weeds);
   for (int k = 0; k < layout.plant_rows; ++k) {
-    const auto& line = world->rows->rows[static_cast<std::size_t>(k)].line_W;
-    const mapping::RowCurve row({line.front().head<2>(), line.back().head<2>()});
+    const mapping::RowCurve& row = rows[static_cast<std::size_t>(k)];
     const int count = std::max(1, static_cast<int>(row.length_m() / params.tree_spacing_m + 1e-9));
     std::vector<double> stations;
     for (int i = 0; i < count; ++i) stations.push_back(row.length_m() * (i + 0.5) / count);
     plant_tree_row(*world, k, row, stations, ground, trees, store);
   }
+  if (params.weeds) plant_weeds(*world, rows, ground, *params.weeds, trees.seed, store);
   add_alley_spawn_points(*world);
   const auto on_map = place_obstacles(params.obstacles, *world);
   if (params.refinement_per_m2 && params.map.occupancy_file.empty()) {

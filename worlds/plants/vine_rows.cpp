@@ -314,6 +314,7 @@ const ParameterTable<VinePlanting>& planting_table() {
               "vines", &P::growth, growth_table(),
               "vines that grow organ by organ with the season, within the canopy's width and top; "
               "absent: cards of leaves, in summer")
+          .group("weeds", &P::weeds, weed_table(), kWeedsText)
           .rule([](const P& p) -> std::string {
             if (is_pergola(p)) return find_fault_in_pergola(p);
             if (!p.growth || p.trellis.arm_m() < p.canopy.top_m) return "";
@@ -391,6 +392,9 @@ std::vector<double> regular_vines(double length_m, double spacing_m, double miss
 void plant_vine_rows(WorldModel& world, const std::vector<VineRow>& rows,
                      const mapping::GroundHeight& ground, const VinePlanting& planting,
                      MeshStore& store) {
+  std::vector<mapping::RowCurve> curves;
+  for (const VineRow& row : rows) curves.push_back(row.curve);
+  if (planting.weeds) check_weeds(curves, *planting.weeds);
   Planter planter(world, ground, planting, store);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     VineRow row = rows[i];
@@ -398,6 +402,7 @@ void plant_vine_rows(WorldModel& world, const std::vector<VineRow>& rows,
     row.vine_spacing_m = std::min(row.vine_spacing_m, row.curve.length_m());
     planter.plant(i, row);
   }
+  if (planting.weeds) plant_weeds(world, curves, ground, *planting.weeds, planting.seed, store);
 }
 
 }  // namespace vinerow::worlds

@@ -4,7 +4,7 @@
 /// Names: "canopy_hull/row_03/run_0" (collides, not drawn), "canopy/row_03/chunk_07#lod0" to
 /// "#lod2" (drawn, one of them by distance), "trunk/row_03/chunk_07#lod0" (collides) and "#lod1",
 /// "post/row_03", "end_post/row_03", "wire/row_03"; of a pergola also "roof_wire/row_03" and
-/// "roof_beam/row_03".
+/// "roof_beam/row_03". Weeds: weeds.h.
 ///
 /// Leaves are cards with the picture of a leaf, or organs of VineGrowth: then also
 /// "shoots/row_03/chunk_07#lod0" and "bunches/...", each with its levels, and light meets the
@@ -21,6 +21,7 @@
 #include "worlds/parts/mesh_store.h"
 #include "worlds/parts/trellis.h"
 #include "worlds/plants/vine_organs.h"
+#include "worlds/plants/weeds.h"
 
 namespace vinerow::worlds {
 
@@ -42,6 +43,7 @@ struct VinePlanting {
   int variants = 6;      ///< of chunks that are reused
   std::uint64_t seed = 1;
   std::optional<VineGrowth> growth;  ///< absent: cards of leaves
+  std::optional<WeedParams> weeds;   ///< absent: a bare strip
   VineSpace space;                   ///< of growing vines; set by settle_growth()
   bool has_leaves = true;            ///< likewise
 };
@@ -57,7 +59,7 @@ double canopy_width_m(const VinePlanting& planting);
 VinePlanting settle_growth(VinePlanting planting);
 
 /// `canopy_width_m`, canopy_table(), trellis_table(), `leaf_cards_per_m`, `plant_variants`,
-/// `plant_seed`, `vines`.
+/// `plant_seed`, `vines`, `weeds`.
 const ParameterTable<VinePlanting>& planting_table();
 
 /// Distance by which the map extends a row beyond its ends: half the canopy's width if end posts

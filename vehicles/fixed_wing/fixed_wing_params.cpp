@@ -7,6 +7,8 @@
 
 #include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
+#include "engine/math/decomposition.h"
+#include "vehicles/parts/moments_of_inertia.h"
 
 namespace vinerow::vehicles {
 namespace {
@@ -15,16 +17,17 @@ constexpr double kSeaLevelDensity_kgm3 = 1.225;
 
 std::string find_fault_in_wing_inertia(const FixedWingParams& p) {
   const Eigen::Vector3d& inertia = p.inertia_kgm2;
-  if (2.0 * inertia.maxCoeff() > inertia.sum()) {
-    return fmt::format(
-        "inertia_kgm2 = [{:.4g}, {:.4g}, {:.4g}] is not possible for a rigid body: one moment is "
-        "larger than the sum of the other two",
-        inertia.x(), inertia.y(), inertia.z());
-  }
+  std::string fault = find_fault_in_moments("inertia_kgm2", inertia);
+  if (!fault.empty()) return fault;
   const double limit = std::sqrt(inertia.x() * inertia.z());
-  if (std::abs(p.inertia_xz_kgm2) < limit) return "";
-  return fmt::format("inertia_xz_kgm2 = {:.4g}, must be less than sqrt(Jx Jz) = {:.4g} either side",
-                     p.inertia_xz_kgm2, limit);
+  if (!(std::abs(p.inertia_xz_kgm2) < limit)) {
+    return fmt::format(
+        "inertia_xz_kgm2 = {:.4g}, must be less than sqrt(Jx Jz) = {:.4g} either side",
+        p.inertia_xz_kgm2, limit);
+  }
+  return find_fault_in_moments(
+      fmt::format("inertia_xz_kgm2 = {:.4g}: the principal inertia", p.inertia_xz_kgm2),
+      decompose_symmetric<3>(p.inertia_B()).values);
 }
 
 const ParameterTable<FixedWingFault>& wing_fault_table() {

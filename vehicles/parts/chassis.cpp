@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/api/parameter_table.h"
+#include "vehicles/parts/moments_of_inertia.h"
 
 namespace vinerow::vehicles {
 
@@ -10,6 +11,14 @@ Eigen::Vector3d ChassisParams::hub_B(const Corner& corner) const {
   return {0.5 * corner.along * wheel_base_m, 0.5 * corner.across * track_m,
           wheel_radius_m - com_height_m};
 }
+
+namespace {
+
+std::string find_fault_in_chassis_inertia(const ChassisParams& p) {
+  return find_fault_in_moments("inertia_kgm2", p.inertia_kgm2);
+}
+
+}  // namespace
 
 const ParameterTable<ChassisParams>& chassis_table() {
   using P = ChassisParams;
@@ -38,7 +47,8 @@ const ParameterTable<ChassisParams>& chassis_table() {
           .include(&P::motor, motor_table())
           .include(&P::tyre, tyre_table())
           .include(&P::battery, battery_table())
-          .include(&P::air, air_drag_table());
+          .include(&P::air, air_drag_table())
+          .rule(find_fault_in_chassis_inertia);
   return table;
 }
 

@@ -7,6 +7,7 @@
 #include "engine/api/parameter_table.h"
 #include "engine/core/constants.h"
 #include "engine/core/error.h"
+#include "vehicles/parts/moments_of_inertia.h"
 
 namespace vinerow::vehicles {
 namespace {
@@ -31,12 +32,7 @@ std::string find_fault_in_shape(const QuadrotorParams& p) {
 }
 
 std::string find_fault_in_inertia(const QuadrotorParams& p) {
-  const Eigen::Vector3d& inertia = p.inertia_kgm2;
-  if (2.0 * inertia.maxCoeff() <= inertia.sum()) return "";
-  return fmt::format(
-      "inertia_kgm2 = [{:.4g}, {:.4g}, {:.4g}] is not possible for a rigid body: one moment is "
-      "larger than the sum of the other two",
-      inertia.x(), inertia.y(), inertia.z());
+  return find_fault_in_moments("inertia_kgm2", p.inertia_kgm2);
 }
 
 const ParameterTable<QuadrotorFault>& fault_table() {

@@ -9,7 +9,9 @@
 #include "engine/core/suggest.h"
 #include "engine/io/meshes/mesh_file.h"
 #include "engine/math/angles.h"
+#include "engine/math/decomposition.h"
 #include "vehicles/parts/mesh_builder.h"
+#include "vehicles/parts/moments_of_inertia.h"
 
 namespace vinerow::vehicles {
 namespace {
@@ -291,6 +293,10 @@ void merge_masses(const io::UrdfModel& urdf, const std::vector<Pose>& X_RL, Urdf
   model.com_root = moment / model.mass_kg;
   for (std::size_t i = 0; i < urdf.links.size(); ++i) {
     const io::UrdfLink& link = urdf.links[i];
+    const std::string fault = find_fault_in_moments(
+        fmt::format("{}: link '{}': the principal inertia in kg m2", urdf.file.string(), link.name),
+        decompose_symmetric<3>(link.inertia_L).values);
+    if (!fault.empty()) throw ConfigError(fault);
     const Matrix3d R = X_RL[i].q.toRotationMatrix();
     const Vector3d d = X_RL[i] * link.com_L - model.com_root;
     model.inertia_B += R * link.inertia_L * R.transpose() +

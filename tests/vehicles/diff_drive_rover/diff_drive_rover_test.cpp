@@ -130,6 +130,15 @@ TEST(DiffDriveRoverParams, RejectsBadNumbersByName) {
   } catch (const ConfigError& error) {
     EXPECT_STREQ(error.what(), "rover: inertia_kgm2[1] = -1 kg m2, must be > 0 kg m2");
   }
+  params.inertia_kgm2 = {1.0, 70.0, 8.0};
+  try {
+    params.validate();
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(),
+                 "rover: inertia_kgm2 = [1, 70, 8] is not possible for a rigid body: one moment is "
+                 "larger than the sum of the other two");
+  }
 }
 
 }  // namespace

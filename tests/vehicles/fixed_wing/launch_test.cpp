@@ -235,6 +235,10 @@ TEST(FixedWingParameters, RefusesWhatDoesNotFly) {
             "moment is larger than the sum of the other two");
   EXPECT_EQ(refusal([](ParameterSet& s) { s.set("inertia_xz_kgm2", 0.05); }),
             "plane: inertia_xz_kgm2 = 0.05, must be less than sqrt(Jx Jz) = 0.03857 either side");
+  // 0.0395 -+ sqrt(0.0085^2 + 0.02^2), and 0.019 about y.
+  EXPECT_EQ(refusal([](ParameterSet& s) { s.set("inertia_xz_kgm2", 0.02); }),
+            "plane: inertia_xz_kgm2 = 0.02: the principal inertia = [0.01777, 0.019, 0.06123] is "
+            "not possible for a rigid body: one moment is larger than the sum of the other two");
   EXPECT_EQ(refusal([](ParameterSet& s) { s.set("wing_span_m", -1.0); }),
             "wing_span_m = -1 m, must be > 0 m");
 }

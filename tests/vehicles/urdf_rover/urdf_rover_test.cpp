@@ -176,6 +176,15 @@ TEST(UrdfRover, SaysWhatIsWrong) {
   EXPECT_NE(error_of([&] { read_urdf_rover(light, {}); }).find("masses sum to 0 kg, must be > 0"),
             std::string::npos);
 
+  // Each moment is possible, but the product of inertia gives 1 - 0.6, 1 and 1 + 0.6.
+  io::UrdfModel skewed = io::load_urdf(kPlain);
+  skewed.links[1].inertia_L.setIdentity();
+  skewed.links[1].inertia_L(0, 1) = skewed.links[1].inertia_L(1, 0) = 0.6;
+  EXPECT_EQ(error_of([&] { read_urdf_rover(skewed, {}); }),
+            kPlain.string() +
+                ": link 'base_link': the principal inertia in kg m2 = [0.4, 1, 1.6] is not "
+                "possible for a rigid body: one moment is larger than the sum of the other two");
+
   ParameterSet half(urdf_rover_spec().parameters, "urdf_rover");
   half.set("urdf", kPlain.string());
   half.set("left_wheel_joints", std::vector<std::string>{"a"});
@@ -213,8 +222,8 @@ TEST(SteeredUrdf, ReadsACarFromItsJoints) {
   EXPECT_NEAR(*about.min_turning_radius_m, std::hypot(radius_m, com_m), 1e-12);
   std::vector<std::string> links;
   for (const VehicleLink& link : rover.links()) links.push_back(link.name);
-  EXPECT_EQ(links, (std::vector<std::string>{"body", "wheel_fl", "wheel_rl", "wheel_fr",
-                                             "wheel_rr", "knuckle_fl", "knuckle_fr"}));
+  EXPECT_EQ(links, (std::vector<std::string>{"body", "wheel_fl", "wheel_rl", "wheel_fr", "wheel_rr",
+                                             "knuckle_fl", "knuckle_fr"}));
 }
 
 TEST(SteeredUrdf, ACarTurnsAboutItsRearAxle) {
@@ -242,8 +251,7 @@ TEST(SteeredUrdf, WheelsStandAsAnAckermannMechanismHasThem) {
   // A knuckle is drawn as its wheel stands, without the wheel's turning.
   std::vector<Pose> X_WL(rig.rover.links().size());
   rig.rover.read_links(X_WL);
-  const Eigen::Vector3d ahead_B =
-      X_WL[0].q.conjugate() * (X_WL[5].q * Eigen::Vector3d::UnitX());
+  const Eigen::Vector3d ahead_B = X_WL[0].q.conjugate() * (X_WL[5].q * Eigen::Vector3d::UnitX());
   EXPECT_NEAR(std::atan2(ahead_B.y(), ahead_B.x()), 0.6, 1e-3);
 }
 
@@ -275,17 +283,19 @@ TEST(SteeredUrdf, SaysWhatIsWrong) {
     if (joint.name == "front_left_joint") joint.X_PJ.p.x() = -0.1;
   }
   EXPECT_EQ(error_of_options(castor),
-            file + ": wheel joint 'front_left_joint' trails 0.100 m behind joint "
-                   "'steer_front_left_joint': castors are not supported; if it is steered by a "
-                   "motor, name its joint in steering_joints");
+            file +
+                ": wheel joint 'front_left_joint' trails 0.100 m behind joint "
+                "'steer_front_left_joint': castors are not supported; if it is steered by a "
+                "motor, name its joint in steering_joints");
   UrdfRoverOptions one;
   one.steering_joints = {"steer_front_left_joint"};
   EXPECT_EQ(error_of_options(car, one),
             file + ": 1 of 4 wheels steer (fl), must be the two front ones of four, or all four");
   UrdfRoverOptions other;
   other.steering_joints = {"body_joint"};
-  EXPECT_EQ(error_of_options(car, other),
-            file + ": steering joint 'body_joint' carries no wheel, or does not turn about the vertical (z)");
+  EXPECT_EQ(error_of_options(car, other), file +
+                                              ": steering joint 'body_joint' carries no wheel, or "
+                                              "does not turn about the vertical (z)");
   other.steering_joints = {"steer_front_lef_joint"};
   EXPECT_NE(error_of_options(car, other).find("did you mean 'steer_front_left_joint'?"),
             std::string::npos);
@@ -293,11 +303,13 @@ TEST(SteeredUrdf, SaysWhatIsWrong) {
     return [which](ParameterSet& set) { set.set("driven_wheels", std::string(which)); };
   };
   EXPECT_EQ(error_of([&] { UrdfRover(params_of(kCar, driven("all"))); }),
-            file + ": driven wheels 'front_left_joint' and 'rear_left_joint' have radii of 0.2 and "
-                   "0.3 m, must be alike; or set driven_wheels = rear");
+            file +
+                ": driven wheels 'front_left_joint' and 'rear_left_joint' have radii of 0.2 and "
+                "0.3 m, must be alike; or set driven_wheels = rear");
   EXPECT_EQ(error_of([&] { UrdfRover(params_of(kPlain, driven("rear"))); }),
-            kPlain.string() + ": driven_wheels = rear is for a robot that steers by its front "
-                              "wheels, this one has no steered wheels");
+            kPlain.string() +
+                ": driven_wheels = rear is for a robot that steers by its front "
+                "wheels, this one has no steered wheels");
 }
 
 TEST(Racecar, IsSteeredByItsHinges) {
@@ -308,12 +320,11 @@ TEST(Racecar, IsSteeredByItsHinges) {
   ASSERT_TRUE(about.ackermann);
   EXPECT_NEAR(about.wheeled->wheel_base_m, 0.325, 1e-12);
   EXPECT_NEAR(about.wheeled->track_m, 0.2, 1e-12);
-  EXPECT_NEAR(about.ackermann->max_axle_steer_rad,
-              std::atan(0.325 / (0.325 / std::tan(1.0) + 0.1)), 1e-9);
+  EXPECT_NEAR(about.ackermann->max_axle_steer_rad, std::atan(0.325 / (0.325 / std::tan(1.0) + 0.1)),
+              1e-9);
   rig.steer(0.25, 0.0, 0.5);
   rig.run(4.0);
-  const double expected_m =
-      std::hypot(0.325 / std::tan(0.25), rig.rover.model().steering->rear_m);
+  const double expected_m = std::hypot(0.325 / std::tan(0.25), rig.rover.model().steering->rear_m);
   EXPECT_NEAR(turning_radius_m(rig), expected_m, 0.05 * expected_m);
 }
 

@@ -250,6 +250,10 @@ std::vector<std::string> rehearse_run(const scenario::Scenario& scenario,
     session.advance(session.now());
   } while (!session.over() && session.now() <= Time{kLongest.ns} &&
            !without_plan(session.simulation()).empty());
+  for (const auto& [time, event] : session.take_events()) {
+    if (event.level == Event::Level::kInfo) continue;
+    notes.push_back(fmt::format("{}: {}", event.source, event.text));
+  }
   for (const std::string& vehicle : without_plan(session.simulation())) {
     notes.push_back(
         fmt::format("{}.planner: not checked, because there is no estimate in the first {:g} s",

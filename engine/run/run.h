@@ -79,7 +79,8 @@ struct RunResult {
 /// nothing. Without a mission it also computes the first instant, and goes on until every planner
 /// has made its plan, at most 10 simulated seconds. In a mission, a failed plan only fails its
 /// phase.
-/// @returns notes for people: those of the world, and which planners have no plan yet
+/// @returns notes for people: those of the world, the warnings until then, and which planners have
+/// no plan yet
 /// @throws ConfigError, SimulationError as run_scenario()
 std::vector<std::string> rehearse_run(const scenario::Scenario& scenario, const Registry& registry);
 

@@ -236,6 +236,33 @@ TEST(MeshWorld, LoadsModelsWhoseMeshUrisAreRelative) {
   EXPECT_DOUBLE_EQ(test::make_world("mesh", parameters)->origin.latitude_rad, rad_from_deg(-33.9));
 }
 
+TEST(MeshWorld, ACubeOfAKilometreIsDoubtedWithTheRemedyAndAHillsideIsNot) {
+  const std::string cube = test::temporary_file("cube.obj", test::cube_obj());
+  const auto notes = [&](double scale, const std::string& surface) {
+    return test::make_world("mesh",
+                            with_items({{{"file", cube}, {"scale", scale}, {"surface", surface}},
+                                        {{"file", cube}, {"scale", scale}, {"surface", surface}}}))
+        ->notes;
+  };
+  EXPECT_EQ(notes(100.0, "obstacle"), std::vector<std::string>{});
+  EXPECT_EQ(notes(1000.0, "obstacle"),
+            std::vector<std::string>{cube + " is read as 1000 x 1000 x 1000 m; if it is in "
+                                            "millimetres, set its unit_m: 0.001"});
+  EXPECT_EQ(notes(5000.0, "terrain"), std::vector<std::string>{});
+  EXPECT_EQ(notes(5001.0, "terrain").size(), 1u);
+
+  ParameterSet parameters = test::world_parameters("mesh");
+  const std::string huge =
+      "v 0 0 0\nv 1000 0 0\nv 0 1000 0\nv 0 0 1000\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+  parameters.set("sdf_file", sdf_world_with("huge", "x.obj", "x.obj", huge));
+  const auto world = test::make_world("mesh", parameters);
+  ASSERT_EQ(world->notes.size(), 1u);
+  EXPECT_NE(world->notes[0].find("x.obj is read as 1000 x 1000 x 1000 m; if it is in millimetres, "
+                                 "write <scale>0.001 0.001 0.001</scale> into its <mesh>"),
+            std::string::npos)
+      << world->notes[0];
+}
+
 TEST(MeshWorld, RefusesAWorldOfWhichNoMeshLoads) {
   const std::string file =
       sdf_world_with("nothing", "meshes/y.obj", "meshes/x.obj", test::cube_obj());

@@ -75,6 +75,9 @@ void PlatformVehicle::read_links(std::vector<Pose>& X_WL) const {
 
 void PlatformVehicle::publish(Time now) {
   platform_->publish(now);
+  if (note_.empty() || !event_writer_.connected()) return;
+  event_writer_.write(now, {Event::Level::kWarning, platform_->params().name, note_});
+  note_.clear();
 }
 
 }  // namespace vinerow::vehicles

@@ -45,6 +45,7 @@ class PlatformVehicle : public Vehicle {
   std::optional<WheeledPlatform> platform_;
   std::vector<std::size_t> driven_;      ///< wheel of each actuator
   std::vector<double> actuator_states_;  ///< written after each step
+  std::string note_;                     ///< about its files, for the user: an event at its start
 
  private:
   bool reported_empty_ = false;

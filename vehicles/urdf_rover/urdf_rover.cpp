@@ -8,6 +8,7 @@
 #include "engine/api/file_shelf.h"
 #include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
+#include "engine/core/suggest.h"
 #include "engine/math/angles.h"
 #include "vehicles/parts/chassis.h"
 #include "vehicles/parts/effective_track.h"
@@ -219,6 +220,7 @@ UrdfRover::UrdfRover(const UrdfRoverParams& params, double gravity_mps2, FileShe
     : model_(read_model(params, shelf)), driven_wheels_(find_driven(params, model_)) {
   describe(params);
   links_ = model_.links;
+  note_ = join(model_.notes, "; ");
   build_platform(platform_params(params, model_, driven_wheels_, gravity_mps2), driven_wheels_);
 }
 

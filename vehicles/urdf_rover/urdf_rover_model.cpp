@@ -327,6 +327,36 @@ std::vector<Carrier> find_carriers(const io::UrdfModel& urdf,
   return carriers;
 }
 
+/// Notes the meshes larger than any vehicle of a vineyard, or the robot if no mesh is.
+/// @throws ConfigError with the notes if its hull is too large for any start
+void note_doubtful_units(const io::UrdfModel& urdf, UrdfRoverModel& model) {
+  // A grape harvester is 6 m long and 4 m high; a tractor with its trailer 12 m long.
+  const Vector3d max_m = Vector3d::Constant(20.0);
+  Eigen::AlignedBox3d all = model.bounds_B;
+  for (const VehicleLink& link : model.links) all.extend(link.mesh->bounds());
+  if ((all.sizes().array() <= max_m.array()).all()) return;
+  for (const io::UrdfLink& link : urdf.links) {
+    for (const auto* shapes : {&link.visuals, &link.collisions}) {
+      for (const io::UrdfShape& shape : *shapes) {
+        if (shape.kind != io::UrdfShapeKind::kMesh) continue;
+        const std::string doubt =
+            io::doubt_unit(shape.mesh_file, load_shape_mesh(shape).bounds(), max_m,
+                           "give its <mesh> in the URDF scale=\"0.001 0.001 0.001\"");
+        if (!doubt.empty() &&
+            std::find(model.notes.begin(), model.notes.end(), doubt) == model.notes.end()) {
+          model.notes.push_back(doubt);
+        }
+      }
+    }
+  }
+  if (model.notes.empty()) {
+    model.notes.push_back(io::doubt_unit(urdf.file, all, max_m, "write it in metres"));
+  }
+  constexpr double kTooLarge_m = 100.0;
+  if (model.bounds_B.sizes().maxCoeff() <= kTooLarge_m) return;
+  throw ConfigError(join(model.notes, "; "));
+}
+
 /// Collision shapes, bounds and drawn links. The knuckles' collision shapes are left out as those
 /// of the wheels are: they stay inside the wheels' reach.
 void build_shapes(const io::UrdfModel& urdf, const std::vector<Pose>& X_RL,
@@ -429,6 +459,10 @@ UrdfRoverModel read_urdf_rover(const io::UrdfModel& urdf, const UrdfRoverOptions
         std::max(model.height_above_ground_m, wheel.radius_m - wheel.hub_B.z());
   }
   build_shapes(urdf, X_RL, wheel_joints, model);
+  note_doubtful_units(urdf, model);
+  for (const std::string& note : urdf.notes) {
+    model.notes.push_back(fmt::format("{}: {}", urdf.file.string(), note));
+  }
   return model;
 }
 

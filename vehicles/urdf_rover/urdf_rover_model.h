@@ -39,12 +39,14 @@ struct UrdfRoverModel {
   std::vector<UrdfWheel> wheels;             ///< left ones first, each side from front to rear
   std::vector<physics::PlacedShape> shapes;  ///< of the body, without wheels
   Eigen::AlignedBox3d bounds_B;              ///< of body and wheels
-  std::vector<VehicleLink> links;            ///< "body", the wheels in their order, drawn knuckles of those that steer
-  std::vector<std::size_t> knuckles;         ///< wheels of the last links
+  std::vector<VehicleLink>
+      links;  ///< "body", the wheels in their order, drawn knuckles of those that steer
+  std::vector<std::size_t> knuckles;  ///< wheels of the last links
   double track_m = 0.0;
   double wheel_base_m = 0.0;
-  double height_above_ground_m = 0.0;  ///< of B, with the wheels' lowest points on the ground
+  double height_above_ground_m = 0.0;    ///< of B, with the wheels' lowest points on the ground
   std::optional<UrdfSteering> steering;  ///< none: it steers by its wheels' speeds
+  std::vector<std::string> notes;        ///< the file's, and doubts about units
 };
 
 /// How to read the robot.
@@ -52,7 +54,7 @@ struct UrdfRoverOptions {
   std::vector<std::string> left_joints, right_joints;  ///< empty: continuous joints by position
   /// Empty: joints that carry a wheel and turn about the vertical through its hub.
   std::vector<std::string> steering_joints;
-  std::optional<double> wheel_radius_m;                ///< absent: from collision shape or mesh
+  std::optional<double> wheel_radius_m;  ///< absent: from collision shape or mesh
 };
 
 /// Reads the robot. Everything that neither rolls nor steers becomes one rigid body with all joints

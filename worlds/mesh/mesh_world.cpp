@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -31,28 +32,22 @@ PartSpec mesh_spec() {
   return spec;
 }
 
+/// Longest parcel (surveyed rows may be as long), and highest thing on it, such as a tree or a
+/// mast.
+constexpr double kMaxSide_m = 5000.0;
+constexpr double kMaxHeight_m = 100.0;
+
 /// Loads each file once and keeps its notes.
 class MeshLibrary {
  public:
   explicit MeshLibrary(WorldModel& world) : world_(world) {}
 
-  const io::MeshFile& load(const std::string& file, const io::MeshFileOptions& options) {
-    const std::string key =
-        fmt::format("{}|{}|{}|{}|{}|{}", file, static_cast<int>(options.up_axis), options.unit_m,
-                    options.scale.x(), options.scale.y(), options.scale.z());
-    const auto known = files_.find(key);
-    if (known != files_.end()) return known->second;
-    io::MeshFile& loaded = files_[key] = io::load_mesh(file, options);
-    for (const std::string& note : loaded.notes) {
-      if (std::find(world_.notes.begin(), world_.notes.end(), note) == world_.notes.end()) {
-        world_.notes.push_back(note);
-      }
-    }
-    return loaded;
-  }
-
-  MeshObject place(const std::string& name, const io::MeshFile& file, const Pose& X_WM,
-                   SurfaceClass surface, bool collides, bool visible) {
+  /// @param remedy  if the file turns out to be in millimetres
+  MeshObject place(const std::string& name, const std::filesystem::path& path,
+                   const io::MeshFileOptions& options, const Pose& X_WM, SurfaceClass surface,
+                   bool collides, bool visible, const std::string& remedy) {
+    const std::size_t files_before = files_.size();
+    const io::MeshFile& file = load(path.string(), options);
     const std::size_t begin = world_.meshes.size();
     for (std::size_t i = 0; i < file.parts.size(); ++i) {
       const io::MeshPart& part = file.parts[i];
@@ -66,7 +61,19 @@ class MeshLibrary {
       instance.visible = visible;
       world_.meshes.push_back(std::move(instance));
     }
+    if (files_.size() > files_before) placed_.push_back({path, file.bounds(), begin, remedy});
     return {begin, world_.meshes.size()};
+  }
+
+  /// Notes the files that may be in millimetres. @pre the ground's meshes are marked
+  void note_doubtful_units() {
+    constexpr double kAny_m = std::numeric_limits<double>::infinity();
+    for (const FirstPlace& placed : placed_) {
+      const bool is_ground = world_.meshes[placed.begin].surface == SurfaceClass::kTerrain;
+      add_note(io::doubt_unit(placed.file, placed.bounds,
+                              {kMaxSide_m, kMaxSide_m, is_ground ? kAny_m : kMaxHeight_m},
+                              placed.remedy));
+    }
   }
 
   /// Sets what cameras call it, and its leaves.
@@ -81,8 +88,32 @@ class MeshLibrary {
   }
 
  private:
+  struct FirstPlace {
+    std::filesystem::path file;
+    Eigen::AlignedBox3d bounds;  // of the file
+    std::size_t begin;           // of its meshes in the world
+    std::string remedy;
+  };
+
+  const io::MeshFile& load(const std::string& file, const io::MeshFileOptions& options) {
+    const std::string key =
+        fmt::format("{}|{}|{}|{}|{}|{}", file, static_cast<int>(options.up_axis), options.unit_m,
+                    options.scale.x(), options.scale.y(), options.scale.z());
+    const auto known = files_.find(key);
+    if (known != files_.end()) return known->second;
+    io::MeshFile& loaded = files_[key] = io::load_mesh(file, options);
+    for (const std::string& note : loaded.notes) add_note(note);
+    return loaded;
+  }
+
+  void add_note(const std::string& note) {
+    const auto known = std::find(world_.notes.begin(), world_.notes.end(), note);
+    if (!note.empty() && known == world_.notes.end()) world_.notes.push_back(note);
+  }
+
   WorldModel& world_;
   std::map<std::string, io::MeshFile> files_;
+  std::vector<FirstPlace> placed_;
 };
 
 MeshObject place_item(const MeshItem& item, MeshLibrary& library) {
@@ -90,14 +121,13 @@ MeshObject place_item(const MeshItem& item, MeshLibrary& library) {
   options.scale = Eigen::Vector3d::Constant(item.scale);
   options.up_axis = item.up_axis;
   options.unit_m = item.unit_m.value_or(options.unit_m);
-  const io::MeshFile& loaded = library.load(item.file.string(), options);
   Pose X_WM;
   X_WM.p = item.p_WM;
   X_WM.q = quaternion_from_rpy(item.rpy);
   const std::string name = item.name.empty() ? item.file.stem().string() : item.name;
   const MeshObject object =
-      library.place(name, loaded, X_WM, item.surface.value_or(SurfaceClass::kObstacle),
-                    item.collides, item.visible);
+      library.place(name, item.file, options, X_WM, item.surface.value_or(SurfaceClass::kObstacle),
+                    item.collides, item.visible, "set its unit_m: 0.001");
   library.describe(object, item.label, item.leaf_area_density_m2pm3);
   return object;
 }
@@ -178,8 +208,9 @@ class SdfModels {
       options.scale = mesh.scale;
       options.up_axis = io::UpAxis::kAuto;
       object.end = library_
-                       .place(include.name, library_.load(mesh.file.string(), options),
-                              include.X_WM * mesh.X_MG, SurfaceClass::kObstacle, true, true)
+                       .place(include.name, mesh.file, options, include.X_WM * mesh.X_MG,
+                              SurfaceClass::kObstacle, true, true,
+                              "write <scale>0.001 0.001 0.001</scale> into its <mesh>")
                        .end;
     }
     std::vector<std::string> left_out = model.other_shapes;
@@ -330,6 +361,7 @@ std::unique_ptr<WorldModel> make_mesh_world(const ParameterSet& parameters,
   if (!has_ground && params.ground != MeshGround::kFlat) {
     has_ground = mark_ground(unnamed, *world);
   }
+  library.note_doubtful_units();
 
   Eigen::AlignedBox2d box = extent_of(*world, rows);
   if (params.ground == MeshGround::kFlat || (params.ground == MeshGround::kAuto && !has_ground)) {

@@ -22,6 +22,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
+constexpr double kMaxObstacle_m = 100.0;  ///< longest side: a building's
+
 struct Place {
   Vector2d p_W;
   double yaw_rad;
@@ -102,7 +104,7 @@ const ParameterTable<ObstacleParams>& obstacle_table() {
                   "offset to the left of the alley's centre line")
           .degrees("yaw_deg", &P::yaw_rad, between(-360.0, 360.0),
                    "direction of the length, from east; in an alley from the alley's direction")
-          .numbers("size_m", "m", &P::size_m, between(0.02, 100.0),
+          .numbers("size_m", "m", &P::size_m, between(0.02, kMaxObstacle_m),
                    "length, width, height of the box; absent: 0.6, 0.4, 0.6 m, or the file's")
           .path("file", &P::file,
                 "mesh in place of a crate, standing on its z = 0: OBJ, STL, DAE, glTF, GLB or PLY")
@@ -200,6 +202,10 @@ std::vector<std::vector<Vector2d>> place_obstacles(const ObstaclesParams& params
       }
       file = io::load_mesh(obstacle.file);
       for (const std::string& note : file->notes) world.notes.push_back(note);
+      const std::string doubt =
+          io::doubt_unit(obstacle.file, file->bounds(), Vector3d::Constant(kMaxObstacle_m),
+                         "scale it by 0.001 before");
+      if (!doubt.empty()) world.notes.push_back(doubt);
       standing = stand_mesh(place, file->bounds(), *world.terrain, &X_WM);
     }
 

@@ -287,6 +287,14 @@ Eigen::AlignedBox3d MeshFile::bounds() const {
   return box;
 }
 
+std::string doubt_unit(const std::filesystem::path& file, const Eigen::AlignedBox3d& bounds,
+                       const Eigen::Vector3d& max_m, const std::string& remedy) {
+  const Eigen::Vector3d size_m = bounds.sizes();
+  if ((size_m.array() <= max_m.array()).all()) return "";
+  return fmt::format("{} is read as {:.4g} x {:.4g} x {:.4g} m; if it is in millimetres, {}",
+                     file.string(), size_m.x(), size_m.y(), size_m.z(), remedy);
+}
+
 MeshFile load_mesh(const std::filesystem::path& file, const MeshFileOptions& options) {
   Assimp::Importer importer;
   const std::string extension = lower_extension(file);

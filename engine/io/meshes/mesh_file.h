@@ -48,6 +48,15 @@ struct MeshFile {
 ///         reason), has no triangles, or has a coordinate that is not finite or beyond 100 km.
 MeshFile load_mesh(const std::filesystem::path& file, const MeshFileOptions& options = {});
 
+/// Doubt about the unit of a file: CAD programs write millimetres, and OBJ, STL and PLY have no
+/// unit.
+/// @param bounds  of the mesh as it is read, m
+/// @param max_m   largest believable size along x, y and z
+/// @param remedy  for a file in millimetres, "set unit_m: 0.001"
+/// @returns a sentence that names the file, "" if the size is believable
+std::string doubt_unit(const std::filesystem::path& file, const Eigen::AlignedBox3d& bounds,
+                       const Eigen::Vector3d& max_m, const std::string& remedy);
+
 /// Joins all parts into one mesh, for collision. Colours and texture coordinates are dropped unless
 /// every part has them.
 TriangleMesh merge_parts(const MeshFile& file);

@@ -192,6 +192,47 @@ TEST(UrdfRover, SaysWhatIsWrong) {
             std::string::npos);
 }
 
+/// The plain rover with a mesh in millimetres as visual, or from `after` on, and what the vehicle
+/// reports.
+std::string note_of_rover(const std::string& scale, const char* after = "<visual>") {
+  const auto folder = std::filesystem::temp_directory_path() / "vinerow_urdf_rover_test";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "hull.obj") << "v 0 0 0\nv 1000 0 0\nv 0 400 0\nv 0 0 300\nf 1 3 2\nf 1 2 "
+                                        "4\nf 2 3 4\nf 1 4 3\n";
+  std::ifstream plain(kPlain);
+  std::string text{std::istreambuf_iterator<char>(plain), {}};
+  const std::string box = "<box size=\"0.9 0.5 0.2\"/>";
+  text.replace(text.find(box, text.find(after)), box.size(),
+               "<mesh filename=\"hull.obj\"" + scale + "/>");
+  std::ofstream(folder / "robot.urdf") << text;
+  Rig rig(folder / "robot.urdf");
+  SignalBus bus;
+  Ports ports(bus, "rover", "rover");
+  rig.rover.connect(ports);
+  const auto event = bus.subscribe<Event>("rover/vehicle_event", "test");
+  rig.rover.publish(Time{});
+  rig.rover.publish(Time{1'000'000});
+  EXPECT_EQ(event.sequence(), 1u);
+  std::string note = event.value().text;
+  for (std::size_t path; (path = note.find(folder.string())) != std::string::npos;) {
+    note.erase(path, folder.string().size() + 1);
+  }
+  return note;
+}
+
+TEST(UrdfRover, ReportsOnceWhatItReplacedAndDoubtsInItsFiles) {
+  const std::string replaced = "robot.urdf: $(optenv PAYLOAD_XYZ) was replaced by '0.2 0 0.22'";
+  EXPECT_EQ(note_of_rover(" scale=\"0.001 0.001 0.001\""), replaced);
+  EXPECT_EQ(note_of_rover(""),
+            "hull.obj is read as 1000 x 400 x 300 m; if it is in millimetres, give its <mesh> in "
+            "the URDF scale=\"0.001 0.001 0.001\"; " +
+                replaced);
+  // Too large to start anywhere: the cause in place of a row that its hull meets.
+  const std::string refusal = error_of([] { note_of_rover("", "<collision>"); });
+  EXPECT_NE(refusal.find("hull.obj is read as 1000 x 400 x 300 m; if it is in"), std::string::npos)
+      << refusal;
+}
+
 const std::filesystem::path kCar = kPlain.parent_path() / "plain_car.urdf";
 const std::filesystem::path kFourSteered = kPlain.parent_path() / "plain_four_steered.urdf";
 

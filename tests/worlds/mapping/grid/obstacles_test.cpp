@@ -103,14 +103,14 @@ TEST(Obstacles, StandAtAPointWithTheirOwnHeading) {
 }
 
 /// A post 1.8 m high with an arm to one side, standing on z = 0.
-std::filesystem::path write_figure() {
+std::filesystem::path write_figure(const char* height = "1.8") {
   const auto folder = std::filesystem::path(VINEROW_BINARY_DIR) / "test_output";
   std::filesystem::create_directories(folder);
   const auto file = folder / "figure.obj";
   write_whole_file(
-      file,
-      "v -0.2 -0.1 0\nv 0.2 -0.1 0\nv 0.2 0.1 0\nv -0.2 0.1 0\nv 0 0 1.8\nv 0.6 0 1.2\n"
-      "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\nf 1 4 3 2\nf 5 2 6\n");
+      file, std::string("v -0.2 -0.1 0\nv 0.2 -0.1 0\nv 0.2 0.1 0\nv -0.2 0.1 0\nv 0 0 ") + height +
+                "\nv 0.6 0 1.2\n"
+                "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\nf 1 4 3 2\nf 5 2 6\n");
   return file;
 }
 
@@ -159,6 +159,17 @@ TEST(Obstacles, AMeshHasItsOwnSize) {
   parameters.set("obstacles", std::vector<ParameterSet>{figure});
   EXPECT_EQ(test::config_error_of([&] { test::make_world("vineyard", parameters); }),
             "obstacles: 'picker' has both size_m and file: a mesh has its own size");
+}
+
+TEST(Obstacles, AMeshHigherThanABuildingIsDoubted) {
+  ParameterSet parameters = block("vineyard");
+  ParameterSet figure = parameters.make_group("obstacles");
+  const std::string file = write_figure("1800").string();
+  figure.set("alley", std::int64_t{0}).set("file", file);
+  parameters.set("obstacles", std::vector<ParameterSet>{figure});
+  EXPECT_EQ(test::make_world("vineyard", parameters)->notes,
+            std::vector<std::string>{file + " is read as 0.8 x 0.2 x 1800 m; if it is in "
+                                            "millimetres, scale it by 0.001 before"});
 }
 
 TEST(Obstacles, AreOnTheMapOnlyIfMapped) {

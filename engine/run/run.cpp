@@ -15,6 +15,7 @@
 #include "engine/core/profile.h"
 #include "engine/core/whole_file.h"
 #include "engine/io/files/output_folder.h"
+#include "engine/io/files/plain_zeros.h"
 #include "engine/playback/canopy_file.h"
 #include "engine/playback/run_frames.h"
 #include "engine/run/earlier_run.h"
@@ -203,7 +204,7 @@ std::optional<std::uint64_t> step_and_judge(Session& session, const RunOptions& 
   const scenario::Scenario& scenario = session.scenario();
   const auto break_off = [&](const SimulationError& error) {
     result.status = RunStatus::kBrokenOff;
-    result.error = error.what();
+    result.error = io::plain_zeros(error.what());
   };
   const Clock::time_point start = Clock::now();
   // A mission names its phases itself.

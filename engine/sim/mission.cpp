@@ -10,6 +10,7 @@
 #include "engine/core/profile.h"
 #include "engine/core/suggest.h"
 #include "engine/core/whole_file.h"
+#include "engine/io/files/plain_zeros.h"
 #include "engine/scenario/scenario_phases.h"
 #include "engine/sim/judge.h"
 
@@ -420,7 +421,7 @@ void Mission::settle(std::size_t i, Time now, PhaseState state, const std::strin
   PhaseReport& report = reports_[i];
   const bool ran = report.state == PhaseState::kRunning;
   report.state = state;
-  report.reason = reason;
+  report.reason = io::plain_zeros(reason);
   if (ran) {
     report.end = now;
     for (VehicleRuntime* vehicle : phases_[i].vehicles) {

@@ -12,6 +12,7 @@
 #include "engine/core/error.h"
 #include "engine/core/profile.h"
 #include "engine/core/suggest.h"
+#include "engine/io/files/plain_zeros.h"
 #include "engine/sim/camera_check.h"
 #include "engine/sim/mission.h"
 #include "engine/sim/separation.h"
@@ -178,7 +179,7 @@ void Simulation::classify_signals() {
 }
 
 void Simulation::emit(Event::Level level, const std::string& source, const std::string& text) {
-  const Event event{level, source, text};
+  const Event event{level, source, io::plain_zeros(text)};
   events_.write(now_, event);
   for (RunObserver* observer : observers_) observer->on_event(now_, event);
 }

@@ -6,6 +6,7 @@
 
 #include "engine/api/may_fail.h"
 #include "engine/core/error.h"
+#include "engine/io/files/plain_zeros.h"
 #include "engine/sim/spawn.h"
 
 namespace vinerow {
@@ -128,8 +129,8 @@ void VehicleWatch::fail(Time now, const std::string& text) const {
   throw SimulationError(fmt::format("{} ({})", config_.name, config_.vehicle.type), now, text);
 }
 
-void VehicleWatch::set_crash(Time now, EndKind kind, std::string text) {
-  crash_ = Crash{config_.name, now, std::move(text), kind};
+void VehicleWatch::set_crash(Time now, EndKind kind, const std::string& text) {
+  crash_ = Crash{config_.name, now, io::plain_zeros(text), kind};
   run_.emit(Event::Level::kError, config_.name,
             fmt::format("{}: {}", to_string(kind), crash_->text));
 }
@@ -183,7 +184,7 @@ void VehicleWatch::check_progress(Time now, const Eigen::Vector3d& p_W,
   progress_seen_ = now;
   if (reason.empty()) return;
   reason += fmt::format(", at x = {:.2f} m, y = {:.2f} m", p_W.x(), p_W.y());
-  set_crash(now, EndKind::kStuck, std::move(reason));
+  set_crash(now, EndKind::kStuck, reason);
 }
 
 }  // namespace vinerow

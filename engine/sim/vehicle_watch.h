@@ -42,7 +42,7 @@ class VehicleWatch {
   void demand_ground(Time now, const Pose& X_WB) const;
   void watch_contacts(Time now);
   void watch_crash(Time now, const VehicleParts& parts);
-  void set_crash(Time now, EndKind kind, std::string text);
+  void set_crash(Time now, EndKind kind, const std::string& text);
 
   const scenario::VehicleConfig& config_;
   const RunContext& run_;

@@ -6,6 +6,7 @@
 
 #include "engine/core/error.h"
 #include "engine/io/files/placed_error.h"
+#include "engine/io/files/plain_zeros.h"
 #include "python/core/elementary.h"
 #include "python/core/gym.h"
 #include "python/core/log.h"
@@ -39,13 +40,13 @@ void translate(std::exception_ptr pointer) {
   try {
     if (pointer) std::rethrow_exception(pointer);
   } catch (const SimulationError& error) {
-    raise("SimulationError", error.what(), error.culprit(), error.time().s());
+    raise("SimulationError", io::plain_zeros(error.what()), error.culprit(), error.time().s());
   } catch (const io::PlacedError& error) {
     const io::SourceMark& where = error.where();
-    raise("ConfigError", error.what(), or_none(where.file, !where.file.empty()),
+    raise("ConfigError", io::plain_zeros(error.what()), or_none(where.file, !where.file.empty()),
           or_none(where.line, where.line > 0), or_none(error.key(), !error.key().empty()));
   } catch (const ConfigError& error) {
-    raise("ConfigError", error.what());
+    raise("ConfigError", io::plain_zeros(error.what()));
   } catch (const UsageError& error) {
     raise("UsageError", error.what());
   }

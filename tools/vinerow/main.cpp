@@ -13,6 +13,7 @@
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
 #include "engine/core/whole_file.h"
+#include "engine/io/files/plain_zeros.h"
 #include "engine/run/summary.h"
 #include "tools/terminal/colour.h"
 #include "tools/vinerow/help_texts.h"
@@ -97,13 +98,13 @@ int main(int argc, char** argv) {
                given.empty() ? "" : given.front()->get_name() + " ");
     return kBadInput;
   } catch (const vinerow::ConfigError& error) {
-    fmt::print(stderr, "vinerow: {}\n", error.what());
+    fmt::print(stderr, "vinerow: {}\n", vinerow::io::plain_zeros(error.what()));
     return kBadInput;
   } catch (const vinerow::WriteError& error) {
-    fmt::print(stderr, "vinerow: {}\n", error.what());
+    fmt::print(stderr, "vinerow: {}\n", vinerow::io::plain_zeros(error.what()));
     return kBrokenOff;
   } catch (const vinerow::SimulationError& error) {
-    fmt::print(stderr, "vinerow: {}\n", error.what());
+    fmt::print(stderr, "vinerow: {}\n", vinerow::io::plain_zeros(error.what()));
     return kBrokenOff;
   } catch (const std::exception& error) {
     fmt::print(stderr, "vinerow: unexpected failure: {}\n", error.what());

@@ -98,7 +98,7 @@ json LiveRun::changing_parameters() const {
           {"paused", run.state == RunState::kPaused},
           {"over", run.state == RunState::kOver},
           {"real_time_factor", run.real_time_factor},
-          {"time_s", run.now.s()}};
+          {"time_s", static_cast<double>(run.now.ns) / 1e9}};
 }
 
 json LiveRun::parameters() const {

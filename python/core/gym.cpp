@@ -15,6 +15,7 @@
 #include "python/core/parts.h"
 #include "python/core/run.h"
 #include "python/core/scenario.h"
+#include "python/core/seconds.h"
 #include "python/core/yaml_from_python.h"
 #include "python/tasks/vector_environment.h"
 
@@ -420,8 +421,10 @@ void bind_gym(py::module_& module) {
                         int index) { return levels_to_python(self.get().environment(index)); })
       .def("digest", [](Environments& self,
                         int index) { return session_of(self.get().environment(index)).digest(); })
-      .def("now_s", [](Environments& self,
-                       int index) { return session_of(self.get().environment(index)).now().s(); })
+      .def("now_s",
+           [](Environments& self, int index) {
+             return seconds(session_of(self.get().environment(index)).now());
+           })
       .def("run_seed", [](Environments& self,
                           int index) { return session_of(self.get().environment(index)).seed(); })
       .def("close", &Environments::close);
@@ -457,7 +460,7 @@ void bind_gym(py::module_& module) {
       .def("agents", &agents_to_python)
       .def("levels", [](Episodes& self) { return levels_to_python(self.environment()); })
       .def("digest", [](Episodes& self) { return session_of(self.environment()).digest(); })
-      .def("now_s", [](Episodes& self) { return session_of(self.environment()).now().s(); });
+      .def("now_s", [](Episodes& self) { return seconds(session_of(self.environment()).now()); });
 }
 
 }  // namespace vinerow::python

@@ -16,6 +16,7 @@
 #include "python/core/arguments.h"
 #include "python/core/fields_to_python.h"
 #include "python/core/run.h"
+#include "python/core/seconds.h"
 
 namespace vinerow::python {
 namespace py = pybind11;
@@ -139,7 +140,7 @@ std::unique_ptr<Collected> collect(const record::LogReader& log, const std::stri
       if (type->second != T::kType) return;
       topic = std::make_unique<Collected>(Collected{name, T::kType, {}, {}});
       pass.read<T>(info.topic, [to = topic.get()](Time stamp, const T& message) {
-        to->stamps_s.push_back(stamp.s());
+        to->stamps_s.push_back(seconds(stamp));
         visit_fields(message, to->columns);
         to->columns.end_message();
       });
@@ -231,9 +232,11 @@ log["rover/truth"] reads all messages of a signal: a Message with `stamp_s` (n,)
                              "Sentences about damaged parts of the file.")
       .def_property_readonly("metadata", info_of([](const LogInfo& info) { return info.metadata; }),
                              "{key: text} about the run: scenario, seed, version.")
-      .def_property_readonly("first_s", info_of([](const LogInfo& info) { return info.first.s(); }),
+      .def_property_readonly("first_s",
+                             info_of([](const LogInfo& info) { return seconds(info.first); }),
                              "Simulated time of the first message.")
-      .def_property_readonly("last_s", info_of([](const LogInfo& info) { return info.last.s(); }),
+      .def_property_readonly("last_s",
+                             info_of([](const LogInfo& info) { return seconds(info.last); }),
                              "Simulated time of the last message.");
 }
 

@@ -15,6 +15,7 @@
 #include "python/core/arguments.h"
 #include "python/core/message_codec.h"
 #include "python/core/parts.h"
+#include "python/core/seconds.h"
 #include "python/core/signal.h"
 #include "python/core/usage_error.h"
 #include "python/core/world.h"
@@ -128,7 +129,7 @@ Typed<"list[vinerow.messages.Event]"> take_events(PythonSession& session) {
   const py::object type = messages("Event");
   py::list events;
   for (const auto& [time, event] : PythonSession::Use(session)->take_events()) {
-    events.append(type(time.s(), level_name(event.level), event.source, event.text));
+    events.append(type(seconds(time), level_name(event.level), event.source, event.text));
   }
   return events;
 }
@@ -137,20 +138,20 @@ Typed<"list[vinerow.messages.Crash]"> crashes(PythonSession& session) {
   const py::object type = messages("Crash");
   py::list list;
   for (const SessionCrash& crash : PythonSession::Use(session)->crashes()) {
-    list.append(type(crash.vehicle, crash.time.s(), crash.text));
+    list.append(type(crash.vehicle, seconds(crash.time), crash.text));
   }
   return list;
 }
 
-std::optional<double> seconds(const std::optional<Time>& time) {
-  return time ? std::optional(time->s()) : std::nullopt;
+std::optional<double> seconds_if(const std::optional<Time>& time) {
+  return time ? std::optional(seconds(*time)) : std::nullopt;
 }
 
 Typed<"list[vinerow.messages.Phase]"> phases(PythonSession& session) {
   const py::object type = messages("Phase");
   py::list list;
   for (const SessionPhase& phase : PythonSession::Use(session)->phases()) {
-    list.append(type(phase.name, phase.state, seconds(phase.begin), seconds(phase.end),
+    list.append(type(phase.name, phase.state, seconds_if(phase.begin), seconds_if(phase.end),
                      phase.reason, phase.numbers));
   }
   return list;
@@ -255,7 +256,8 @@ Raises SimulationError if the run breaks off, ConfigError if it is over or a pla
       .def("__enter__", [](std::shared_ptr<PythonSession> session) { return session; })
       .def("__exit__", [](PythonSession& session, const py::args&) { session.close(); })
       .def_property_readonly(
-          "now_s", [](PythonSession& session) { return PythonSession::Use(session)->now().s(); },
+          "now_s",
+          [](PythonSession& session) { return seconds(PythonSession::Use(session)->now()); },
           "The next instant to be processed; 0 at the start.")
       .def_property_readonly("over", reading(&Session::over), "The run has ended.")
       .def_property_readonly(

@@ -282,6 +282,12 @@ class Mistakes(unittest.TestCase):
                     call(*((argument, {}, [], None) if call is vinerow._core.load_file else (argument,)))
                 self.assertEqual(str(caught.exception), text)
 
+    def test_times_are_those_of_the_decimal(self):
+        # 2501 times 1e-3 with one rounding each is 2.5010000000000003.
+        with free_rover(sets=["physics.step_s=0.001"]) as session:
+            session.step(2.5)
+            self.assertEqual(repr(session.now_s), "2.501")
+
     def test_after_the_end(self):
         with free_rover(sets=["duration_s=0.2"]) as session:
             session.step(5.0)

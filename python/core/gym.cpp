@@ -166,7 +166,7 @@ tasks::Autoreset autoreset_of(const std::string& name) {
   if (name == "same_step") return tasks::Autoreset::kSameStep;
   if (name == "disabled") return tasks::Autoreset::kDisabled;
   throw ConfigError(
-      fmt::format("autoreset = '{}', must be one of: next_step, same_step, disabled", name));
+      fmt::format("autoreset_mode = '{}', must be one of: next_step, same_step, disabled", name));
 }
 
 std::unique_ptr<Environments> make_environments(const std::string& file, const Values& values,

@@ -64,8 +64,18 @@ OutsideSignal taken_over(const py::handle& entry) {
   return codec->outside(name);
 }
 
-std::shared_ptr<PythonSession> open(const std::shared_ptr<LoadedScenario>& loaded,
+std::shared_ptr<PythonSession> open(const Typed<"Scenario">& scenario,
                                     const Typed<"typing.Iterable[typing.Any]">& take_over) {
+  if (!py::isinstance<LoadedScenario>(scenario)) {
+    throw ConfigError(
+        fmt::format("scenario must be a Scenario, not {}; vinerow.open() takes files and dicts",
+                    type_name_of(scenario)));
+  }
+  const auto loaded = scenario.cast<std::shared_ptr<LoadedScenario>>();
+  if (!py::isinstance<py::iterable>(take_over)) {
+    throw ConfigError(
+        fmt::format("take_over must be a list of signals, not {}", type_name_of(take_over)));
+  }
   SessionOptions options;
   for (const py::handle entry : take_over) options.outside.push_back(taken_over(entry));
   return without_lock([&] {

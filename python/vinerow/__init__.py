@@ -29,6 +29,7 @@ try:
 finally:
     sys.setdlopenflags(_flags)
 
+from . import _arguments
 from ._core import Scenario, Session, Signal, __version__
 from .errors import ConfigError, SimulationError, UsageError
 from .logs import Log, read_log
@@ -61,10 +62,12 @@ def load(source: str | os.PathLike[str] | Mapping[str, Any], overrides: Mapping[
     """
     if seed is not None and not (isinstance(seed, numbers.Integral) and 0 <= seed < 2**64):
         raise ConfigError(f"seed = {seed!r}, must be a whole number from 0 to {2**64 - 1}", key="seed")
-    values, texts = dict(overrides or {}), list(sets)
+    values, texts = _arguments.mapping("overrides", overrides), _arguments.texts("sets", sets)
     if isinstance(source, Mapping):
-        return _core.load_tree(dict(source), os.fspath(folder), values, texts, seed)
-    return _core.load_file(os.fspath(source), values, texts, seed)
+        return _core.load_tree(dict(source), _arguments.path("folder", folder), values, texts, seed)
+    if not isinstance(source, (str, os.PathLike)):
+        _arguments.refuse("source", "a file or a dict", source)
+    return _core.load_file(_arguments.path("source", source), values, texts, seed)
 
 
 def _loaded(source: Scenario | str | os.PathLike[str] | Mapping[str, Any], overrides: Mapping[str, Any] | None,

@@ -7,7 +7,7 @@ from typing import Any, Mapping, Sequence, overload
 
 import numpy
 
-from . import _core, display
+from . import _arguments, _core, display
 from .arrays import Array
 from .errors import ConfigError
 from .pictures import Picture
@@ -55,6 +55,9 @@ class Log(_core.Log):
             raise ConfigError(f"time_s must be a number or a list of numbers, not {time_s!r}") from None
         if times.ndim > 1 or times.size == 0 or not numpy.isfinite(times).all():
             raise ConfigError("time_s must be a finite number or a list of them")
+        for name, size in (("width", width), ("height", height)):
+            if size is not None:
+                _arguments.whole(name, size)
         distinct, which = numpy.unique(times.ravel(), return_inverse=True)
         pictures = self.render_at(list(distinct), dict(camera) if isinstance(camera, Mapping) else camera, width, height)
         if times.ndim == 0:
@@ -70,5 +73,5 @@ class Log(_core.Log):
 
 def read_log(file: str | os.PathLike[str]) -> Log:
     """Opens a log of a run, or the log in a run's folder; `log["rover/truth"]` then reads all messages of a signal as arrays."""
-    path = os.fspath(file)
+    path = _arguments.path("file", file)
     return Log(os.path.join(path, "log.mcap") if os.path.isdir(path) else path)

@@ -7,7 +7,7 @@ import os
 import pathlib
 from typing import Any, Iterable, NamedTuple
 
-from . import _core, display
+from . import _arguments, _core, display
 from .errors import ConfigError
 from .logs import Log, read_log
 from .messages import Crash, Event, Phase
@@ -55,7 +55,7 @@ class Run:
     """
 
     def __init__(self, folder: str | os.PathLike[str], missing: Iterable[str] = ()):
-        self.folder = pathlib.Path(folder)
+        self.folder = pathlib.Path(_arguments.path("folder", folder))
         file = self.folder / "summary.json"
         try:
             summary = json.loads(file.read_text(encoding="utf-8"))
@@ -159,7 +159,7 @@ def read_run(folder: str | os.PathLike[str]) -> Run:
 
 def run_scenario(scenario: _core.Scenario, out: str | os.PathLike[str] | None, log: bool, pictures: bool, report: bool) -> Run:
     """vinerow.run() for a loaded scenario."""
-    folder = pathlib.Path("runs") / scenario.name if out is None else pathlib.Path(out)
+    folder = pathlib.Path("runs") / scenario.name if out is None else pathlib.Path(_arguments.path("out", out))
     return Run(folder, _core.run_files(scenario, str(folder), log, pictures, report))
 
 

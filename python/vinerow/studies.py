@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import pathlib
 
-from . import display
+from . import _arguments, display
 from .errors import ConfigError
 from .tables import Table, read_table
 
@@ -20,7 +20,7 @@ class Study:
     """
 
     def __init__(self, folder: str | os.PathLike[str]):
-        self.folder = pathlib.Path(folder)
+        self.folder = pathlib.Path(_arguments.path("folder", folder))
         if not (self.folder / "cells.csv").is_file():
             if (self.folder / "study.sqlite").is_file():
                 raise ConfigError(f"{self.folder}: contains no cells.csv; `vinerow study table` writes it")

@@ -361,7 +361,7 @@ class Misuse(unittest.TestCase):
             self.assertTrue(str(caught.exception).startswith(text), str(caught.exception))
         self.assert_refused(vinerow.ConfigError, "num_envs = 0, must be 1 to 100000", lambda: VectorEnv(0))
         self.assert_refused(vinerow.ConfigError, "threads = 0, must be 1 to 1024", lambda: VectorEnv(1, threads=0))
-        self.assert_refused(vinerow.ConfigError, "autoreset = 'sometimes', must be one of: next_step, same_step, disabled",
+        self.assert_refused(vinerow.ConfigError, "autoreset_mode = 'sometimes', must be one of: next_step, same_step, disabled",
                             lambda: VectorEnv(1, autoreset_mode="sometimes"))
         self.assert_refused(vinerow.ConfigError, f"seed = -1, must be a whole number from 0 to {2**64 - 1}",
                             lambda: Env().reset(seed=-1))
@@ -372,6 +372,35 @@ class Misuse(unittest.TestCase):
             env.reset(seed=1, options={})
         self.assert_refused(vinerow.ConfigError, "seed has 1 entries, must have 2, one for each environment",
                             lambda: VectorEnv(2).reset(seed=[1]))
+
+    def test_wrong_types_are_one_sentence_with_the_arguments_name(self):
+        env, many = Env(), VectorEnv(2)
+        many.reset(seed=1)
+        for text, call in (
+                ("num_envs must be a whole number, not float", lambda: VectorEnv(1.5)),
+                ("num_envs must be a whole number, not bool", lambda: VectorEnv(True)),
+                (f"num_envs = {2**70}, is out of range", lambda: VectorEnv(2**70)),
+                ("threads must be a whole number, not str", lambda: VectorEnv(1, threads="2")),
+                ("task must be a str, not int", lambda: VectorEnv(1, 2)),
+                ("task must be a str, not list", lambda: Env([1])),
+                ("scenario must be a path, not int", lambda: Env(scenario=1)),
+                ("vehicle must be a str, not int", lambda: Env(vehicle=0)),
+                ("overrides must be a dict, not list", lambda: Env(overrides=[1])),
+                ("sets must be a list of str, not str", lambda: Env(sets="duration_s=1")),
+                ("an entry of sets must be a str, not int", lambda: Env(sets=[1])),
+                ("factors must be a dict, not float", lambda: Env(factors=1.5)),
+                ("options must be a dict, not str", lambda: Env(options="x")),
+                ("control_rate_Hz must be a number, not str", lambda: Env(control_rate_Hz="2")),
+                ("control_rate_Hz = nan, must be > 0 Hz and finite", lambda: Env(control_rate_Hz=float("nan"))),
+                ("width must be a whole number, not float", lambda: Env(render_mode="rgb_array", width=64.0)),
+                ("height must be a whole number, not NoneType", lambda: Env(render_mode="rgb_array", height=None)),
+                ("options must be a dict, not int", lambda: env.reset(options=1)),
+                (f"seed = 1.5, must be a whole number from 0 to {2**64 - 1}", lambda: many.reset(seed=1.5)),
+                ("index must be a whole number, not float", lambda: many.digest(0.0)),
+                ("index = -1, must be 0 to 1", lambda: many.levels(-1))):
+            with self.subTest(text):
+                self.assert_refused(vinerow.ConfigError, text, call)
+        self.assertEqual(VectorEnv(numpy.int64(2), threads=numpy.int32(1)).num_envs, 2)
 
     def test_scenario_without_what_the_task_needs(self):
         here = pathlib.Path(__file__).resolve().parents[2] / "docs" / "examples" / "session" / "free_rover.yaml"

@@ -282,6 +282,24 @@ class Mistakes(unittest.TestCase):
                     call(*((argument, {}, [], None) if call is vinerow._core.load_file else (argument,)))
                 self.assertEqual(str(caught.exception), text)
 
+    def test_opening_with_arguments_of_a_wrong_type(self):
+        for text, call in (("source must be a file or a dict, not float", lambda: vinerow.load(1.5)),
+                           ("source must be a file or a dict, not NoneType", lambda: vinerow.open(None)),
+                           ("overrides must be a dict, not list", lambda: vinerow.load(FREE_ROVER, ["duration_s"])),
+                           ("sets must be a list of str, not str", lambda: vinerow.load(FREE_ROVER, sets="duration_s=1")),
+                           ("an entry of sets must be a str, not bytes", lambda: vinerow.load(FREE_ROVER, sets=[b"x"])),
+                           ("folder must be a path, not int", lambda: vinerow.load({"vinerow": 1}, folder=3)),
+                           ("take_over must be a list of signals, not float", lambda: vinerow.open(FREE_ROVER, take_over=1.5)),
+                           ("scenario must be a Scenario, not NoneType; vinerow.open() takes files and dicts",
+                            lambda: vinerow.Session(None, [])),
+                           ("out must be a path, not bool", lambda: vinerow.run(FREE_ROVER, out=True)),
+                           ("file must be a path, not bytes", lambda: vinerow.read_log(b"x")),
+                           ("folder must be a path, not int", lambda: vinerow.read_run(0)),
+                           ("folder must be a path, not list", lambda: vinerow.read_study([]))):
+            with self.subTest(text), self.assertRaises(vinerow.ConfigError) as caught:
+                call()
+            self.assertEqual(str(caught.exception), text)
+
     def test_times_are_those_of_the_decimal(self):
         # 2501 times 1e-3 with one rounding each is 2.5010000000000003.
         with free_rover(sets=["physics.step_s=0.001"]) as session:

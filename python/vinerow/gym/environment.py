@@ -10,7 +10,7 @@ import numpy
 from gymnasium import spaces
 from gymnasium.vector.utils import batch_space
 
-from .. import _core
+from .. import _arguments, _core
 from ..arrays import Array
 from ..errors import ConfigError
 from .tasks import TASKS
@@ -35,7 +35,7 @@ def _seed(value: Any) -> int | None:
 
 
 def _check_reset(options: Mapping[str, Any] | None, known: tuple[str, ...] = ()) -> None:
-    for name in options or {}:
+    for name in _arguments.mapping("options", options):
         if name not in known:
             raise ConfigError(f"reset() has no option '{name}'; options of the task are arguments of the environment", key=str(name))
 
@@ -43,16 +43,16 @@ def _check_reset(options: Mapping[str, Any] | None, known: tuple[str, ...] = ())
 def _open(task: str, count: int, threads: int, autoreset: str, *, scenario: str | os.PathLike[str] | None, vehicle: str | None,
           overrides: Mapping[str, Any] | None, sets: Iterable[str], factors: Mapping[str, Any] | None,
           options: Mapping[str, Any] | None, control_rate_Hz: float) -> _core.Environments:
-    if task not in TASKS:
+    if _arguments.text("task", task) not in TASKS:
         _core.check_task(task)  # raises
     definition = TASKS[task]
     if factors is None:
         factors = definition.factors if scenario is None else {}
-    if not control_rate_Hz > 0.0:
-        raise ConfigError(f"control_rate_Hz = {control_rate_Hz!r}, must be > 0 Hz")
     return _core.Environments(
-        os.fspath(definition.scenario if scenario is None else scenario), dict(overrides or {}), list(sets), dict(factors),
-        vehicle or definition.vehicle, task, dict(options or {}), 1.0 / control_rate_Hz, count, threads, autoreset)
+        _arguments.path("scenario", definition.scenario if scenario is None else scenario), _arguments.mapping("overrides", overrides),
+        _arguments.texts("sets", sets), _arguments.mapping("factors", factors),
+        definition.vehicle if vehicle is None else _arguments.text("vehicle", vehicle), task, _arguments.mapping("options", options),
+        1.0 / control_rate_Hz, count, threads, autoreset)
 
 
 def with_camera(overrides: Mapping[str, Any] | None, render_mode: str | None,
@@ -61,10 +61,10 @@ def with_camera(overrides: Mapping[str, Any] | None, render_mode: str | None,
     if render_mode not in (None, "rgb_array"):
         raise ConfigError(f"render_mode = {render_mode!r}, must be None or 'rgb_array'", key="render_mode")
     if isinstance(camera, Mapping):
-        return {**(overrides or {}), "pictures.cameras.view": dict(camera)}, "view"
+        return {**_arguments.mapping("overrides", overrides), "pictures.cameras.view": dict(camera)}, "view"
     if camera is not None and not isinstance(camera, str):
         raise ConfigError(f"camera must be the name of a camera or a dict of its keys, not {type(camera).__name__}", key="camera")
-    return dict(overrides or {}), camera or ""
+    return _arguments.mapping("overrides", overrides), camera or ""
 
 
 class Env(gymnasium.Env[Array, Array]):
@@ -93,12 +93,13 @@ class Env(gymnasium.Env[Array, Array]):
                  options: Mapping[str, Any] | None = None, control_rate_Hz: float = 50.0, render_mode: str | None = None,
                  camera: str | Mapping[str, Any] | None = None, width: int = 640, height: int = 360):
         overrides, name = with_camera(overrides, render_mode, camera)
+        control_rate_Hz = _arguments.above_zero("control_rate_Hz", "Hz", control_rate_Hz)
         self.render_mode = render_mode
         self.metadata = {**self.metadata, "render_fps": max(1, round(control_rate_Hz))}
         self._environments = _open(task, 1, 1, "disabled", scenario=scenario, vehicle=vehicle, overrides=overrides, sets=sets,
                                    factors=factors, options=options, control_rate_Hz=control_rate_Hz)
         if render_mode is not None:
-            self._environments.watch(name, width, height)
+            self._environments.watch(name, _arguments.whole("width", width), _arguments.whole("height", height))
         self.observation_space = box(self._environments.observation)
         self.action_space = box(self._environments.action)
 
@@ -164,6 +165,8 @@ class VectorEnv(gymnasium.vector.VectorEnv[Array, Array, Array]):
         mode = getattr(autoreset_mode, "name", str(autoreset_mode)).lower()
         if threads is None:
             threads = len(os.sched_getaffinity(0))
+        num_envs, threads = _arguments.whole("num_envs", num_envs), _arguments.whole("threads", threads)
+        control_rate_Hz = _arguments.above_zero("control_rate_Hz", "Hz", control_rate_Hz)
         self._environments = _open(task, num_envs, threads, mode, scenario=scenario, vehicle=vehicle, overrides=overrides, sets=sets,
                                    factors=factors, options=options, control_rate_Hz=control_rate_Hz)
         self._mode = mode
@@ -179,7 +182,7 @@ class VectorEnv(gymnasium.vector.VectorEnv[Array, Array, Array]):
     def reset(self, *, seed: int | Sequence[int | None] | None = None,
               options: dict[str, Any] | None = None) -> tuple[Array, dict[str, Any]]:
         _check_reset(options, ("reset_mask",))
-        if seed is None or isinstance(seed, (int, numpy.integer)):
+        if seed is None or not isinstance(seed, Iterable):
             first = _seed(seed)
             seeds = [None if first is None else _seed(first + i) for i in range(self.num_envs)]
         else:
@@ -222,11 +225,16 @@ class VectorEnv(gymnasium.vector.VectorEnv[Array, Array, Array]):
 
     def digest(self, index: int) -> str:
         """Digest of an environment's present episode."""
-        return self._environments.digest(index)
+        return self._environments.digest(self._index(index))
 
     def levels(self, index: int) -> dict[str, str]:
         """Levels of the factors in an environment's present episode."""
-        return self._environments.levels(index)
+        return self._environments.levels(self._index(index))
+
+    def _index(self, index: int) -> int:
+        if not 0 <= _arguments.whole("index", index) < self.num_envs:
+            raise ConfigError(f"index = {index}, must be 0 to {self.num_envs - 1}", key="index")
+        return int(index)
 
     def close_extras(self, **options: Any) -> None:
         # A constructor that failed made none.

@@ -13,7 +13,7 @@ try:
 except ImportError as missing:
     raise ImportError("vinerow.gym.parallel_env() needs the package pettingzoo: pip install pettingzoo") from missing
 
-from .. import _core
+from .. import _arguments, _core
 from ..arrays import Array
 from ..errors import UsageError
 from .environment import _seed, box, with_camera
@@ -22,6 +22,15 @@ from .tasks import SCENARIOS, _starts
 FACTORS = {**{f"rover_{name}": factor for name, factor in _starts("rover", 2, 0.1, 4.0).items()},
            "drone_lateral": {"key": "drone.spawn.lateral_m", "from": -0.2, "to": 0.2, "count": 11},
            "drone_heading": {"key": "drone.spawn.turn_deg", "from": -10.0, "to": 10.0, "count": 11}}
+
+
+def _tasks_of(agents: Mapping[str, tuple[str, Mapping[str, Any]]]) -> list[tuple[str, str, dict[str, Any]]]:
+    """(vehicle, task, options) of each agent."""
+    for agent in agents.values():
+        if not isinstance(agent, (tuple, list)) or len(agent) != 2:
+            _arguments.refuse("an agent", "a pair of task and options", agent)
+    return [(_arguments.text("an agent's vehicle", vehicle), _arguments.text("an agent's task", task), _arguments.mapping("an agent's options", options))
+            for vehicle, (task, options) in agents.items()]
 
 
 class ParallelEnv(pettingzoo.ParallelEnv):  # type: ignore[misc]
@@ -42,15 +51,16 @@ class ParallelEnv(pettingzoo.ParallelEnv):  # type: ignore[misc]
                  control_rate_Hz: float = 50.0, render_mode: str | None = None, camera: str | Mapping[str, Any] | None = None,
                  width: int = 640, height: int = 360):
         overrides, name = with_camera(overrides, render_mode, camera)
-        agents = agents or {"rover": ("row_following", {}), "drone": ("row_flight", {})}
+        agents = _arguments.mapping("agents", agents) or {"rover": ("row_following", {}), "drone": ("row_flight", {})}
         if factors is None:
             factors = FACTORS if scenario is None else {}
         self.render_mode = render_mode
         self._episodes = _core.Episodes(
-            os.fspath(scenario if scenario is not None else SCENARIOS / "rover_and_drone.yaml"), dict(overrides or {}), list(sets),
-            dict(factors), [(vehicle, task, dict(options)) for vehicle, (task, options) in agents.items()], 1.0 / control_rate_Hz)
+            _arguments.path("scenario", scenario if scenario is not None else SCENARIOS / "rover_and_drone.yaml"), overrides,
+            _arguments.texts("sets", sets), _arguments.mapping("factors", factors), _tasks_of(agents),
+            1.0 / _arguments.above_zero("control_rate_Hz", "Hz", control_rate_Hz))
         if render_mode is not None:
-            self._episodes.watch(name, width, height)
+            self._episodes.watch(name, _arguments.whole("width", width), _arguments.whole("height", height))
         self._spaces = {agent: (box(observation), box(action)) for agent, (observation, action) in self._episodes.spaces().items()}
         self.possible_agents = list(self._spaces)
         self.agents: list[str] = []
@@ -64,6 +74,7 @@ class ParallelEnv(pettingzoo.ParallelEnv):  # type: ignore[misc]
         return self._spaces[agent][1]
 
     def reset(self, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[dict[str, Array], dict[str, Any]]:
+        _arguments.mapping("options", options)  # none is known; PettingZoo's own test passes some
         self._episodes.reset(_seed(seed))
         self.agents = list(self.possible_agents)
         states, levels = self._episodes.agents(), self._episodes.levels()
@@ -73,7 +84,7 @@ class ParallelEnv(pettingzoo.ParallelEnv):  # type: ignore[misc]
     def step(self, actions: Mapping[str, Array]) -> tuple[dict[str, Any], ...]:
         if not self.agents:
             raise UsageError("the episode is over; reset() begins the next one")
-        self._episodes.step(dict(actions))
+        self._episodes.step(_arguments.mapping("actions", actions))
         states = self._episodes.agents()
         observations, rewards, terminated, truncated, infos = (
             dict(zip(self.agents, column)) for column in zip(*(states[agent] for agent in self.agents)))

@@ -130,6 +130,21 @@ std::set<Time> times_of(const scenario::CameraConfig& camera, const std::set<Tim
   return times;
 }
 
+/// Whether two frames of a camera fall into one millisecond.
+bool is_finer_than_a_millisecond(const std::set<Time>& times) {
+  return std::adjacent_find(times.begin(), times.end(), [](Time a, Time b) {
+           return a.ns / 1'000'000 == b.ns / 1'000'000;
+         }) != times.end();
+}
+
+/// "chase_000004000": camera and time in ms; "chase_000004000.250000" with ns, if a camera's frames
+/// are closer than a millisecond.
+std::string frame_name(const std::string& camera, Time t, bool is_fine) {
+  const std::int64_t ms = t.ns / 1'000'000;
+  if (!is_fine) return fmt::format("{}_{:09d}", camera, ms);
+  return fmt::format("{}_{:09d}.{:06d}", camera, ms, t.ns % 1'000'000);
+}
+
 scenario::Scenario scenario_in(const record::LogReader& reader, const std::filesystem::path& log,
                                const Registry& registry,
                                const scenario::Overrides& overrides = {}) {
@@ -227,7 +242,7 @@ PictureReport render_log(const std::filesystem::path& log, const std::filesystem
   const auto start = std::chrono::steady_clock::now();
   if (options.progress) options.progress(0, total);
   int finished_frames = 0;
-  const auto draw = [&](const scenario::CameraConfig& camera, Time t) {
+  const auto draw = [&](const scenario::CameraConfig& camera, Time t, bool is_fine) {
     const render::Frame frame = composer.compose(camera, t);
     const render::Image image = (*renderer)->draw(frame);
     if (options.take_frame) {
@@ -240,7 +255,7 @@ PictureReport render_log(const std::filesystem::path& log, const std::filesystem
     for (std::size_t i = 0; i < std::min(shares.size(), frame.vehicles.size()); ++i) {
       seen[frame.vehicles[i].name] = shares[i];
     }
-    const auto file = out / fmt::format("{}_{:09d}.png", camera.name, t.ns / 1'000'000);
+    const auto file = out / (frame_name(camera.name, t, is_fine) + ".png");
     std::map<std::string, std::string> words;
     if (!seen.empty()) words[kSeenKey] = seen_text(seen);
     render::write_png(file.string(), image, words);
@@ -258,7 +273,7 @@ PictureReport render_log(const std::filesystem::path& log, const std::filesystem
         if (options.interrupted && options.interrupted()) {
           report.note = fmt::format("interrupted after {} of {}", report.files.size(), total);
         } else {
-          draw(cameras[c], t);
+          draw(cameras[c], t, is_finer_than_a_millisecond(times_by_camera[c]));
         }
       }
     }

@@ -233,6 +233,14 @@ TEST(StarterScenario, GivesAPictureAndCanBeDrawnAgain) {
       run_vinerow("render " + out + "/log.mcap --camera chase --every 1 --width 160 --height 90");
   EXPECT_EQ(again.status, 0) << again.output;
   EXPECT_TRUE(std::filesystem::exists(out + "/frames/chase_000001000.png"));
+  // Half a millisecond apart, in the order of their names.
+  const CommandResult close = run_vinerow("render " + out +
+                                          "/log.mcap --camera chase --time 1 --time 1.0005 --width "
+                                          "160 --height 90 --out " +
+                                          out + "/close");
+  EXPECT_EQ(close.status, 0) << close.output;
+  EXPECT_TRUE(std::filesystem::exists(out + "/close/chase_000001000.000000.png"));
+  EXPECT_TRUE(std::filesystem::exists(out + "/close/chase_000001000.500000.png"));
   const CommandResult late = run_vinerow("render " + out + "/log.mcap --time 99999");
   EXPECT_EQ(late.status, 2);
   EXPECT_THAT(late.output, HasSubstr("there is no frame at 99999 s: the log covers 0 s to 2.3 s"));

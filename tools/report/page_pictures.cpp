@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <map>
 
@@ -32,7 +33,8 @@ constexpr int kPhotoQuality = 84;
 /// Approximate ratio of a frame's JPEG size at that quality to its PNG size.
 constexpr double kPhotoShare = 0.1;
 
-/// Parsed frame name "<camera>_<milliseconds>"; the camera is empty if the name has another form.
+/// Parsed frame name "<camera>_<milliseconds>", with a decimal point or without; the camera is
+/// empty if the name has another form.
 struct FrameName {
   std::string camera;
   double time_s = 0.0;
@@ -41,10 +43,17 @@ struct FrameName {
 FrameName frame_name(const fs::path& file) {
   const std::string stem = file.stem().string();
   const std::size_t at = stem.rfind('_');
-  const bool fits = at != std::string::npos && at + 1 < stem.size() && stem.size() - at <= 16 &&
-                    stem.find_first_not_of("0123456789", at + 1) == std::string::npos;
+  if (at == std::string::npos) return {};
+  const std::size_t point = std::min(stem.find('.', at), stem.size());
+  const auto is_number = [&](std::size_t from, std::size_t to) {
+    return from < to && stem.find_first_not_of("0123456789", from) >= to;
+  };
+  const bool fits = point - at <= 16 && is_number(at + 1, point) &&
+                    (point == stem.size() || is_number(point + 1, stem.size()));
   if (!fits) return {};
-  return {stem.substr(0, at), 1e-3 * static_cast<double>(std::stoll(stem.substr(at + 1)))};
+  double ms = 0.0;
+  std::from_chars(&stem[at + 1], stem.data() + stem.size(), ms);
+  return {stem.substr(0, at), 1e-3 * ms};
 }
 
 const scenario::CameraConfig* camera_of(const RunFolder& run, const std::string& name) {

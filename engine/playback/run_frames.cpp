@@ -153,7 +153,8 @@ scenario::Scenario scenario_in(const record::LogReader& reader, const std::files
     throw ConfigError(fmt::format(
         "{}: contains no scenario.resolved.yaml, so its world is not known", log.string()));
   }
-  return scenario::parse_scenario(found->second, log.parent_path(), registry, overrides);
+  return scenario::parse_scenario(found->second, log.parent_path(), registry, overrides,
+                                  fmt::format("{}: {}", log.string(), found->first));
 }
 
 }  // namespace

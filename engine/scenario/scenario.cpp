@@ -354,10 +354,10 @@ Scenario scenario_of_tree(io::YamlNode root, const io::SourceMark& mark, const f
 }  // namespace
 
 Scenario parse_scenario(const std::string& yaml, const fs::path& folder, const Registry& registry,
-                        const Overrides& overrides) {
+                        const Overrides& overrides, const std::string& name) {
   const fs::path base = absolute_folder(folder);
-  io::YamlNode root = io::parse_yaml(yaml, "scenario", base);
-  const io::SourceMark whole{"scenario", 0};
+  io::YamlNode root = io::parse_yaml(yaml, name, base);
+  const io::SourceMark whole{name, 0};
   if (root.is_null()) io::fail_at(whole, "the file is empty; a scenario starts with 'vinerow: 1'");
   if (!root.is_mapping()) {
     io::fail_at(root.mark, fmt::format("the file holds {}, must be a mapping ('key: value' lines)",

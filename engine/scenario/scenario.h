@@ -278,8 +278,10 @@ class ScenarioSource {
 Scenario load_scenario(const std::filesystem::path& file, const Registry& registry,
                        const Overrides& overrides = {});
 /// The same from text; relative paths start at `folder`, or at the current folder if it is empty.
+/// @param name  of the text, in errors
 Scenario parse_scenario(const std::string& yaml, const std::filesystem::path& folder,
-                        const Registry& registry, const Overrides& overrides = {});
+                        const Registry& registry, const Overrides& overrides = {},
+                        const std::string& name = "scenario");
 /// The same from a mapping without marks, made by a program; errors then name the key alone.
 Scenario parse_scenario(io::YamlNode tree, const std::filesystem::path& folder,
                         const Registry& registry, const Overrides& overrides = {});

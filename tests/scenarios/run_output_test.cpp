@@ -217,6 +217,31 @@ TEST(Validate, RefusesWhatARunRefuses) {
   EXPECT_THAT(good.output, HasSubstr("valid (1 vehicle, world 'vineyard', 60 s)"));
 }
 
+/// The scenario inside a run's folder or log is not one that the user gave.
+TEST(RunFolder, WhoseDataMovedNamesItsOwnScenario) {
+  const ScratchFolder folder("moved");
+  const std::string cube = folder.file(
+      "cube.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+  const std::string scenario =
+      folder.file("s.yaml",
+                  "vinerow: 1\nname: moved\nduration_s: 0.1\nvehicles: {}\n"
+                  "world: {type: mesh, items: [{file: cube.obj}]}\n");
+  const std::string out = (folder.path() / "out").string();
+  const CommandResult run =
+      run_vinerow("run " + scenario + " --quiet --no-report --no-pictures --out " + out);
+  ASSERT_EQ(run.status, 0) << run.output;
+  std::filesystem::remove(cube);
+  const std::string missing = "world.items[0].file = '" + cube + "': no such file";
+  for (const auto& [command, place] :
+       {std::pair<std::string, std::string>{"report " + out, out + "/scenario.resolved.yaml:"},
+        {"render " + out, out + "/log.mcap: scenario.resolved.yaml:"}}) {
+    const CommandResult result = run_vinerow(command);
+    EXPECT_EQ(result.status, 2) << result.output;
+    EXPECT_THAT(result.output, ::testing::StartsWith("vinerow: " + place));
+    EXPECT_THAT(result.output, HasSubstr(missing));
+  }
+}
+
 TEST(StarterScenario, GivesAPictureAndCanBeDrawnAgain) {
   const ScratchFolder folder("starter");
   const std::string scenario = folder.file("s.yaml", kRover);

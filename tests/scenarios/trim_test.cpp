@@ -147,7 +147,12 @@ TEST(TrimCommand, RefusesInOneSentence) {
   expect_refused("none.yaml", "trim: 'none.yaml' is no file");
   expect_refused(test::scenario_file("survey_still"),
                  "is a scenario, must be the file of one vehicle");
-  expect_refused(file + " --set mas_kg=1", "did you mean 'mass_kg'?");
+  expect_refused(file + " --set mas_kg=1",
+                 "vinerow: --set mas_kg=1: mas_kg: unknown key of vehicle 'fixed_wing'; did you "
+                 "mean 'mass_kg'?");
+  // Of the file, not of the scenario around it, which the command wrote.
+  const std::string husky = vehicle_file("husky");
+  expect_refused(husky, "vinerow: " + husky + ": urdf must be given");
   expect_refused(file + " --bank 90", "trim: --bank = 90, must be between -90 and 90 deg");
   expect_refused(file + " --period 0", "trim: --period = 0, must be > 0");
 }

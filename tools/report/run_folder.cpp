@@ -63,7 +63,7 @@ void read_scenario(RunFolder& run, const Registry& registry, RunShelf* shelf) {
     if (found != attachments.end()) run.resolved_yaml = found->second;
   }
   if (run.resolved_yaml.empty()) return;
-  run.scenario = scenario::parse_scenario(run.resolved_yaml, run.path, registry);
+  run.scenario = scenario::parse_scenario(run.resolved_yaml, run.path, registry, {}, file.string());
   if (run.scenario->name != run.text("scenario")) {
     throw ConfigError(
         fmt::format("{}: is scenario '{}', but summary.json next to it belongs to '{}'",

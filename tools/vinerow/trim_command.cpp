@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "engine/core/error.h"
+#include "engine/io/files/placed_error.h"
 #include "engine/math/angles.h"
 #include "engine/scenario/shipped_file.h"
 #include "tools/pictures/trim_report.h"
@@ -38,6 +39,18 @@ void refuse_scenario(const std::filesystem::path& file) {
   }
 }
 
+/// A scenario's error without that scenario, which the user did not write: the place is the
+/// vehicle's file, and keys start at the vehicle.
+std::string in_words_of_the_file(const io::PlacedError& error, const std::filesystem::path& file) {
+  std::string text = error.what();
+  const std::string place = error.where().text();
+  if (error.where().file == "scenario") text.replace(0, place.size(), file.string());
+  const std::string option = "--set ", own = fmt::format("{}.", kName), path = "vehicles." + own;
+  if (text.starts_with(option + own)) text.erase(option.size(), own.size());
+  for (std::size_t at; (at = text.find(path)) != std::string::npos;) text.erase(at, path.size());
+  return text;
+}
+
 /// Loads a vehicle from a file as `include` in a scenario does.
 scenario::VehicleConfig load_vehicle(const TrimArguments& arguments, const Registry& registry) {
   if (!std::filesystem::is_regular_file(arguments.file)) {
@@ -57,8 +70,12 @@ scenario::VehicleConfig load_vehicle(const TrimArguments& arguments, const Regis
   for (const std::string& set : arguments.sets) {
     overrides.sets.push_back(fmt::format("{}.{}", kName, set));
   }
-  return scenario::parse_scenario(scenario, std::filesystem::current_path(), registry, overrides)
-      .vehicles.front();
+  try {
+    return scenario::parse_scenario(scenario, std::filesystem::current_path(), registry, overrides)
+        .vehicles.front();
+  } catch (const io::PlacedError& error) {
+    throw ConfigError(in_words_of_the_file(error, arguments.file));
+  }
 }
 
 void check_option(bool holds, const char* option, double value, const char* allowed) {

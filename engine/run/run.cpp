@@ -239,7 +239,10 @@ std::vector<std::string> rehearse_run(const scenario::Scenario& scenario,
   constexpr Duration kLongest{10'000'000'000};
   Session session = open_run(scenario, registry, {}, nullptr);
   std::vector<std::string> notes = session.simulation().world().notes;
-  if (!scenario.phases.empty()) return notes;
+  // A job may take minutes.
+  const bool begins_by_job = std::any_of(scenario.phases.begin(), scenario.phases.end(),
+                                         [](const auto& p) { return p.job && p.after.empty(); });
+  if (begins_by_job) return notes;
   for (const scenario::VehicleConfig& vehicle : scenario.vehicles) {
     if (!vehicle.autopilot) continue;
     notes.push_back(fmt::format(
@@ -247,14 +250,16 @@ std::vector<std::string> rehearse_run(const scenario::Scenario& scenario,
     return notes;
   }
   // The first instant in any case: parts may find faults in it.
+  const bool is_mission = !scenario.phases.empty();
   do {
     session.advance(session.now());
-  } while (!session.over() && session.now() <= Time{kLongest.ns} &&
+  } while (!is_mission && !session.over() && session.now() <= Time{kLongest.ns} &&
            !without_plan(session.simulation()).empty());
   for (const auto& [time, event] : session.take_events()) {
     if (event.level == Event::Level::kInfo) continue;
     notes.push_back(fmt::format("{}: {}", event.source, event.text));
   }
+  if (is_mission) return notes;
   for (const std::string& vehicle : without_plan(session.simulation())) {
     notes.push_back(
         fmt::format("{}.planner: not checked, because there is no estimate in the first {:g} s",

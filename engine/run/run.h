@@ -76,9 +76,9 @@ struct RunResult {
 };
 
 /// Makes the checks that run_scenario() makes before its first step, by the same code, and writes
-/// nothing. Without a mission it also computes the first instant, and goes on until every planner
-/// has made its plan, at most 10 simulated seconds. In a mission, a failed plan only fails its
-/// phase.
+/// nothing. It also computes the first instant, unless a mission begins with a job or a vehicle has
+/// an autopilot. Without a mission it goes on until every planner has made its plan, at most 10
+/// simulated seconds. In a mission, a failed plan only fails its phase.
 /// @returns notes for people: those of the world, the warnings until then, and which planners have
 /// no plan yet
 /// @throws ConfigError, SimulationError as run_scenario()

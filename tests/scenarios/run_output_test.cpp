@@ -212,6 +212,16 @@ TEST(Validate, RefusesWhatARunRefuses) {
     EXPECT_EQ(validated.status, 2) << set << validated.output;
     EXPECT_EQ(validated.output, run.output) << set;
   }
+  // What shows at the first instant, also of a mission.
+  const std::string inside = folder.file(
+      "mission.yaml", std::string(kRover) +
+                          "    sensors: {cam: {type: camera, rate_Hz: 2, position_m: [0, "
+                          "0, 0.05], width_px: 32, height_px: 24}}\n"
+                          "phases: {drive: {vehicles: [rover]}}\n");
+  const CommandResult blind = run_vinerow("validate " + inside);
+  EXPECT_EQ(blind.status, 2) << blind.output;
+  EXPECT_THAT(blind.output, HasSubstr("rover.sensors.cam: the camera is inside of rover/body"));
+  EXPECT_EQ(run_vinerow("run " + inside + out).output, blind.output);
   const CommandResult good = run_vinerow("validate " + scenario);
   EXPECT_EQ(good.status, 0) << good.output;
   EXPECT_THAT(good.output, HasSubstr("valid (1 vehicle, world 'vineyard', 60 s)"));

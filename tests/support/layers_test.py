@@ -100,7 +100,7 @@ ALLOWED = {
     "tools": ["engine", "vehicles", "worlds", "controllers", "tools", "vinerow"],
     "tools/parts": ["engine", "vehicles", "worlds", "controllers"],
     "tools/terminal": BASE + [SIM],
-    "tools/export": BASE + [FILES, GEO, CLOUDS, RECORD, PLAYBACK],
+    "tools/export": BASE + [IMAGING, FILES, GEO, CLOUDS, RECORD, PLAYBACK],
     "tools/compare": BASE + ["tools/terminal"],
     "tools/pictures": ["engine", "worlds", "controllers"],
     "tools/replay": ["engine", "tools/export"],

@@ -263,6 +263,34 @@ class Export(unittest.TestCase):
         self.assertEqual((both / "rover_front/000001000000000.png").read_bytes(), png)
         self.assertTrue((both / "rover_front.npz").exists())
 
+    def test_pictures_become_arrays_of_their_pixels(self):
+        def chunk(kind, data):
+            return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+        def png(pixels):  # by the letter of its specification: no filter, the higher byte first
+            height, width = pixels.shape[:2]
+            head = struct.pack(">IIBBBBB", width, height, 8 * pixels.itemsize, 2 if pixels.ndim == 3 else 0, 0, 0, 0)
+            rows = b"".join(b"\0" + row.astype(pixels.dtype.newbyteorder(">")).tobytes() for row in pixels)
+            return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
+
+        random = numpy.random.default_rng(1)
+        for shape, dtype in (((2, 4, 3), numpy.uint8), ((3, 2), numpy.uint8), ((2, 3), numpy.uint16)):
+            pictures = random.integers(0, numpy.iinfo(dtype).max, (2, *shape), dtype)
+            for others in (False, True):
+                log = Log()
+                channel = log.channel("/rover/front", "sensor_msgs/msg/CompressedImage", "std_msgs/Header header\nstring format\nuint8[] data\n" + HEADER)
+                files = [png(picture) for picture in pictures] + ([png(pictures[0][:1])] if others else [])
+                for k, data in enumerate(files):
+                    message = Cdr().header((k + 1) * 10**9).text("png").add("I", len(data))
+                    message.data += data
+                    log.message(channel, (k + 1) * 10**9, message.message())
+                log.write(self.log)
+                arrays = self.arrays("/rover/front")
+                self.assertEqual("data" in arrays, others)  # of several sizes: the files as they are
+                if not others:
+                    self.assertEqual(arrays["pixels"].dtype, dtype)
+                    numpy.testing.assert_array_equal(arrays["pixels"], pictures)
+
     def test_a_sequence_of_messages_gives_a_row_for_each_element(self):
         log = Log()
         channel = log.channel("/rover/plan", "test_msgs/msg/Path", PATH)

@@ -29,7 +29,11 @@ std::string csv_of(const MessageTable& table, const std::string& what);
 /// Uncompressed zip file of .npy arrays, for numpy.load(). A column with several values is
 /// two-dimensional. Missing numbers are NaN, which turns integer columns into float64; missing
 /// texts are "".
+/// @param are_pictures  messages are CompressedImage: PNG files of one size in 8-bit RGB, or 8-bit
+/// or
+///   16-bit grey become the array `pixels`, (rows, height, width, 3) or (rows, height, width), in
+///   place of `data`
 /// @throws TableTooLarge also "/rover/scan: its arrays take more than 4 GiB, ..."
-std::string npz_of(const MessageTable& table, const std::string& what);
+std::string npz_of(const MessageTable& table, const std::string& what, bool are_pictures = false);
 
 }  // namespace vinerow::tools

@@ -2,7 +2,11 @@
 
 #include <cstring>
 #include <limits>
+#include <optional>
+#include <string_view>
 
+#include "engine/api/messages/camera.h"
+#include "engine/imaging/picture_codec.h"
 #include "engine/io/files/utf8.h"
 #include "engine/record/crc32.h"
 #include "tools/export/number_bytes.h"
@@ -177,6 +181,35 @@ std::string number_array(const MessageTable& table, const TableCells& cells, std
   return data;
 }
 
+/// Pixels of pictures of one size and form, (rows, height, width, 3) or (rows, height, width).
+/// @param c  column of their bytes  @returns nullopt if they are others
+std::optional<std::string> pixel_array(const MessageTable& table, const TableCells& cells,
+                                       std::size_t c, const StoredZip& zip) {
+  const TableColumn& column = table.columns()[c];
+  std::string data;
+  Picture first, picture;
+  for (const std::size_t row : cells.order()) {
+    const std::size_t size = column.counts[row];
+    const std::string_view bytes =
+        size > 0 ? std::string_view(cells.number(c, row, 0), size) : std::string_view();
+    if (!imaging::decode_picture(bytes, picture)) return std::nullopt;
+    if (data.empty()) {
+      first = picture;
+      zip.check(static_cast<std::uint64_t>(table.rows().size()) * first.data.size());
+      data = npy_head(first.format == Picture::Format::kMono16 ? "<u2" : "|u1",
+                      fmt::format("({}, {}, {}{})", table.rows().size(), first.height, first.width,
+                                  first.format == Picture::Format::kRgb8 ? ", 3" : ""));
+    }
+    if (picture.format != first.format || picture.width != first.width ||
+        picture.height != first.height) {
+      return std::nullopt;
+    }
+    data.append(reinterpret_cast<const char*>(picture.data.data()), picture.data.size());
+  }
+  if (data.empty()) return std::nullopt;
+  return data;
+}
+
 /// Member name that stays inside the folder into which the file is unpacked.
 std::string member_name(const std::string& column) {
   std::string name = column;
@@ -189,7 +222,7 @@ std::string member_name(const std::string& column) {
 
 }  // namespace
 
-std::string npz_of(const MessageTable& table, const std::string& what) {
+std::string npz_of(const MessageTable& table, const std::string& what, bool are_pictures) {
   if (table.columns().size() + 3 > kMaxColumns) {
     throw TableTooLarge(fmt::format("{}: has {} columns, must be at most {}", what,
                                     table.columns().size() + 3, kMaxColumns));
@@ -215,6 +248,12 @@ std::string npz_of(const MessageTable& table, const std::string& what) {
   }
   for (std::size_t c = 0; c < table.columns().size(); ++c) {
     const TableColumn& column = table.columns()[c];
+    if (are_pictures && column.name == "data" && !table.has_elements()) {
+      if (const auto pixels = pixel_array(table, cells, c, zip)) {
+        zip.add(member_name("pixels"), *pixels);
+        continue;
+      }
+    }
     const std::string shape =
         column.list ? fmt::format("({}, {})", table.rows().size(), column.width()) : rows;
     const bool text = column.kind == RosKind::kText;

@@ -167,7 +167,8 @@ void export_topics(ExportArguments arguments) {
       return true;
     }
     if (arguments.csv && !as_files) write_table(table, file(".csv"), csv_of(table, topic));
-    if (arguments.npz) write_table(table, file(".npz"), npz_of(table, topic));
+    if (arguments.npz)
+      write_table(table, file(".npz"), npz_of(table, topic, is_picture_type(type)));
     return true;
   };
   bool has_any = false;

@@ -80,6 +80,7 @@ class Sprayer final : public Payload {
           "{}: the vehicle's map has no rows, must have at least one: sections open beside rows",
           context.part));
     }
+    note_ = doubt_reach(context.map->alleys);
     coverage_.quantity = "deposit";
     coverage_.unit = "ml/m2";
     coverage_.wanted = params_.wanted_ml_per_m2;
@@ -109,6 +110,8 @@ class Sprayer final : public Payload {
   }
 
   void step(Time now) override {
+    if (!note_.empty()) event_.write(now, {Event::Level::kWarning, part_, note_});
+    note_.clear();
     const Sections sections = switch_.step(now);
     left_.open = sections.left && !empty_;
     right_.open = sections.right && !empty_;
@@ -148,6 +151,17 @@ class Sprayer final : public Payload {
   const CanopyCoverage* coverage() const override { return &coverage_; }
 
  private:
+  /// A sentence if no row is in reach from the middle of any alley, else "".
+  std::string doubt_reach(const std::vector<Alley>& alleys) const {
+    double nearest_m = std::numeric_limits<double>::infinity();
+    for (const Alley& alley : alleys) nearest_m = std::min(nearest_m, 0.5 * alley.width_m);
+    if (alleys.empty() || params_.row_reach_m >= nearest_m) return "";
+    return fmt::format(
+        "row_reach_m = {:g} m reaches no row from the middle of an alley, where the nearest one is "
+        "{:.3g} m away: the sections open only where the vehicle is nearer to a row",
+        params_.row_reach_m, nearest_m);
+  }
+
   /// @returns litres of this tick
   double spray(Time now, const Odometry& truth) {
     const Vector3d v_W = truth.X_WB.q * truth.v_WB_B;
@@ -242,6 +256,7 @@ class Sprayer final : public Payload {
 
   std::string name_;
   std::string part_;
+  std::string note_;  ///< not yet reported
   SprayerParams params_;
   Duration period_;
   const SceneQuery& scene_;

@@ -262,6 +262,26 @@ TEST(Sprayer, AnEmptyTankClosesTheNozzlesAndSaysSo) {
   expect_balance(rig);
 }
 
+/// Rows 10 m apart: 5 m from the middle of the alley, and its default reach is 2 m.
+TEST(Sprayer, ReportsOnceThatNoRowIsInReachFromTheMiddleOfAnAlley) {
+  const auto reports = [](double reach_m) {
+    WorldModel world = make_box_rows({{.y_m = 5.0}, {.y_m = -5.0}});
+    RowMap map = *world.rows;
+    map.alleys.push_back({0, {{0.0, 0.0, 0.0}, {20.0, 0.0, 0.0}}, 10.0});
+    PayloadRig rig("sprayer", world, ideal({{"row_reach_m", reach_m}}), 1, &map);
+    rig.tick(10.0, 0.0, 0.0, 1.0);
+    rig.tick(11.0, 0.0, 0.0, 1.0);
+    EXPECT_EQ(rig.signal_value("left_on"), reach_m >= 5.0 ? 1.0 : 0.0);
+    return std::pair(rig.event.sequence(), rig.event.has_value() ? rig.event.value().text : "");
+  };
+  EXPECT_EQ(reports(5.0), std::pair(std::uint64_t{0}, std::string()));
+  EXPECT_EQ(reports(2.0),
+            std::pair(std::uint64_t{1},
+                      std::string("row_reach_m = 2 m reaches no row from the middle of an alley, "
+                                  "where the nearest one is 5 m away: the sections open only where "
+                                  "the vehicle is nearer to a row")));
+}
+
 TEST(Sprayer, TellsWhatItDoesWhileItDoesIt) {
   PayloadRig rig("sprayer", make_box_rows({{.y_m = 1.25}}), ideal());
   rig.tick(10.0, 0.0, 0.0, 1.0);

@@ -10,6 +10,8 @@
 #include "controllers/pure_pursuit/pure_pursuit_law.h"
 #include "engine/api/may_fail.h"
 #include "engine/api/parameter_table.h"
+#include "engine/api/vehicle.h"
+#include "engine/core/check.h"
 #include "engine/math/angles.h"
 #include "engine/math/deviation.h"
 
@@ -21,7 +23,7 @@ struct PursuitParams {
   PurePursuitParams law;
   PathWatchParams watch;
   std::optional<double> crossed_distance_m;
-  double min_turning_radius_m = 1.0;
+  std::optional<double> min_turning_radius_m;
   double stop_mps2 = 0.8;
 };
 
@@ -42,9 +44,11 @@ const ParameterTable<PursuitParams>& pursuit_table() {
                    "smaller steering angles count as zero (table 3: 2.5)")
           .degrees("largest_angle_deg", law(&Law::largest_angle_rad), kPositive,
                    "theta_max of the speed law (eq. 7)")
-          .number("min_turning_radius_m", "m", &P::min_turning_radius_m, between(0.0, 1e3),
-                  "limits the commanded yaw rate to speed / radius (table 1); 0 = no limit: with "
-                  "wheels that slip a vehicle turns less than commanded, so use 0 with physics")
+          .number(
+              "min_turning_radius_m", "m", &P::min_turning_radius_m, between(0.0, 1e3),
+              "limits the commanded yaw rate to speed / radius; 0 = no limit; default: 1 (table "
+              "1), and 0 for a vehicle with an effective_track_m above its track_m, whose wheels "
+              "slip: it turns less than commanded")
           .number("turn_gain", "", law(&Law::turn_gain), kPositive,
                   "share of the steering angle turned in one cycle; 1 = eq. 6, less for "
                   "vehicles with inertia")
@@ -63,7 +67,10 @@ const ParameterTable<PursuitParams>& pursuit_table() {
 
 PursuitParams read_params(const ParameterSet& parameters, const ControllerContext& context) {
   PursuitParams params = pursuit_table().read(parameters, context.part + " (pure_pursuit)");
-  const double radius_m = params.min_turning_radius_m;
+  VINEROW_DEMAND(context.vehicle_description != nullptr);
+  const std::optional<WheeledVehicle>& wheeled = context.vehicle_description->wheeled;
+  const bool slips = wheeled && wheeled->effective_track_m > wheeled->track_m;
+  const double radius_m = params.min_turning_radius_m.value_or(slips ? 0.0 : 1.0);
   params.law.crossed_distance_m = params.crossed_distance_m.value_or(params.law.lookahead_m);
   params.law.yaw_rate_limit_radps =
       radius_m > 0.0 ? params.law.speed_mps / radius_m : std::numeric_limits<double>::infinity();

@@ -70,8 +70,7 @@ TEST(PathFollowerOnThePhysicalRover, DrivesDubinsTurnsAndSkips) {
 /// With the limit of paper B's table 1 it leaves the first of these hairpins:
 /// docs/papers/paper_b.md.
 TEST(PurePursuitOnThePhysicalRover, DrivesTheHairpinsWithoutALimitOfItsYawRate) {
-  expect_good({"rover.controller={type: pure_pursuit, speed_mps: 1.5, min_turning_radius_m: 0}"},
-              0.004);
+  expect_good({"rover.controller={type: pure_pursuit, speed_mps: 1.5}"}, 0.004);
 }
 
 /// A registered controller with a limited movement authority: to stop_m while time_s < until_s.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "controllers/parts/paths/footprint.h"
 #include "controllers/parts/paths/lift.h"
 #include "controllers/planning/routes/corner_rounding.h"
 #include "controllers/planning/routes/headland_turn.h"
@@ -80,11 +81,13 @@ class Coverage final : public Planner {
     if (!legs) return Failure{legs.reason()};
 
     std::vector<PathSegment> pieces;
+    std::size_t approach_pieces = 0;
     Pose2 at = pose;  // pose of the vehicle after the pieces so far
     for (std::size_t i = 0; i < legs->size(); ++i) {
       const RouteLeg& leg = (*legs)[i];
       if (i == 0) {
         append_approach(pose, leg.entry(), pieces);
+        approach_pieces = pieces.size();
       } else {
         const auto turn = make_headland_turn(at, leg.entry(), params_.turn);
         if (!turn) {
@@ -102,13 +105,26 @@ class Coverage final : public Planner {
 
     PlannedPath path = make_planned_path(pieces, params_.pitch_m);
     if (const auto fault = find_path_into_row(path, map_, params_.clearance_m, &vehicle_)) {
-      return Failure{*fault};
+      pieces.resize(approach_pieces);
+      return Failure{*fault + advise_on_approach(pose, legs->front().alley, pieces)};
     }
     if (const auto fault = lift_to_ground(scene_, start.p.z(), path)) return Failure{*fault};
     return path;
   }
 
  private:
+  /// What to do if the way to the first alley is what meets a row, else "".
+  std::string advise_on_approach(const Pose2& pose, int alley,
+                                 const std::vector<PathSegment>& approach) const {
+    if (approach.empty()) return "";
+    const PlannedPath way = make_planned_path(approach, params_.pitch_m);
+    if (!find_path_into_row(way, map_, params_.clearance_m, &vehicle_)) return "";
+    return fmt::format(
+        ", on the way to alley {} from the estimated start {}: start on the alley's line, estimate "
+        "the start better, or leave the way to the follower by approach: false",
+        alley, to_string(pose));
+  }
+
   /// Appends the path from the vehicle's pose to the first alley: a straight if it leads there,
   /// else a Dubins path; then the lead-in.
   void append_approach(const Pose2& pose, const Pose2& entry,

@@ -316,6 +316,25 @@ TEST(Waypoints, RefusesUnequalListsAndTooFewPoints) {
       "from a file");
 }
 
+TEST(Coverage, ARowOnTheWayFromTheStartIsRefusedWithTheRemedy) {
+  const RowMap map = make_narrow_map(2);
+  // In alley 1 instead of alley 0, where the route begins; row 1 at x = 2.5 is between them.
+  const Values values = {{"alleys", std::vector<double>{0}}};
+  const controllers::Pose2 start{{3.75, 8.0}, 0.5 * kPi};
+  const auto path = plan(map, values, start);
+  ASSERT_FALSE(path.ok());
+  EXPECT_NE(path.reason().find("path into a row: the path passes"), std::string::npos);
+  EXPECT_NE(path.reason().find(
+                ", on the way to alley 0 from the estimated start (3.75, 8.00) heading 90.0 deg: "
+                "start on the alley's line, estimate the start better, or leave the way to the "
+                "follower by approach: false"),
+            std::string::npos)
+      << path.reason();
+  Values without = values;
+  without.push_back({"approach", false});
+  EXPECT_TRUE(plan(map, without, start).ok());
+}
+
 TEST(Waypoints, RefusesAPathIntoARow) {
   const RowMap map = make_narrow_map(2);
   const Values values = {{"x_m", std::vector<double>{1, 4}}, {"y_m", std::vector<double>{5, 5}}};

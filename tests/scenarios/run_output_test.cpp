@@ -227,6 +227,20 @@ TEST(Validate, RefusesWhatARunRefuses) {
   EXPECT_THAT(good.output, HasSubstr("valid (1 vehicle, world 'vineyard', 60 s)"));
 }
 
+TEST(MeshFolder, IsMadeIfItIsMissing) {
+  const ScratchFolder folder("mesh_folder");
+  const std::string scenario = folder.file("s.yaml", kRover);
+  const CommandResult made =
+      run_vinerow("validate " + scenario + " --set world.mesh_folder=" + folder.path().string() +
+                  "/new/meshes");
+  EXPECT_EQ(made.status, 0) << made.output;
+  EXPECT_FALSE(std::filesystem::is_empty(folder.path() / "new/meshes"));
+  const CommandResult taken =
+      run_vinerow("validate " + scenario + " --set world.mesh_folder=" + scenario);
+  EXPECT_EQ(taken.status, 2);
+  EXPECT_THAT(taken.output, HasSubstr("for mesh files cannot be created: Not a directory"));
+}
+
 /// The scenario inside a run's folder or log is not one that the user gave.
 TEST(RunFolder, WhoseDataMovedNamesItsOwnScenario) {
   const ScratchFolder folder("moved");

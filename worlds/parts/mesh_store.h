@@ -55,7 +55,8 @@ class FileMeshStore final : public MeshStore {
 std::filesystem::path find_cache_folder();
 /// What the parameter `mesh_folder` of a world is.
 constexpr const char* kMeshFolderText =
-    "where mesh files are kept; default: $VINEROW_CACHE or the user's cache folder";
+    "folder for mesh files, made if it is missing; default: $VINEROW_CACHE or the user's cache "
+    "folder";
 
 /// Digest of a mesh's numbers.
 std::string mesh_digest(const TriangleMesh& mesh);

@@ -70,6 +70,7 @@ const ParameterTable<SurveyedParams>& surveyed_table() {
           .number("origin_altitude_m", "m", &P::altitude_m, between(-500.0, 9000.0),
                   "altitude of the world's z = 0")
           .path("mesh_folder", &P::mesh_folder, kMeshFolderText)
+          .may_be_missing()
           .include(&P::slope, slope_table())
           .include(&P::terrain, terrain_table())
           .include(&P::planting, planting_table())

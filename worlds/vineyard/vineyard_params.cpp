@@ -41,6 +41,7 @@ const ParameterTable<VineyardParams>& vineyard_table() {
                   "beyond the parcel the slope fades out over this distance, to a ridge above and "
                   "a valley below")
           .path("mesh_folder", &P::mesh_folder, kMeshFolderText)
+          .may_be_missing()
           .include(&P::planting, planting_table())
           .include(&P::terrain, terrain_table())
           .include(&P::origin, origin_table())

@@ -15,7 +15,8 @@ struct Definition {
   std::string_view text;
 };
 
-// Fields and constants as in ROS 2 Humble (the same in Iron and Jazzy); comments are ours.
+// Fields and constants as in ROS 2 Humble; comments are ours. In Iron and Jazzy only Range differs,
+// which ends with a variance: a live run adds it (engine/live/ros2_topics.cpp).
 constexpr std::array kDefinitions = {
     Definition{"builtin_interfaces/Time", "int32 sec\nuint32 nanosec\n"},
     Definition{"std_msgs/Header", "builtin_interfaces/Time stamp\nstring frame_id\n"},

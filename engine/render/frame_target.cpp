@@ -12,6 +12,13 @@
 #include "engine/render/texture_units.h"
 
 namespace vinerow::render {
+namespace {
+
+int sky_pixels(int of_picture) {
+  return (of_picture + FrameTarget::kSkyPixels - 1) / FrameTarget::kSkyPixels;
+}
+
+}  // namespace
 
 void FrameTarget::make() {
   gl_.GenFramebuffers(1, &framebuffer_);
@@ -57,17 +64,28 @@ void FrameTarget::make_ground() {
                                      pattern_.height());
   gl_.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
                               ground_depth_);
-  gl_.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(kUnitGroundSeen));
-  gl_.GenTextures(1, &ground_);
-  gl_.BindTexture(GL_TEXTURE_2D, ground_);
-  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, pattern_.width(), pattern_.height(), 0, GL_RGBA,
-                 GL_UNSIGNED_BYTE, nullptr);
+  ground_ = attach_colours(kUnitGroundSeen, pattern_.width(), pattern_.height());
+}
+
+void FrameTarget::make_sky() {
+  gl_.GenFramebuffers(1, &sky_framebuffer_);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, sky_framebuffer_);
+  sky_ = attach_colours(kUnitSkySeen, sky_pixels(pattern_.width()), sky_pixels(pattern_.height()));
+}
+
+GLuint FrameTarget::attach_colours(TextureUnit unit, int width, int height) const {
+  GLuint texture = 0;
+  gl_.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+  gl_.GenTextures(1, &texture);
+  gl_.BindTexture(GL_TEXTURE_2D, texture);
+  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, ground_, 0);
+  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
   gl_.ActiveTexture(GL_TEXTURE0 + kUnitImage);
+  return texture;
 }
 
 void FrameTarget::begin_ground() {
@@ -76,7 +94,18 @@ void FrameTarget::begin_ground() {
   gl_.Viewport(0, 0, pattern_.width(), pattern_.height());
 }
 
+void FrameTarget::begin_sky() {
+  if (sky_framebuffer_ == 0) make_sky();
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, sky_framebuffer_);
+  gl_.Viewport(0, 0, sky_pixels(pattern_.width()), sky_pixels(pattern_.height()));
+}
+
 void FrameTarget::release() {
+  if (sky_framebuffer_ != 0) {
+    gl_.DeleteFramebuffers(1, &sky_framebuffer_);
+    gl_.DeleteTextures(1, &sky_);
+    sky_framebuffer_ = 0;
+  }
   if (ground_framebuffer_ != 0) {
     gl_.DeleteFramebuffers(1, &ground_framebuffer_);
     gl_.DeleteRenderbuffers(1, &ground_depth_);

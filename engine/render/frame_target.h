@@ -8,6 +8,7 @@
 #include "engine/render/gl.h"
 #include "engine/render/sample_pattern.h"
 #include "engine/render/scene.h"
+#include "engine/render/texture_units.h"
 
 namespace vinerow::render {
 
@@ -19,6 +20,10 @@ struct SeenMark {
 
 class FrameTarget {
  public:
+  /// The sky changes little over so many pixels: its clouds come from a texture whose pixels are
+  /// larger.
+  static constexpr int kSkyPixels = 4;
+
   explicit FrameTarget(const Gl& gl) : gl_(gl) {}
 
   /// Binds and clears the buffers; recreates them if their size changed.
@@ -30,6 +35,9 @@ class FrameTarget {
   /// them must be drawn; the colours are in texture unit kUnitGroundSeen. @pre the pattern is
   /// staggered
   void begin_ground();
+  /// Binds the buffer for the sky's colours, with a pixel for kSkyPixels x kSkyPixels of the
+  /// picture's; they are in texture unit kUnitSkySeen.
+  void begin_sky();
   /// Binds the buffers of begin() again. Depth, albedo and normal of leaves are in texture units
   /// kUnitDepth, kUnitAlbedo and kUnitNormal.
   void resume() const;
@@ -42,6 +50,9 @@ class FrameTarget {
  private:
   void make();
   void make_ground();
+  void make_sky();
+  /// A texture of colours that is read with interpolation, attached to the bound framebuffer.
+  GLuint attach_colours(TextureUnit unit, int width, int height) const;
   void release();
   /// Sums of squares of a row's pixels, RGBA. @param drawn  RGBA of the drawn pixels
   void sum_row(const std::vector<std::uint8_t>& drawn, int y,
@@ -52,6 +63,7 @@ class FrameTarget {
   GLuint framebuffer_ = 0, colour_ = 0, depth_ = 0;
   GLuint foliage_framebuffer_ = 0, albedo_ = 0, normal_ = 0;
   GLuint ground_framebuffer_ = 0, ground_ = 0, ground_depth_ = 0;
+  GLuint sky_framebuffer_ = 0, sky_ = 0;
 };
 
 }  // namespace vinerow::render

@@ -79,7 +79,8 @@ class GlRenderer final : public Renderer {
   void make_tufts(const Frame& frame, const Frustum& frustum);
   void draw_tufts(const Program& program);
   void draw_hedges(const Camera& camera, const Frustum& frustum);
-  void draw_sky();
+  void draw_sky(const Frame& frame, const SamplePattern& pattern,
+                const Eigen::Matrix4d& clip_from_world);
   /// Prepares the texture and programs of the frame's grid; they are created for the first frame
   /// with a grid.
   void prepare_grid(const Frame& frame);
@@ -111,8 +112,8 @@ class GlRenderer final : public Renderer {
   Eigen::Vector4f land_rect_ = {0, 0, 0, 0};
   bool has_land_ = false;
   std::unique_ptr<ShadowMaps> shadows_;
-  Program sky_, ground_, fine_ground_, country_, ground_gaps_, ground_seen_, surface_, foliage_,
-      foliage_light_, grass_, ribbon_, shadow_solid_, shadow_cards_;
+  Program sky_, sky_seen_, ground_, fine_ground_, country_, ground_gaps_, ground_seen_, surface_,
+      foliage_, foliage_light_, grass_, ribbon_, shadow_solid_, shadow_cards_;
   GridOverlay grid_;
   Program hedge_, stem_;
   Program grid_map_, grid_ground_, grid_grass_;  ///< made by prepare_grid

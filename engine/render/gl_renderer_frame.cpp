@@ -356,11 +356,22 @@ void GlRenderer::draw_ground(const Frame& frame, const Frustum& frustum,
   }
 }
 
-void GlRenderer::draw_sky() {
-  gl_.UseProgram(sky_.id);
-  gl_.Disable(GL_CULL_FACE);
-  gl_.BindVertexArray(empty_array_);
-  gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+void GlRenderer::draw_sky(const Frame& frame, const SamplePattern& pattern,
+                          const Eigen::Matrix4d& clip_from_world) {
+  const auto draw = [this](const Program& program) {
+    gl_.UseProgram(program.id);
+    gl_.Disable(GL_CULL_FACE);
+    gl_.BindVertexArray(empty_array_);
+    gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+  };
+  target_.begin_sky();
+  upload_frame_block(frame, pattern.middles(), clip_from_world);
+  gl_.Disable(GL_DEPTH_TEST);
+  draw(sky_);
+  gl_.Enable(GL_DEPTH_TEST);
+  target_.resume();
+  upload_frame_block(frame, pattern, pattern.drawn_from_clip() * clip_from_world);
+  draw(sky_seen_);
 }
 
 void GlRenderer::prepare_grid(const Frame& frame) {
@@ -505,7 +516,7 @@ Image GlRenderer::draw(const Frame& frame) {
   draw_objects(frame, frustum, vehicles);
   draw_hedges(frame.camera, frustum);
   draw_ground(frame, frustum, pattern, clip_from_world);
-  draw_sky();
+  draw_sky(frame, pattern, clip_from_world);
   mark_vehicles(vehicles, vehicle_of_link);
   const std::vector<SeenMark> seen =
       target_.take_marks(std::min(frame.vehicles.size(), kMaxMarked));

@@ -79,6 +79,7 @@ Program GlRenderer::make_program(const char* name, const shaders::Pair& sources)
 
 void GlRenderer::make_programs(const Scenery& scenery) {
   sky_ = make_program("sky", shaders::sky());
+  sky_seen_ = make_program("sky_seen", shaders::sky_seen());
   has_land_ = !scenery.empty() && terrain_;
   ground_ = make_program("ground", shaders::ground(false, has_land_));
   fine_ground_ = make_program("fine_ground", shaders::ground(false, has_land_, true));

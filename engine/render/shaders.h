@@ -15,7 +15,9 @@ struct Pair {
   std::string fragment;
 };
 
+/// Colours of the sky without the sun, at few pixels, and the sky as it is seen with them.
 Pair sky();
+Pair sky_seen();
 /// Terrain, optionally with the occupancy grid and with the scenery's fields and tracks.
 /// @param fine  for triangles of a few metres: what changes slowly is computed at their corners
 Pair ground(bool with_grid = false, bool with_land = false, bool fine = false);

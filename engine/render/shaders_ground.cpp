@@ -2,22 +2,38 @@
 
 namespace vinerow::render::shaders {
 
-Pair sky() {
-  const std::string vertex = frame_block() + R"(
-out vec3 direction;
-void main() {
-  vec2 corner = vec2((gl_VertexID << 1) & 2, gl_VertexID & 2) * 2.0 - 1.0;
+namespace {
+
+/// A triangle over the whole picture.
+const char* const kSkyCorners = R"(
+vec2 sky_corner() {
+  return vec2((gl_VertexID << 1) & 2, gl_VertexID & 2) * 2.0 - 1.0;
+}
+
+vec3 sky_direction(vec2 corner) {
   vec4 far_point = world_from_clip * vec4(corner, 1.0, 1.0);
   vec4 near_point = world_from_clip * vec4(corner, -1.0, 1.0);
-  direction = far_point.xyz / far_point.w - near_point.xyz / near_point.w;
+  return far_point.xyz / far_point.w - near_point.xyz / near_point.w;
+}
+)";
+
+}  // namespace
+
+Pair sky() {
+  const std::string vertex = frame_block() + kSkyCorners + R"(
+out vec3 direction;
+void main() {
+  vec2 corner = sky_corner();
+  direction = sky_direction(corner);
   gl_Position = vec4(corner, 1.0, 1.0);
 }
 )";
-  const std::string fragment = frame_block() + light_functions() + R"(
+  const std::string fragment = frame_block() + tone_functions() + R"(
 in vec3 direction;
 out vec4 colour;
 uniform sampler2D sky_table;   // u: azimuth from the sun / pi, v: sqrt(elevation / 90 deg)
 uniform sampler2D noise_tile;
+const float kFiner = -2.0;  // as finely as in the picture, whose pixels are a quarter as large
 
 void main() {
   vec3 d = normalize(direction);
@@ -30,23 +46,49 @@ void main() {
   // Fair-weather clouds on a plane: thin veils high up, brighter where they face the sun.
   float away = 1.0 / (max(d.z, 0.0) + 0.10);
   vec2 p = d.xy * away * 0.115 + vec2(0.37, 0.11);
-  float cover = texture(noise_tile, p).b * 0.72 + texture(noise_tile, p * 3.1 + 0.4).b * 0.28;
-  float lit = texture(noise_tile, p + sun_direction.xy * 0.018).b * 0.72 + 0.14;
+  float cover = texture(noise_tile, p, kFiner).b * 0.72 + texture(noise_tile, p * 3.1 + 0.4, kFiner).b * 0.28;
+  float lit = texture(noise_tile, p + sun_direction.xy * 0.018, kFiner).b * 0.72 + 0.14;
   float cloud = smoothstep(0.53, 0.86, cover) * smoothstep(0.015, 0.20, d.z);
   vec3 sunlit = sun_irradiance.rgb * 0.16 + sky_irradiance.rgb * 0.22;
   vec3 shaded = sun_irradiance.rgb * 0.075 + sky_irradiance.rgb * 0.20;
   float relief = clamp(0.5 + 3.0 * (cover - lit), 0.0, 1.0);
   radiance = mix(radiance, mix(shaded, sunlit, relief), cloud * 0.85);
 
-  // Sun disc (0.27 deg) and the glow of the haze around it.
+  // The glow of the haze around the sun.
   float toward = dot(d, sun_direction.xyz);
-  float disc = smoothstep(0.999968, 0.999988, toward) * (1.0 - 0.9 * cloud);
-  radiance += sun_irradiance.rgb * (disc * 60.0 + 0.22 * pow(max(toward, 0.0), 900.0));
+  radiance += sun_irradiance.rgb * (0.22 * pow(max(toward, 0.0), 900.0));
 
   // The horizon fades into the same haze that hides the far hills.
   float low = exp(-max(d.z, 0.0) * 22.0) * 0.75;
   radiance = mix(radiance, haze_colour(d), d.z < 0.0 ? 0.75 : low);
-  colour = vec4(to_screen(radiance), 1.0);
+  colour = vec4(to_screen(radiance), 1.0 - 0.9 * cloud);
+}
+)";
+  return {vertex, fragment};
+}
+
+Pair sky_seen() {
+  const std::string vertex = frame_block() + kSkyCorners + R"(
+out vec3 direction;
+out vec2 place;
+void main() {
+  vec2 corner = sky_corner();
+  direction = sky_direction(corner);
+  float y = corner.y / sampling.w;
+  place = 0.5 + 0.5 * vec2((corner.x - sampling.z * y) / sampling.y, y);
+  gl_Position = vec4(corner, 1.0, 1.0);
+}
+)";
+  const std::string fragment = frame_block() + R"(
+in vec3 direction;
+in vec2 place;
+out vec4 colour;
+uniform sampler2D sky_seen;  // a: share of the sun's disc that clouds leave
+
+void main() {
+  vec4 seen = texture(sky_seen, place);
+  float disc = smoothstep(0.999968, 0.999988, dot(normalize(direction), sun_direction.xyz));  // 0.27 deg
+  colour = vec4(mix(seen.rgb, vec3(1.0), disc * seen.a), 1.0);
 }
 )";
   return {vertex, fragment};

@@ -126,26 +126,44 @@ vec3 grass_light(vec3 albedo, vec3 n, vec3 p, float sun, float up) {
 }
 
 Pair foliage() {
-  return {frame_block() + kMeshVertex, frame_block() + R"(
+  // Of the canopy's volume: its normal and two directions across, in which leaves are tilted.
+  const std::string vertex = frame_block() + R"(
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec2 uv_in;
+layout(location = 3) in vec4 tint;
+uniform mat4 world_from_model;
+uniform vec4 material;
+out vec3 card;
+out vec3 n_W;
+out vec3 t_W;
+out vec3 b_W;
+out vec3 leaf_colour;
+void main() {
+  card = vec3(uv_in, floor(tint.a * 255.0 + 0.5));
+  n_W = normalize(mat3(world_from_model) * normal);
+  t_W = normalize(vec3(n_W.y, -n_W.x, 0.02));
+  b_W = cross(n_W, t_W);
+  leaf_colour = sqrt(material.rgb) * tint.rgb;
+  gl_Position = clip_from_world * (world_from_model * vec4(position, 1.0));
+}
+)";
+  return {vertex, frame_block() + R"(
+in vec3 card;
 in vec3 n_W;
-in vec2 uv;
-flat in float layer;
-in vec3 vertex_colour;
+in vec3 t_W;
+in vec3 b_W;
+in vec3 leaf_colour;
 layout(location = 0) out vec4 albedo;  // rgb: square root, which keeps dark leaves apart; a: kMostGrass
 layout(location = 1) out vec4 normal;
 uniform sampler2DArray leaf_cards;
-uniform vec4 material;
 
 void main() {
-  vec4 leaf = texture(leaf_cards, vec3(uv, layer), sampling.x);
+  vec4 leaf = texture(leaf_cards, card, sampling.x);
   if (leaf.a < 0.5) discard;
-  // Normal of the canopy's volume, tilted leaf by leaf.
-  vec3 n = normalize(n_W);
-  vec3 t = normalize(vec3(n.y, -n.x, 0.02));
   vec2 tilt = (leaf.gb - 0.5) * 2.2;
-  n = normalize(n + t * tilt.x + cross(n, t) * tilt.y);
-  albedo = vec4(sqrt(material.rgb * vertex_colour * (0.30 + 1.40 * leaf.r)), 1.0);
-  normal = vec4(0.5 + 0.5 * n, 1.0);
+  albedo = vec4(leaf_colour * sqrt(0.30 + 1.40 * leaf.r), 1.0);
+  normal = vec4(0.5 + 0.25 * (n_W + t_W * tilt.x + b_W * tilt.y), 1.0);
 }
 )"};
 }

@@ -18,6 +18,7 @@ enum TextureUnit : int {
   kUnitAlbedo = 11,
   kUnitNormal = 12,
   kUnitGroundSeen = 13,
+  kUnitSkySeen = 14,
 };
 
 struct SamplerUnit {
@@ -30,7 +31,7 @@ inline constexpr SamplerUnit kSamplerUnits[] = {
     {"ground_tile", kUnitGround},  {"row_mask", kUnitMask},          {"leaf_cards", kUnitLeaves},
     {"image", kUnitImage},         {"grid_cells", kUnitGrid},        {"land_tile", kUnitLand},
     {"field_table", kUnitFields},  {"frame_depth", kUnitDepth},      {"frame_albedo", kUnitAlbedo},
-    {"frame_normal", kUnitNormal}, {"ground_seen", kUnitGroundSeen},
+    {"frame_normal", kUnitNormal}, {"ground_seen", kUnitGroundSeen}, {"sky_seen", kUnitSkySeen},
 };
 
 }  // namespace vinerow::render

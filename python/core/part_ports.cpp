@@ -9,6 +9,7 @@
 #include "engine/api/vehicle.h"
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
+#include "python/core/arguments.h"
 #include "python/core/usage_error.h"
 
 namespace vinerow::python {
@@ -118,16 +119,29 @@ void bind_part_ports(py::module_& module) {
       .def_property_readonly("stamp_s", &PartReader::stamp_s, "Time of the value, s.")
       .def_property_readonly("value", &PartReader::value, "A vinerow.Message of copies.")
       .def(
-          "__getitem__", &PartReader::field, py::arg("field"),
+          "__getitem__",
+          [](const PartReader& reader, const TextArgument& field) {
+            return reader.field(field.value("field"));
+          },
+          py::arg("field"),
           "A copy of one field. Raises KeyError without such a field, UsageError without a value.");
   py::class_<PartWriter>(module, "PartWriter", "A signal as a part writes it; only in its step().")
       .def("write", &PartWriter::write, py::arg("value"),
            "{name: number} for actuators, else {field: value}; fields that are absent keep their "
            "default. Raises ConfigError.");
   py::class_<PartPorts>(module, "PartPorts", "Where a part connects its signals.")
-      .def("read", &PartPorts::read, py::arg("name"), py::arg("type") = "",
-           py::arg("optional") = false)
-      .def("write", &PartPorts::write, py::arg("name"), py::arg("type") = "");
+      .def(
+          "read",
+          [](PartPorts& ports, const TextArgument& name, const TextArgument& type, bool optional) {
+            return ports.read(name.value("name"), type.value("type"), optional);
+          },
+          py::arg("name"), py::arg("type") = "", py::arg("optional") = false)
+      .def(
+          "write",
+          [](PartPorts& ports, const TextArgument& name, const TextArgument& type) {
+            return ports.write(name.value("name"), type.value("type"));
+          },
+          py::arg("name"), py::arg("type") = "");
 }
 
 }  // namespace vinerow::python

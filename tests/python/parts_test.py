@@ -212,6 +212,7 @@ class Mistakes(unittest.TestCase):
             "no_dict": r"actuators must be a dict of names and numbers, not list \(bad_parts\.py:\d+\)",
             "returns": r"step\(\) must return None, not dict; values go to a writer \(bad_parts\.py\)",
             "wrong_field": r"KeyError: .*signal 'estimate' has no field 'pos'; did you mean 'pose'\?.*\(bad_parts\.py:\d+\)",
+            "no_field": r"field must be a str, not int \(bad_parts\.py:\d+\)",
             "odd_finish": r"finished\(\) must return a bool, not str \(bad_parts\.py\)",
         }.items():
             with self.subTest(name):
@@ -230,6 +231,7 @@ class Mistakes(unittest.TestCase):
         for name, words in {
             "raises_in_init": r"rover\.controller \(raises_in_init\): ValueError: no \(bad_parts\.py:\d+\)",
             "no_signal": r"the name 'sonar_left' does not determine a message type",
+            "no_name": r"rover\.controller \(no_name\): name must be a str, not int",
             "nobody_writes": r"reads signal 'rover/estimat', which nobody writes; did you mean 'estimate'",
         }.items():
             with self.subTest(name), self.assertRaisesRegex(vinerow.ConfigError, words):

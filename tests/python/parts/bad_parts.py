@@ -104,6 +104,12 @@ class UsesTheSession(Bad):
         sys.modules["__main__"].SESSION.close()
 
 
+@bad("no_field")
+class NoField(Bad):
+    def fail(self):
+        self.estimate[0]
+
+
 @bad("keeps")
 class Keeps(Bad):
     def fail(self):
@@ -132,6 +138,12 @@ class StartsThreads(Bad):
 class NoSignal(Bad):
     def connect(self, ports):
         ports.read("sonar_left")
+
+
+@bad("no_name")
+class NoName(Bad):
+    def connect(self, ports):
+        ports.read(1)
 
 
 @bad("nobody_writes")

@@ -86,7 +86,8 @@ std::string sentence_of(const CriterionResult& criterion) {
                        why_not_measured(criterion.metric));
   }
   if (std::isinf(criterion.value)) return fmt::format("{} = infinite {}", criterion.metric, limit);
-  return fmt::format("{} = {:.6g} {}", criterion.metric, criterion.value, limit);
+  // -0.0 + 0.0 is 0.0: a zero has no sign.
+  return fmt::format("{} = {:.6g} {}", criterion.metric, criterion.value + 0.0, limit);
 }
 
 std::vector<CriterionResult> judge(

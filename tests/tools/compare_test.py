@@ -64,6 +64,7 @@ class Compare(unittest.TestCase):
         text = self.compare(a, b).stdout
         line = next(line for line in text.splitlines() if line.startswith("rover.error_m"))
         self.assertEqual(line.split(), ["rover.error_m", "0.25", "0.5", "+0.25", "+100.0", "%"])
+        self.assertRegex(self.compare(a, self.run_folder("zero", self.changed(error_m=-0.0))).stdout, r"rover\.error_m +0\.25 +0 +-0\.25")
         self.assertIn("2 of 5 metrics differ", text)
         self.assertNotIn("rover.distance_m", text)
         self.assertIn("rover.distance_m", self.compare(a, b, "--all").stdout)

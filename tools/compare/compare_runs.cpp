@@ -112,7 +112,7 @@ bool differ(double a, double b, double tolerance) {
 }
 
 std::string number_text(double value) {
-  return std::isnan(value) ? "-" : fmt::format("{:.6g}", value);
+  return std::isnan(value) ? "-" : fmt::format("{:.6g}", value + 0.0);  // no sign of a zero
 }
 
 std::string change_text(double from, double to) {

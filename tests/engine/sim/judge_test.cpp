@@ -34,6 +34,8 @@ TEST(Judge, LimitsAreInclusiveAndWhatWasNotMeasuredFails) {
   EXPECT_FALSE(verdicts[3].met) << "not measured is not enough";
   EXPECT_TRUE(verdicts[4].met);
   EXPECT_EQ(sentence_of(verdicts[1]), "rover.a_m = 1 (at least 1.5)");
+  const auto zero = judge({criterion("rover.a_m", 0.0, {})}, {{"rover", {{"a_m", -0.0}}}});
+  EXPECT_EQ(sentence_of(zero[0]), "rover.a_m = 0 (at least 0)");
 }
 
 TEST(Judge, UnknownMetricsAreRefusedWithTheNearest) {

@@ -20,8 +20,8 @@ struct SeenMark {
 
 class FrameTarget {
  public:
-  /// The sky changes little over so many pixels: its clouds come from a texture whose pixels are
-  /// larger.
+  /// Along a side of a square of pixels over which the sky changes little: its clouds come from a
+  /// texture whose pixels are larger.
   static constexpr int kSkyPixels = 4;
 
   explicit FrameTarget(const Gl& gl) : gl_(gl) {}

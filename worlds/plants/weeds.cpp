@@ -118,8 +118,8 @@ class WeedGrower {
     const Vector3f colour = shaded(kRosetteLeaf, random_);
     const int leaves = 7 + static_cast<int>(random_.uniform() * 8.0);
     for (int i = 0; i < leaves; ++i) {
-      const Vector3d along = direction_at(kGoldenAngle_rad * i + random_.uniform(-0.2, 0.2),
-                                          rad_from_deg(random_.uniform(5.0, 40.0)));
+      const double bearing = kGoldenAngle_rad * i + random_.uniform(-0.2, 0.2);
+      const Vector3d along = direction_at(bearing, rad_from_deg(random_.uniform(5.0, 40.0)));
       const double length_m = height_m_ * random_.uniform(0.5, 0.9);
       if (i % fewer() != 0) continue;
       add_leaf(LeafKind::kOlive, root_W_ + 0.01 * Vector3d::UnitZ(), along, length_m, colour);
@@ -128,9 +128,9 @@ class WeedGrower {
 
   void grow_herb() {
     const Vector3f colour = shaded(kHerbLeaf, random_);
-    const Vector3d top_W =
-        root_W_ + height_m_ * direction_at(random_.uniform(0.0, 2.0 * kPi),
-                                           rad_from_deg(random_.uniform(70.0, 90.0)));
+    const double bearing = random_.uniform(0.0, 2.0 * kPi);
+    const double lean_rad = rad_from_deg(random_.uniform(0.0, 20.0));
+    const Vector3d top_W = root_W_ + height_m_ * direction_at(bearing, 0.5 * kPi - lean_rad);
     const double radius_m = std::clamp(0.012 * height_m_, 0.001, 0.004);
     const std::array<TubePoint, 2> stem = {{{root_W_, radius_m}, {top_W, 0.4 * radius_m}}};
     append_tube(mesh_, stem, 3, kHerbStem);

@@ -61,6 +61,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 struct MeshRays::Impl {
   /// Embree's ray starts at the bounds of the meshes, so that a distant start costs no digits in
   /// single precision. @returns false if the ray misses them
+  // Called for each ray, as hit_of(): out of line both take 0.05 of a scan's time.
   VINEROW_ALWAYS_INLINE bool begin(const SceneRay& ray, RayLane& lane) const {
     if (placed.empty() || !ray.p_W.allFinite() || !ray.dir_W.allFinite() ||
         !(ray.max_distance_m >= 0.0)) {

@@ -4,7 +4,7 @@
 ///
 /// Embree searches a tree of slightly enlarged boxes in single precision and returns every triangle
 /// whose box the ray may meet. `TriangleRay` decides in double precision, from the triangle's own
-/// vertices. The hit therefore does not depend on Embree's code, which differs between processors,
+/// vertices; of rays that go together `PacketRays` rules most out before. The hit therefore does not depend on Embree's code, which differs between processors,
 /// and a parcel hundreds of metres wide costs no accuracy. A mesh with several instances is stored
 /// once. A mesh that moves is an instance too.
 ///

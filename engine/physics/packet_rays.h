@@ -3,23 +3,18 @@
 /// in double precision. Most rays that meet the box of a leaf miss the leaf.
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#if defined(__x86_64__)
-#include <emmintrin.h>
-#endif
 
 #include "engine/physics/triangle_blocks.h"
-#include "engine/physics/vector4.h"
+#include "engine/physics/vector8.h"
 
 namespace vinerow::physics {
 
 /// Rays that Embree follows together.
 constexpr std::size_t kPacket = 8;
-
-typedef float Float8 __attribute__((vector_size(32)));
-typedef std::int32_t Mask8 __attribute__((vector_size(32)));  ///< all bits of an element, or none
 
 /// The rays of a packet, and the same in the frame of a mesh.
 ///
@@ -76,7 +71,7 @@ class PacketRays {
     load8(slope_y_, y);
     const Mask8 is_fit =
         (x <= kMostSlope) & (x >= -kMostSlope) & (y <= kMostSlope) & (y >= -kMostSlope);
-    unfit_ = ~bits(is_fit);
+    unfit_ = ~bits_of(is_fit);
   }
 
   /// Bit i: ray i may meet a triangle of the block. None is left out that TriangleRay finds to meet
@@ -103,32 +98,10 @@ class PacketRays {
       const Float8 low = u < vw_low ? u : vw_low, high = u > vw_high ? u : vw_high;
       misses_all &= (low < -block.area_error) & (high > block.area_error);
     }
-    return ~bits(misses_all) | unfit_;
-  }
-
-  /// Bit i: number i of eight is not zero.
-  VINEROW_ALWAYS_INLINE static unsigned bits_of_eight(const int* numbers) {
-    Mask8 values;
-    __builtin_memcpy(&values, numbers, sizeof values);
-    return bits(values != 0);
+    return ~bits_of(misses_all) | unfit_;
   }
 
  private:
-  VINEROW_ALWAYS_INLINE static void load8(const float (&from)[kPacket], Float8& to) {
-    __builtin_memcpy(&to, from, sizeof to);
-  }
-  VINEROW_ALWAYS_INLINE static unsigned bits(const Mask8& mask) {
-#if defined(__x86_64__)
-    __m128 low, high;
-    __builtin_memcpy(&low, &mask, sizeof low);
-    __builtin_memcpy(&high, reinterpret_cast<const char*>(&mask) + sizeof low, sizeof high);
-    return static_cast<unsigned>(_mm_movemask_ps(low) | (_mm_movemask_ps(high) << 4));
-#else
-    unsigned result = 0;
-    for (unsigned i = 0; i < kPacket; ++i) result |= static_cast<unsigned>(mask[i] & 1) << i;
-    return result;
-#endif
-  }
   VINEROW_ALWAYS_INLINE void choose_axes(const Eigen::Vector3d& dir_M) {
     const double x = std::abs(dir_M.x()), y = std::abs(dir_M.y()), z = std::abs(dir_M.z());
     z_ = x >= y && x >= z ? 0 : (y >= z ? 1 : 2);

@@ -39,8 +39,8 @@ struct UrdfRoverModel {
   std::vector<UrdfWheel> wheels;             ///< left ones first, each side from front to rear
   std::vector<physics::PlacedShape> shapes;  ///< of the body, without wheels
   Eigen::AlignedBox3d bounds_B;              ///< of body and wheels
-  std::vector<VehicleLink>
-      links;  ///< "body", the wheels in their order, drawn knuckles of those that steer
+  /// "body", the wheels in their order, drawn knuckles of those that steer.
+  std::vector<VehicleLink> links;
   std::vector<std::size_t> knuckles;  ///< wheels of the last links
   double track_m = 0.0;
   double wheel_base_m = 0.0;

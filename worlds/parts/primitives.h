@@ -12,6 +12,9 @@
 
 namespace vinerow::worlds {
 
+/// 137.5 degrees: leaves, berries and tufts that follow each other by it spread evenly around.
+constexpr double kGoldenAngle_rad = 2.399963229728653;
+
 /// Ring of a tube.
 struct TubePoint {
   Eigen::Vector3d p;

@@ -10,6 +10,7 @@
 #include "worlds/parts/foliage.h"
 #include "worlds/parts/leaf_area.h"
 #include "worlds/parts/primitives.h"
+#include "worlds/plants/plant_instance.h"
 
 namespace vinerow::worlds {
 namespace {
@@ -123,14 +124,8 @@ void plant_tree_row(WorldModel& world, int row_number, const mapping::RowCurve& 
 
     const auto add = [&](const char* what, SurfaceClass surface,
                          const std::shared_ptr<const TriangleMesh>& mesh) -> MeshInstance& {
-      MeshInstance instance;
-      instance.name = fmt::format("{}/{}", what, tree);
-      instance.mesh = mesh;
-      instance.X_WM = X_WT;
-      instance.surface = surface;
-      instance.material.name = to_string(surface);
-      instance.material.colour = {1.0f, 1.0f, 1.0f};
-      world.meshes.push_back(std::move(instance));
+      world.meshes.push_back(plant_instance(fmt::format("{}/{}", what, tree), mesh, surface));
+      world.meshes.back().X_WM = X_WT;
       return world.meshes.back();
     };
     const CrownSpace space{crown.centre, crown.half_axes_m};

@@ -31,7 +31,7 @@ void append_bunch(TriangleMesh& mesh, const BunchOrgan& bunch, int level) {
   for (int i = 0; i < berries; ++i) {
     const double t = (i + 0.5) / berries;
     const double rim = half_m * std::pow(1.0 - 0.85 * t, 0.8) * std::min(1.0, 0.45 + 4.0 * t);
-    const double angle = 2.399963229728653 * i + 0.5 * random.uniform();
+    const double angle = kGoldenAngle_rad * i + 0.5 * random.uniform();
     const double out_m = rim * (0.55 + 0.45 * random.uniform());
     const Vector3d centre = bunch.stalk + (0.1 + 0.9 * t) * bunch.length_m * bunch.axis +
                             out_m * (std::cos(angle) * u + std::sin(angle) * v);

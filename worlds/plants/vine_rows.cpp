@@ -11,6 +11,7 @@
 #include "worlds/parts/foliage.h"
 #include "worlds/parts/leaf_area.h"
 #include "worlds/plants/leaf_outline.h"
+#include "worlds/plants/plant_instance.h"
 #include "worlds/plants/vine_meshes.h"
 
 namespace vinerow::worlds {
@@ -80,17 +81,6 @@ std::vector<Chunk> cut_bent_run(const VineRow& row, const Run& run, double chunk
   return chunks;
 }
 
-MeshInstance make_instance(std::string name, std::shared_ptr<const TriangleMesh> mesh,
-                           SurfaceClass surface) {
-  MeshInstance instance;
-  instance.name = std::move(name);
-  instance.mesh = std::move(mesh);
-  instance.surface = surface;
-  instance.material.name = to_string(surface);
-  instance.material.colour = {1.0f, 1.0f, 1.0f};  // the vertices' colours count
-  return instance;
-}
-
 class Planter {
  public:
   Planter(WorldModel& world, const mapping::GroundHeight& ground, const VinePlanting& planting,
@@ -142,7 +132,7 @@ class Planter {
   void add_hull(const VineRow& row, const std::string& row_name, int number,
                 const std::vector<CanopyStretch>& stretches) {
     const std::string name = fmt::format("canopy_hull/{}/run_{}", row_name, number);
-    MeshInstance hull = make_instance(
+    MeshInstance hull = plant_instance(
         name,
         store_.get(
             name,
@@ -177,10 +167,10 @@ class Planter {
       if (list.empty()) return;
       for (int level = 0; level < 3; ++level) {
         MeshInstance instance =
-            make_instance(fmt::format("{}/{}#lod{}", what, chunk_name, level),
-                          store_.get(fmt::format("{}/{}#lod{}", what, shape_key, level),
-                                     [&] { return make(list, level); }),
-                          SurfaceClass::kCanopy);
+            plant_instance(fmt::format("{}/{}#lod{}", what, chunk_name, level),
+                           store_.get(fmt::format("{}/{}#lod{}", what, shape_key, level),
+                                      [&] { return make(list, level); }),
+                           SurfaceClass::kCanopy);
         instance.X_WM = X_WM;
         instance.label = label;
         instance.collides = false;
@@ -203,8 +193,8 @@ class Planter {
                                  vine_foliage_detail(planting_.leaf_cards_per_m, level),
                                  random(mesh_name));
       });
-      MeshInstance leaves = make_instance(fmt::format("canopy/{}#lod{}", chunk_name, level), mesh,
-                                          SurfaceClass::kCanopy);
+      MeshInstance leaves = plant_instance(fmt::format("canopy/{}#lod{}", chunk_name, level), mesh,
+                                           SurfaceClass::kCanopy);
       leaves.X_WM = X_WM;
       leaves.material = leaf_material();
       leaves.collides = false;
@@ -218,7 +208,7 @@ class Planter {
     const std::vector<double> vines(first, first + static_cast<std::ptrdiff_t>(chunk.vine_count));
     for (int level = 0; level < 2; ++level) {
       const std::string name = fmt::format("trunk/{}#lod{}", chunk_name, level);
-      MeshInstance trunks = make_instance(
+      MeshInstance trunks = plant_instance(
           name,
           store_.get(name,
                      [&] {
@@ -236,7 +226,7 @@ class Planter {
     const double start_m = row.post_s_m.front(), end_m = row.post_s_m.back();
     const std::vector<double> between(row.post_s_m.begin() + 1, row.post_s_m.end() - 1);
     const auto add = [&](const std::string& name, SurfaceClass surface, auto make) {
-      world_.meshes.push_back(make_instance(name, store_.get(name, make), surface));
+      world_.meshes.push_back(plant_instance(name, store_.get(name, make), surface));
     };
     const TrellisParams& trellis = planting_.trellis;
     add("end_post/" + row_name, SurfaceClass::kPost,

@@ -14,6 +14,7 @@
 #include "engine/math/angles.h"
 #include "worlds/parts/primitives.h"
 #include "worlds/plants/leaf_mesh.h"
+#include "worlds/plants/plant_instance.h"
 
 namespace vinerow::worlds {
 namespace {
@@ -25,7 +26,6 @@ using Eigen::Vector3f;
 const Vector3f kGrassBlade(0.10f, 0.17f, 0.05f), kRosetteLeaf(0.05f, 0.13f, 0.03f);
 const Vector3f kHerbLeaf(0.09f, 0.16f, 0.07f), kHerbStem(0.13f, 0.19f, 0.07f);
 
-constexpr double kGoldenAngle_rad = 2.399963229728653;
 /// A level keeps every first, second or sixth leaf, with the area of those that it stands for.
 constexpr int kFewerLeaves[] = {1, 2, 6};
 
@@ -39,7 +39,9 @@ Vector3f shaded(const Vector3f& colour, RandomStream& random) {
   return static_cast<float>(random.uniform(0.75, 1.25)) * colour;
 }
 
-/// A plant that grows into a mesh. Every level draws the same numbers.
+/// A plant that grows into a mesh. Every level draws the same numbers, also for leaves that it
+/// leaves out: the others keep their places. Leaves go round by the golden angle. Shapes are
+/// chosen.
 class WeedGrower {
  public:
   WeedGrower(TriangleMesh& mesh, const Weed& weed, int level)
@@ -102,6 +104,7 @@ class WeedGrower {
     mesh_.triangles.push_back({first + 3, first + 2, first + 4});
   }
 
+  /// The upper face looks up.
   void add_leaf(LeafKind kind, const Vector3d& junction_W, const Vector3d& along, double length_m,
                 const Vector3f& colour) {
     LeafOrgan leaf;
@@ -171,6 +174,7 @@ const ParameterTable<WeedParams>& weed_table() {
 std::vector<Weed> place_weeds(const mapping::RowCurve& row, const mapping::GroundHeight& ground,
                               double start_m, double end_m, const WeedParams& params,
                               RandomStream random) {
+  // Rounded up as often as makes the mean right.
   const double expected = params.per_m2 * params.strip_width_m * (end_m - start_m);
   const int count = static_cast<int>(expected + random.uniform());
   std::vector<Weed> weeds;
@@ -196,7 +200,7 @@ TriangleMesh make_weed_mesh(std::span<const Weed> weeds, int level) {
 }
 
 void check_weeds(std::span<const mapping::RowCurve> rows, const WeedParams& params) {
-  constexpr double kMost = 300'000.0;  // some 2 GB
+  constexpr double kMost = 300'000.0;  // 3 GB with the trees of rays
   double length_m = 0.0;
   for (const mapping::RowCurve& row : rows) length_m += row.length_m();
   const double count = length_m * params.strip_width_m * params.per_m2;
@@ -221,12 +225,10 @@ void plant_weeds(WorldModel& world, std::span<const mapping::RowCurve> rows,
                       RandomStream(seed, "", "world.plants." + chunk_name));
       if (weeds.empty()) continue;
       for (int level = 0; level < 3; ++level) {
-        MeshInstance instance;
-        instance.name = fmt::format("{}#lod{}", chunk_name, level);
-        instance.mesh = store.get(instance.name, [&] { return make_weed_mesh(weeds, level); });
-        instance.surface = SurfaceClass::kCanopy;
-        instance.material.name = "weed";
-        instance.material.colour = {1.0f, 1.0f, 1.0f};  // the vertices' colours count
+        const std::string name = fmt::format("{}#lod{}", chunk_name, level);
+        MeshInstance instance =
+            plant_instance(name, store.get(name, [&] { return make_weed_mesh(weeds, level); }),
+                           SurfaceClass::kCanopy);
         instance.label = Label::kWeed;
         instance.collides = false;
         if (level > 0) instance.light = Light::kPasses;

@@ -125,7 +125,7 @@ TEST(PacketRays, ThoseAcrossTheFirstAreNear) {
 
 TEST(PacketRays, EightNumbersAsBits) {
   const int numbers[8] = {-1, 0, 0, 1, -1, 0, 0, 7};
-  EXPECT_EQ(PacketRays::bits_of_eight(numbers), 0b10011001U);
+  EXPECT_EQ(bits_of_eight(numbers), 0b10011001U);
 }
 
 }  // namespace

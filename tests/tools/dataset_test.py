@@ -499,6 +499,8 @@ class OtherSets(InAFolder):
                 # A record of how a net was trained; its guide says that the plants are the same.
                 self.assertEqual(study["set"]["world.plant_seed"], 1)
                 continue
+            if file.stem == "weed_dataset":
+                study["set"]["world.weeds.per_m2"] = 8
             study = {**study, "scenario": str(folder / study["scenario"]), "factors": {},
                      "dataset": {**study["dataset"], "pictures": 1}}
             out, rows, card = self.make(study)
@@ -511,6 +513,9 @@ class OtherSets(InAFolder):
                         self.assertGreater(is_thing.mean(), 0.02)
                         self.assertLess(numpy.mean((a == b).all(axis=-1)[is_thing]), 0.5)
             self.assertIn("No two parts show the same plants.", card)
+            listed = COCO(out / "annotations" / "instances_train.json")
+            for category in listed.getCatIds():
+                self.assertGreater(len(listed.getAnnIds(catIds=[category])), 2, file.name)
             shutil.rmtree(out)
 
     def test_labels_do_not_see_the_errors_of_depth(self):

@@ -59,6 +59,41 @@ TEST(Renderer, AnEmptyWorldShowsTheSky) {
   EXPECT_GT(zenith[2], zenith[0]);  // blue
 }
 
+/// Colours of the sky are computed at few pixels, the sun's disc at each: both are where the
+/// pinhole model puts the sun, with every pattern of samples.
+TEST(Renderer, TheSunAndItsGlowAreInTheSunsDirection) {
+  WorldModel world = western_light();
+  world.daylight.cloud_cover = 0.0;
+  const auto renderer = renderer_of(world);
+  ASSERT_TRUE(renderer);
+  const Eigen::Vector3d eye_W(0, 0, 2);
+  const double up = world.daylight.sun_elevation_rad;
+  const Eigen::Vector3d sun_W(-std::cos(up), 0.0, std::sin(up));
+  for (const int samples : {1, 2, 4}) {
+    // The sun in the left upper quarter.
+    const Eigen::Vector3d ahead_W = sun_W + Eigen::Vector3d(0.0, 0.12, -0.12);
+    Frame frame = small_frame(look_at(eye_W, eye_W + ahead_W, 0.6), 401, 302);
+    frame.samples = samples;
+    const Image image = renderer->draw(frame);
+    Eigen::Vector2d sun_px;
+    ASSERT_TRUE(project(frame.camera, 401, 302, eye_W + 1e6 * sun_W, sun_px));
+    double weight = 0.0;
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    for (int y = 0; y < 302; ++y) {
+      for (int x = 0; x < 401; ++x) {
+        const double bright = std::max(0, test::pixel(image, x, y)[0] - 200);
+        weight += bright;
+        sum += bright * Eigen::Vector2d(x + 0.5, y + 0.5);
+      }
+    }
+    ASSERT_GT(weight, 0.0);
+    EXPECT_LT((sum / weight - sun_px).norm(), 0.6) << samples;
+    EXPECT_GE(test::pixel(image, static_cast<int>(sun_px.x()), static_cast<int>(sun_px.y()))[2],
+              250)
+        << samples;
+  }
+}
+
 TEST(Renderer, RefusesSizesThatNoPictureHas) {
   const auto renderer = renderer_of(WorldModel{});
   ASSERT_TRUE(renderer);

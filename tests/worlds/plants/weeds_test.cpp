@@ -35,16 +35,19 @@ double area_of(const TriangleMesh& mesh) {
 
 TEST(Weeds, StandOnTheStripAsDenselyAsAsked) {
   const mapping::RowCurve row({Vector2d(5, -3), Vector2d(17, 6)});  // 15 m
-  const Vector2d left(-0.6, 0.8);
+  const Vector2d along(0.8, 0.6), left(-0.6, 0.8);
   const WeedParams params{.per_m2 = 5.3, .height_m = 0.2, .strip_width_m = 0.9};
   constexpr int kSeeds = 400;
-  double count = 0.0, sum_left_m = 0.0, sum_height_m = 0.0;
+  double count = 0.0, sum_s_m = 0.0, sum_left_m = 0.0, sum_height_m = 0.0;
   for (int seed = 1; seed <= kSeeds; ++seed) {
     for (const Weed& weed : weeds_of(row, params, static_cast<std::uint64_t>(seed))) {
       const Vector2d from_start = weed.root_W.head<2>() - Vector2d(5, -3);
       const double left_m = from_start.dot(left);
       ASSERT_LE(std::abs(left_m), 0.45 + 1e-9);
-      ASSERT_GE(from_start.norm(), 0.0);
+      const double s_m = from_start.dot(along);
+      ASSERT_GE(s_m, -1e-9);
+      ASSERT_LE(s_m, 15.0 + 1e-9);
+      sum_s_m += s_m;
       ASSERT_NEAR(weed.root_W.z(), slope(weed.root_W.x(), weed.root_W.y()), 1e-12);
       ASSERT_GE(weed.height_m, 0.08);
       ASSERT_LE(weed.height_m, 0.32);
@@ -56,6 +59,7 @@ TEST(Weeds, StandOnTheStripAsDenselyAsAsked) {
   // Of 71.55 plants a seed gives 71 or 72.
   EXPECT_NEAR(count / kSeeds, 5.3 * 0.9 * 15.0, 4.0 * 0.5 / std::sqrt(kSeeds));
   // Uniform distributions: their widths over sqrt(12).
+  EXPECT_NEAR(sum_s_m / count, 7.5, 4.0 * 15.0 / std::sqrt(12.0 * count));
   EXPECT_NEAR(sum_left_m / count, 0.0, 4.0 * 0.9 / std::sqrt(12.0 * count));
   EXPECT_NEAR(sum_height_m / count, 0.2, 4.0 * 0.24 / std::sqrt(12.0 * count));
 }
@@ -73,6 +77,13 @@ TEST(Weeds, EachIsAThingOfItsHeightAboveItsRoot) {
     EXPECT_LT(box.max().z(), 20.0 + 1.3 * 0.3);
     EXPECT_GT(box.max().z(), 20.0 + 0.1 * 0.3);
     EXPECT_LT((box.center() - weed.root_W).head<2>().norm(), 0.3);
+    // Upper faces look up, whatever the way round of their triangles. Stems look to the side.
+    float up = 0.0f;
+    for (const Eigen::Vector3f& normal : mesh.normals) {
+      EXPECT_NEAR(normal.norm(), 1.0f, 1e-4f);
+      up += normal.z();
+    }
+    EXPECT_GT(up / static_cast<float>(mesh.normals.size()), 0.2f);
     high += box.max().z() > 20.0 + 0.9 * 0.3;
   }
   EXPECT_GT(high, 40) << "upright ones";

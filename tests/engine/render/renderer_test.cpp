@@ -539,12 +539,13 @@ TEST(Renderer, ImageTexturesStandUpright) {
   }
 }
 
-TEST(Renderer, LeafCardsAreSeenThroughBetweenTheLeaves) {
+/// A card of leaves 1 m away, whose canopy faces along `normal`, before a red wall.
+Image draw_leaves(const Eigen::Vector3f& normal) {
   WorldModel world = western_light();
   auto card = std::make_shared<TriangleMesh>();
   for (const auto& [u, v] : {std::pair{0.f, 0.f}, {1.f, 0.f}, {1.f, 1.f}, {0.f, 1.f}}) {
     card->vertices.emplace_back(0.0f, 0.2f - 0.4f * u, 0.4f * v);
-    card->normals.emplace_back(-1.0f, 0.0f, 0.0f);
+    card->normals.push_back(normal);
     card->uvs.emplace_back(u, v);
   }
   card->triangles = {{0, 1, 2}, {0, 2, 3}};
@@ -553,19 +554,42 @@ TEST(Renderer, LeafCardsAreSeenThroughBetweenTheLeaves) {
   leaves.material.texture = "builtin:vine_leaf";
   world.meshes = {leaves, make_instance("wall", make_box({0.1f, 2, 2}), {3, 0, 1}, kRed)};
   const auto renderer = renderer_of(world);
-  ASSERT_TRUE(renderer);
-  const Image image = renderer->draw(small_frame(look_at({0, 0, 1}, {5, 0, 1}, 0.3)));
-  int green = 0;
-  int red = 0;
-  for (int y = 60; y < 180; ++y) {
+  return renderer ? renderer->draw(small_frame(look_at({0, 0, 1}, {5, 0, 1}, 0.3))) : Image{};
+}
+
+/// Of the middle of draw_leaves().
+struct SeenLeaves {
+  int green = 0, red = 0;    ///< pixels
+  double green_level = 0.0;  ///< mean of the green ones
+};
+SeenLeaves see_leaves(const Eigen::Vector3f& normal) {
+  const Image image = draw_leaves(normal);
+  SeenLeaves seen;
+  for (int y = 60; y < 180 && !image.rgb.empty(); ++y) {
     for (int x = 100; x < 220; ++x) {
       const Eigen::Vector3i p = test::pixel(image, x, y);
-      if (is_red(p)) ++red;
-      if (p[1] > p[0] && p[1] > p[2]) ++green;
+      if (is_red(p)) ++seen.red;
+      if (p[1] <= p[0] || p[1] <= p[2]) continue;
+      ++seen.green;
+      seen.green_level += p[1];
     }
   }
-  EXPECT_GT(green, 5000);  // of 14400
-  EXPECT_GT(red, 300);
+  seen.green_level /= seen.green;
+  return seen;
+}
+
+TEST(Renderer, LeafCardsAreSeenThroughBetweenTheLeaves) {
+  const SeenLeaves seen = see_leaves(-Eigen::Vector3f::UnitX());
+  EXPECT_GT(seen.green, 5000);  // of 14400
+  EXPECT_GT(seen.red, 300);
+}
+
+/// Leaves that face the sun reflect its light. Those that face away let about a third through: by
+/// leaf_light() 0.86 and 0.37 of it, to which sky and ground add.
+TEST(Renderer, LeavesTowardsTheSunAreBrighter) {
+  const double towards = see_leaves(-Eigen::Vector3f::UnitX()).green_level;
+  EXPECT_GT(towards, 1.15 * see_leaves(Eigen::Vector3f::UnitY()).green_level);
+  EXPECT_GT(towards, 1.15 * see_leaves(Eigen::Vector3f::UnitX()).green_level);
 }
 
 TEST(Renderer, LeavesAreLitInTheWholePicture) {

@@ -80,6 +80,8 @@ class CollisionWorld::Dispatcher : public btCollisionDispatcher {
     return manifold;
   }
   double breaking_threshold_m() const { return breaking_threshold_m_; }
+  /// Takes the body's new pose: once per step, before its pairs.
+  void follow(const btRigidBody& body) { mesh_gate_.follow(body); }
 
  private:
   /// Bullet's near callback with this file's result class.
@@ -183,6 +185,7 @@ void CollisionWorld::forget_contacts(btRigidBody& body) {
 
 bool CollisionWorld::find_contacts() {
   for (btRigidBody* body : bodies_) {
+    dispatcher_->follow(*body);
     btVector3 low, high;
     body->getCollisionShape()->getAabb(body->getWorldTransform(), low, high);
     const btVector3 margin(dispatcher_->breaking_threshold_m(), dispatcher_->breaking_threshold_m(),

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <limits>
 
 namespace vinerow::physics {
@@ -104,27 +103,41 @@ double bound_motion_m(const btTransform& from, const btTransform& to, double rad
 
 }  // namespace
 
-std::size_t MeshGate::PairHash::operator()(const Pair& pair) const {
-  const std::hash<const void*> hash;
-  return hash(pair.mesh) * 31 + hash(pair.body);
+void MeshGate::follow(const btCollisionObject& body) {
+  const auto index = static_cast<std::size_t>(body.getUserIndex2());
+  if (index >= bodies_.size()) bodies_.resize(index + 1);
+  Followed& followed = bodies_[index];
+  if (followed.radius_m < 0.0) {
+    AxisBox box_B;
+    body.getCollisionShape()->getAabb(btTransform::getIdentity(), box_B.low, box_B.high);
+    btVector3 farthest = box_B.low.absolute();
+    farthest.setMax(box_B.high.absolute());
+    followed.radius_m = farthest.length();
+  } else {
+    followed.travelled_m +=
+        bound_motion_m(followed.X_WB, body.getWorldTransform(), followed.radius_m);
+  }
+  followed.X_WB = body.getWorldTransform();
 }
 
 bool MeshGate::is_clear(const btCollisionObject& mesh, const btCollisionObject& body,
                         double margin_m) {
+  Followed& followed = bodies_[static_cast<std::size_t>(body.getUserIndex2())];
+  const auto place = static_cast<std::size_t>(mesh.getWorldArrayIndex());
+  if (place >= followed.clear_until_m.size()) followed.clear_until_m.resize(place + 1, 0.0);
+  double& clear_until_m = followed.clear_until_m[place];
+  if (followed.travelled_m < clear_until_m) return true;
+
   const btCollisionShape& shape = *body.getCollisionShape();
   if (mesh.getCollisionShape()->getShapeType() != TRIANGLE_MESH_SHAPE_PROXYTYPE ||
       !(shape.isCompound() || shape.isConvex())) {
     return false;
   }
-  const btTransform& X_WB = body.getWorldTransform();
-  Search& last = searches_[{&mesh, &body}];
-  if (last.reach_m > 0.0 && bound_motion_m(last.X_WB, X_WB, last.radius_m) < last.reach_m) {
-    return true;
-  }
 
   // The tree of the mesh is searched along its own axes.
-  const double wide_m = margin_m + (last.reach_m > 0.0 ? kReach_m : kReachNearMesh_m);
+  const double wide_m = margin_m + (clear_until_m > 0.0 ? kReach_m : kReachNearMesh_m);
   const btVector3 wide(wide_m, wide_m, wide_m);
+  const btTransform& X_WB = followed.X_WB;
   const btTransform X_MB = mesh.getWorldTransform().inverse() * X_WB;
   btVector3 low_M, high_M;
   shape.getAabb(X_MB, low_M, high_M);
@@ -139,12 +152,9 @@ bool MeshGate::is_clear(const btCollisionObject& mesh, const btCollisionObject& 
   static_cast<const btBvhTriangleMeshShape*>(mesh.getCollisionShape())
       ->processAllTriangles(&nearest, low_M - wide, high_M + wide);
 
-  last.X_WB = X_WB;
-  last.reach_m = nearest.distance_m - margin_m;
-  btVector3 farthest = nearest.body_B.low.absolute();
-  farthest.setMax(nearest.body_B.high.absolute());
-  last.radius_m = farthest.length();
-  return last.reach_m > 0.0;
+  const double free_m = nearest.distance_m - margin_m;
+  clear_until_m = free_m > 0.0 ? followed.travelled_m + free_m : 0.0;
+  return free_m > 0.0;
 }
 
 }  // namespace vinerow::physics

@@ -7,7 +7,6 @@
 
 #include <btBulletCollisionCommon.h>
 
-#include <unordered_map>
 #include <vector>
 
 namespace vinerow::physics {
@@ -17,34 +16,30 @@ struct AxisBox {
   btVector3 low, high;
 };
 
-/// One per collision world. Remembers for each mesh and body how far the body may move before the
+/// One per collision world. Remembers for each body and mesh how far the body may move before the
 /// mesh must be searched again.
 class MeshGate {
  public:
+  /// Follows a body to its new pose: once per step, before its pairs are asked about.
+  /// @param body  with its index as user index 2; of a shape that never changes
+  void follow(const btCollisionObject& body);
   /// @param mesh  static, never moved; a static object of another shape is never reported as clear
-  /// @param body  of a shape that never changes, convex or compound; another is never clear
+  /// @param body  followed, convex or compound; another is never clear
   /// @param margin_m  distance to the mesh up to which the body counts as touching; always the same
   /// @returns true if no triangle is within `margin_m` of the body; false if one may be
   bool is_clear(const btCollisionObject& mesh, const btCollisionObject& body, double margin_m);
 
  private:
-  /// The result of a search of the mesh.
-  struct Search {
-    btTransform X_WB;       ///< pose of the body at the search
-    double reach_m = 0.0;   ///< distance that each point of the body may move; <= 0: none
-    double radius_m = 0.0;  ///< of the box's corners, around the body's origin
-  };
-  struct Pair {
-    const btCollisionObject* mesh;
-    const btCollisionObject* body;
-    bool operator==(const Pair&) const = default;
-  };
-  struct PairHash {
-    std::size_t operator()(const Pair& pair) const;
+  struct Followed {
+    btTransform X_WB;          ///< pose of the last step
+    double radius_m = -1.0;    ///< of its box's corners, around its origin; < 0: not yet known
+    double travelled_m = 0.0;  ///< upper bound of the path of each of its points
+    /// By the mesh's place in the collision world: length of path up to which the last search found
+    /// it clear; 0: it did not, or there was none.
+    std::vector<double> clear_until_m;
   };
 
-  /// Only looked up, never iterated: the order of addresses has no effect.
-  std::unordered_map<Pair, Search, PairHash> searches_;
+  std::vector<Followed> bodies_;   ///< by user index 2
   std::vector<AxisBox> shapes_B_;  ///< scratch: the boxes of the body's shapes, in its axes
 };
 

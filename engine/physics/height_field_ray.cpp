@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "engine/api/height_field.h"
+#include "engine/api/scene_query.h"
 #include "engine/core/constants.h"
 
 namespace vinerow::physics {
@@ -102,15 +104,32 @@ HeightFieldRay::HeightFieldRay(const HeightField& field)
   steepest_ = std::sqrt(steepest2_m2) * inverse_cell_per_m_;
 }
 
-bool HeightFieldRay::rises_above(const Walk& walk, const Vector3d& p_W,
-                                 const Vector3d& dir_W) const {
-  constexpr double kRounding = 1e-9, kRounding_m = 1e-6;
-  const double across2 = dir_W.x() * dir_W.x() + dir_W.y() * dir_W.y();
-  return walk.dlevel > 0.0 &&
-         walk.dlevel * walk.dlevel >
-             (1.0 + kRounding) * steepest_ * steepest_ * across2 + kRounding &&
-         field_.contains(p_W.x(), p_W.y()) &&
-         p_W.z() > field_.height_m(p_W.x(), p_W.y()) + kRounding_m;
+/// @returns true if a ray rises more steeply than the surface does anywhere
+bool HeightFieldRay::outclimbs(const Vector3d& dir_W) const {
+  constexpr double kRounding = 1e-9;
+  const double climb = climb_of(dir_W);
+  return climb > 0.0 &&
+         climb * climb >
+             (1.0 + kRounding) * steepest_ * steepest_ * dir_W.head<2>().squaredNorm() + kRounding;
+}
+
+/// Height of a point above the surface, less what rounding could change; negative outside the grid.
+double HeightFieldRay::gap_m(const Vector3d& p_W) const {
+  constexpr double kRounding_m = 1e-6;
+  if (!field_.contains(p_W.x(), p_W.y())) return -1.0;
+  return p_W.z() - field_.height_m(p_W.x(), p_W.y()) - kRounding_m;
+}
+
+/// Over the grid the gap shrinks by at most  (steepest across - climb)  per metre of ray, with
+/// `across` the horizontal part of its direction. Once beyond the edge, a ray does not return.
+bool HeightFieldRay::stays_above(const SceneRay& ray, Origin& origin) const {
+  if (origin.p_W != ray.p_W) origin = {ray.p_W, gap_m(ray.p_W)};
+  if (!(origin.gap_m > 0.0)) return false;
+  constexpr double kRounding = 1e-9;
+  const double left_m = origin.gap_m + ray.max_distance_m * climb_of(ray.dir_W);
+  const double steepest_m = ray.max_distance_m * steepest_;
+  return left_m > 0.0 && left_m * left_m > (1.0 + kRounding) * steepest_m * steepest_m *
+                                               ray.dir_W.head<2>().squaredNorm();
 }
 
 /// Limits the ray to its section between two heights above the plane. Before it the side is
@@ -130,6 +149,29 @@ bool HeightFieldRay::clip(Walk& walk, double low_m, double high_m, double& t0, d
   }
   t1 = std::min(t1, std::max(at_low, at_high));
   return t0 <= t1;
+}
+
+/// Limits a ray that falls more steeply than the surface does anywhere. Its D shrinks by
+/// fall - steepest across  to  fall + steepest across  per metre, with `across` the horizontal part
+/// of its direction: D at its end bounds how long ago it was 0.
+/// @pre the ray is over the grid. @returns false if nothing is left
+bool HeightFieldRay::clip_dive(Walk& walk, const Vector3d& p_W, const Vector3d& dir_W, double& t0,
+                               double& t1) const {
+  constexpr double kSlowest = 0.4;  // chosen: below it what is left is too long to save anything
+  constexpr double kRounding_m = 1e-6, kMargin_m = 1e-3;
+  const double across = steepest_ * dir_W.head<2>().norm();
+  const double slow = -walk.dlevel - across, fast = -walk.dlevel + across;
+  if (!(slow > kSlowest)) return true;
+  const Vector3d end_W = p_W + t1 * dir_W;
+  const double below_m = field_.height_m(end_W.x(), end_W.y()) - end_W.z();
+  if (below_m < -kRounding_m) return false;
+  const double enter = t1 - (below_m + kMargin_m) / slow;
+  if (enter > t0) {
+    walk.side = 1;
+    t0 = enter;
+  }
+  t1 -= std::max(0.0, below_m - kMargin_m) / fast;
+  return true;
 }
 
 /// Limits the ray to where it is as high as some ground under it. What is left covers less ground,
@@ -261,7 +303,7 @@ std::optional<HeightFieldRay::Hit> HeightFieldRay::cast(const Vector3d& p_W, con
   walk.z = p_W.z();
   walk.dz = dir_W.z();
   walk.level = walk.z - (tilt_m_.x() * walk.g[0] + tilt_m_.y() * walk.g[1]);
-  walk.dlevel = walk.dz - (tilt_m_.x() * walk.d[0] + tilt_m_.y() * walk.d[1]);
+  walk.dlevel = climb_of(dir_W);
 
   // Non-finite, or far beyond any grid: no hit, and the cell index could overflow.
   constexpr double kFarAway = 1e9;
@@ -269,22 +311,23 @@ std::optional<HeightFieldRay::Hit> HeightFieldRay::cast(const Vector3d& p_W, con
         std::abs(walk.z) < kFarAway && dir_W.squaredNorm() < 2.0 && max_distance_m >= 0.0)) {
     return std::nullopt;
   }
-  if (rises_above(walk, p_W, dir_W)) return std::nullopt;
+  if (outclimbs(dir_W) && gap_m(p_W) > 0.0) return std::nullopt;
   // Neither a short ray over the inside of one cell, such as most of a wheel's, nor one that ends
   // above all ground near it needs clipping or traversal, whose divisions would take most of its
   // time.
+  double t0 = 0.0;
+  double t1 = max_distance_m;
   if (const std::optional<Span> span = span_of(walk, max_distance_m)) {
     if (span->is_one_cell()) {
       return cross_cell(walk, span->i0, span->j0, 0.0, max_distance_m) ? hit_of(walk, dir_W)
                                                                        : std::optional<Hit>();
     }
     if (is_above(walk, *span, max_distance_m)) return std::nullopt;
+    if (!clip_dive(walk, p_W, dir_W, t0, t1)) return std::nullopt;
   }
   walk.per_dlevel = 1.0 / walk.dlevel;
 
   // Section of the ray over the grid.
-  double t0 = 0.0;
-  double t1 = max_distance_m;
   const double extent[2] = {field_.columns - 1.0, field_.rows - 1.0};
   for (int axis = 0; axis < 2; ++axis) {
     if (walk.d[axis] == 0.0) {
@@ -312,14 +355,18 @@ std::optional<HeightFieldRay::Hit> HeightFieldRay::cast(const Vector3d& p_W, con
   if (i == cell_of(0, t1, field_.columns - 2) && j == cell_of(1, t1, field_.rows - 2)) {
     found = cross_cell(walk, i, j, t0, t1);
   } else {
-    if (!clip_to_ground(walk, t0, t1)) return std::nullopt;
-    const auto [i0, i1] =
-        std::minmax({cell_of(0, t0, field_.columns - 2), cell_of(0, t1, field_.columns - 2)});
-    const auto [j0, j1] =
-        std::minmax({cell_of(1, t0, field_.rows - 2), cell_of(1, t1, field_.rows - 2)});
     // A few cells are searched one by one: squares would only add to them.
     constexpr int kFewCells = 4;
-    if (i1 - i0 < kFewCells && j1 - j0 < kFewCells) {
+    int i0, i1, j0, j1;
+    const auto are_few = [&] {
+      std::tie(i0, i1) =
+          std::minmax({cell_of(0, t0, field_.columns - 2), cell_of(0, t1, field_.columns - 2)});
+      std::tie(j0, j1) =
+          std::minmax({cell_of(1, t0, field_.rows - 2), cell_of(1, t1, field_.rows - 2)});
+      return i1 - i0 < kFewCells && j1 - j0 < kFewCells;
+    };
+    if (!are_few() && !clip_to_ground(walk, t0, t1)) return std::nullopt;
+    if (are_few()) {
       const int corner[2] = {i0, j0}, end[2] = {i1 + 1, j1 + 1};
       found =
           cross_squares(walk, 1, corner, end, t0, t1, [&](int ci, int cj, double from, double to) {

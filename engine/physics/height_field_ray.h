@@ -11,10 +11,15 @@
 /// than heights. Both sides of the surface are hit; the surface ends at the grid's edge.
 
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
 
 #include "engine/api/forward.h"
 #include "engine/physics/height_ranges.h"
+
+namespace vinerow {
+struct SceneRay;
+}
 
 namespace vinerow::physics {
 
@@ -30,6 +35,14 @@ class HeightFieldRay {
   /// First crossing within max_distance_m. @param dir_W unit. No heap, thread safe.
   std::optional<Hit> cast(const Eigen::Vector3d& p_W, const Eigen::Vector3d& dir_W,
                           double max_distance_m) const;
+  /// Where a ray starts. Rays of a fan that follow each other share it.
+  struct Origin {
+    Eigen::Vector3d p_W = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+    double gap_m = -1.0;  ///< to the surface under it; negative: below it, or none
+  };
+  /// Quick proof, by the steepest slope alone, that cast() finds no hit.
+  /// @param origin  of the ray before, then of this one
+  bool stays_above(const SceneRay& ray, Origin& origin) const;
 
   const HeightField& field() const { return field_; }
 
@@ -41,9 +54,16 @@ class HeightFieldRay {
     bool is_one_cell() const { return i0 == i1 && j0 == j1; }
   };
   static Eigen::Vector2d calc_tilt_m(const HeightField& field);
-  bool rises_above(const Walk& walk, const Eigen::Vector3d& p_W,
-                   const Eigen::Vector3d& dir_W) const;
+  /// Rise above the tilted plane per metre of ray.
+  double climb_of(const Eigen::Vector3d& dir_W) const {
+    return dir_W.z() - (tilt_m_.x() * (dir_W.x() * inverse_cell_per_m_) +
+                        tilt_m_.y() * (dir_W.y() * inverse_cell_per_m_));
+  }
+  bool outclimbs(const Eigen::Vector3d& dir_W) const;
+  double gap_m(const Eigen::Vector3d& p_W) const;
   static bool clip(Walk& walk, double low_m, double high_m, double& t0, double& t1);
+  bool clip_dive(Walk& walk, const Eigen::Vector3d& p_W, const Eigen::Vector3d& dir_W, double& t0,
+                 double& t1) const;
   bool clip_to_ground(Walk& walk, double& t0, double& t1) const;
   std::optional<Span> span_of(const Walk& walk, double max_distance_m) const;
   bool is_above(const Walk& walk, const Span& span, double max_distance_m) const;

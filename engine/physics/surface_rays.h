@@ -35,7 +35,8 @@ class SurfaceRays final : public RayScene {
     return terrain_ && (mask & mask_of(SurfaceClass::kTerrain)) != 0;
   }
   /// The first of a ray's hits on meshes and on the terrain. @pre there is a terrain
-  std::optional<RayHit> with_terrain(SceneRay ray, const std::optional<RayHit>& on_mesh) const;
+  std::optional<RayHit> with_terrain(const SceneRay& ray,
+                                     const std::optional<RayHit>& on_mesh) const;
 
   const HeightFieldRay* terrain_;
   MeshRays meshes_;

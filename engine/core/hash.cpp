@@ -17,7 +17,10 @@ Hasher::~Hasher() = default;
 Hasher::Hasher(Hasher&&) noexcept = default;
 Hasher& Hasher::operator=(Hasher&&) noexcept = default;
 
-void Hasher::add_bytes(const void* data, std::size_t size) {
+/// What waits, and then these bytes.
+void Hasher::pass_on(const void* data, std::size_t size) {
+  XXH3_128bits_update(state_->xxh, waiting_.data(), waiting_count_);
+  waiting_count_ = 0;
   XXH3_128bits_update(state_->xxh, data, size);
 }
 
@@ -27,7 +30,10 @@ void Hasher::add(std::string_view text) {
 }
 
 std::string Hasher::hex() const {
-  const XXH128_hash_t digest = XXH3_128bits_digest(state_->xxh);
+  const State whole;
+  XXH3_copyState(whole.xxh, state_->xxh);
+  XXH3_128bits_update(whole.xxh, waiting_.data(), waiting_count_);
+  const XXH128_hash_t digest = XXH3_128bits_digest(whole.xxh);
   return fmt::format("{:016x}{:016x}", digest.high64, digest.low64);
 }
 

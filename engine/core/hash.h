@@ -2,8 +2,10 @@
 /// 128-bit digest of everything a run produced (XXH3). It detects differences; it is not for
 /// security.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -18,7 +20,11 @@ class Hasher {
   Hasher(Hasher&&) noexcept;
   Hasher& operator=(Hasher&&) noexcept;
 
-  void add_bytes(const void* data, std::size_t size);
+  void add_bytes(const void* data, std::size_t size) {
+    if (size > waiting_.size() - waiting_count_) return pass_on(data, size);
+    std::memcpy(waiting_.data() + waiting_count_, data, size);
+    waiting_count_ += size;
+  }
 
   /// Adds the bytes of arithmetic values and enums. -0.0 and 0.0 differ, as they do in the
   /// simulation.
@@ -35,7 +41,12 @@ class Hasher {
 
  private:
   struct State;
+  void pass_on(const void* data, std::size_t size);
+
   std::unique_ptr<State> state_;
+  /// Signals are hashed field by field: a call of XXH3 for each would take longer than its work.
+  std::array<std::byte, 512> waiting_{};
+  std::size_t waiting_count_ = 0;
 };
 
 /// Stateless 64-bit hash of a text, the same on every machine. Used to key random streams.

@@ -25,7 +25,8 @@ class BoxTree {
   /// Calls `visit(item)` for items whose box may be nearer than sqrt(best2_m2), nearest branches
   /// first. No heap, thread safe.
   /// @param distance2  lower bound, m2, of the squared distance to what is in a box:
-  ///   double(const Box&)
+  ///   double(const Box&); and, where that is cheaper, of two boxes: Array2d(const Box&, const
+  ///   Box&)
   /// @param best2_m2  `visit` may lower it; it is read again after each call
   template <class Distance2, class Visit>
   void search(const Distance2& distance2, const double& best2_m2, Visit&& visit) const {
@@ -46,8 +47,16 @@ class BoxTree {
         for (std::uint32_t k = 0; k < node.count; ++k) visit(items_[node.link + k]);
         continue;
       }
-      const Open left{open.node + 1, distance2(nodes_[open.node + 1].box)};
-      const Open right{node.link, distance2(nodes_[node.link].box)};
+      Open left{open.node + 1, 0.0}, right{node.link, 0.0};
+      const Box &left_box = nodes_[left.node].box, &right_box = nodes_[right.node].box;
+      if constexpr (requires { distance2(left_box, right_box); }) {
+        const Eigen::Array2d both = distance2(left_box, right_box);
+        left.bound2_m2 = both[0];
+        right.bound2_m2 = both[1];
+      } else {
+        left.bound2_m2 = distance2(left_box);
+        right.bound2_m2 = distance2(right_box);
+      }
       const bool left_first = left.bound2_m2 <= right.bound2_m2;
       stack[open_count++] = left_first ? right : left;
       stack[open_count++] = left_first ? left : right;

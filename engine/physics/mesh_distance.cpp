@@ -47,6 +47,24 @@ class QueryBox {
     const Vector3d gap = to_O(centre).cwiseAbs() - half_extents_m_ - R_abs_ * half;
     return gap.cwiseMax(0.0).squaredNorm();
   }
+  /// The same of two boxes, one in each half of the processor's registers.
+  Eigen::Array2d operator()(const Tree::Box& a_T, const Tree::Box& b_T) const {
+    Eigen::Array2d centre[3], half[3];
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Array2d low(a_T.min()[k], b_T.min()[k]), high(a_T.max()[k], b_T.max()[k]);
+      centre[k] = 0.5 * (low + high);
+      half[k] = 0.5 * (high - low);
+    }
+    Eigen::Array2d sum2 = Eigen::Array2d::Zero();
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::Array2d place =
+          R_OT_(i, 0) * centre[0] + R_OT_(i, 1) * centre[1] + R_OT_(i, 2) * centre[2] + p_OT_[i];
+      const Eigen::Array2d reach =
+          R_abs_(i, 0) * half[0] + R_abs_(i, 1) * half[1] + R_abs_(i, 2) * half[2];
+      sum2 += (place.abs() - half_extents_m_[i] - reach).max(0.0).square();
+    }
+    return sum2;
+  }
 
  private:
   Eigen::Matrix3d R_OT_, R_abs_;

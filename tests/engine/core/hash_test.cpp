@@ -1,6 +1,13 @@
 #include "engine/core/hash.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "engine/core/random.h"
 
 namespace vinerow::hash_test {
 namespace {
@@ -23,6 +30,29 @@ TEST(Hash, ReadingTheDigestDoesNotDisturbIt) {
   static_cast<void>(a.hex());
   a.add(2.0), b.add(2.0);
   EXPECT_EQ(a.hex(), b.hex());
+}
+
+// The judge is the library's own hash of the whole.
+TEST(Hash, PiecesOfAnySizeHaveTheDigestOfTheWhole) {
+  RandomStream random(1, "test", "pieces");
+  std::vector<std::uint8_t> whole(20000);
+  for (std::uint8_t& byte : whole) byte = static_cast<std::uint8_t>(random.uniform(0.0, 256.0));
+  Hasher pieces;
+  std::size_t done = 0;
+  for (const std::size_t size : {8, 0, 1, 500, 512, 511, 513, 2000, 3, 505, 8, 1024}) {
+    pieces.add_bytes(whole.data() + done, size);
+    done += size;
+    const XXH128_hash_t expected = XXH3_128bits(whole.data(), done);
+    EXPECT_EQ(pieces.hex(), fmt::format("{:016x}{:016x}", expected.high64, expected.low64)) << done;
+  }
+  while (done < whole.size()) {
+    const auto size =
+        std::min(static_cast<std::size_t>(random.uniform(0.0, 40.0)), whole.size() - done);
+    pieces.add_bytes(whole.data() + done, size);
+    done += size;
+  }
+  const XXH128_hash_t expected = XXH3_128bits(whole.data(), done);
+  EXPECT_EQ(pieces.hex(), fmt::format("{:016x}{:016x}", expected.high64, expected.low64));
 }
 
 }  // namespace

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/core/error.h"
+#include "engine/math/polyline.h"
 
 namespace vinerow::mapping {
 
@@ -36,6 +39,17 @@ bool SurveyArea::contains(const Eigen::Vector2d& p_W, double further_m) const {
   const double margin_m = margin_m_ + further_m;
   return vinerow::contains(polygon_, p_W) ||
          (margin_m > 0.0 && distance_m(polygon_, p_W) <= margin_m);
+}
+
+double SurveyArea::inside_m(const Eigen::Vector2d& p_W) const {
+  if (!vinerow::contains(polygon_, p_W)) return 0.0;
+  constexpr double kRounding_m = 1e-6;
+  double inside_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < polygon_.size(); ++i) {
+    const Eigen::Vector2d &a = polygon_[i], &b = polygon_[(i + 1) % polygon_.size()];
+    inside_m = std::min(inside_m, distance_to_segment_m<2>(p_W, a, b));
+  }
+  return std::max(0.0, inside_m - kRounding_m);
 }
 
 Eigen::AlignedBox2d SurveyArea::box_W() const {

@@ -17,6 +17,8 @@ class SurveyArea {
   bool contains(const Eigen::Vector2d& p_W) const { return contains(p_W, 0.0); }
   /// The same area with a larger margin.
   bool contains(const Eigen::Vector2d& p_W, double further_m) const;
+  /// Radius of a circle around a point that lies inside as a whole; 0 if the point does not.
+  double inside_m(const Eigen::Vector2d& p_W) const;
   /// Axis-aligned bounding box.
   Eigen::AlignedBox2d box_W() const;
 

@@ -54,9 +54,26 @@ struct Survey {
   }
 };
 
+/// The survey's area as a tile needs it: most tiles are far inside.
+class TileArea {
+ public:
+  TileArea(const SurveyArea& area, const Vector2d& middle_W)
+      : area_(area), middle_W_(middle_W), inside_m_(area.inside_m(middle_W)) {}
+  bool contains(const Vector2d& p_W, double further_m = 0.0) const {
+    return (p_W - middle_W_).squaredNorm() < inside_m_ * inside_m_ ||
+           area_.contains(p_W, further_m);
+  }
+
+ private:
+  const SurveyArea& area_;
+  Vector2d middle_W_;
+  double inside_m_;
+};
+
 class Matcher {
  public:
-  Matcher(const Survey& survey, const TileViews& tile) : s_(survey), tile_(tile) {}
+  Matcher(const Survey& survey, const TileArea& area, const TileViews& tile)
+      : s_(survey), area_(area), tile_(tile) {}
 
   /// Looks for the point that a picture's ray to `aim_W` meets first.
   /// @returns whether it is seen well enough; then point, hit and triangulation are of it
@@ -69,7 +86,7 @@ class Matcher {
     if (!met) return false;
     hit_ = *met;
     p_W_ = view.p_WS() + hit_.distance_m * dir;
-    if (!s_.area.contains(p_W_.head<2>())) return false;
+    if (!area_.contains(p_W_.head<2>())) return false;
     ++tally.aims;
     if (-dir.dot(hit_.normal_W) < min_cosine_) {
       ++tally.unseen;
@@ -129,6 +146,7 @@ class Matcher {
   }
 
   const Survey& s_;
+  const TileArea& area_;
   const TileViews& tile_;
   const double min_cosine_ = std::cos(s_.options.max_incidence_rad);
   const double max_baseline_cosine_ = std::cos(s_.options.min_baseline_rad);
@@ -165,16 +183,21 @@ std::optional<std::pair<Vector3d, double>> ball_of(const Survey& survey, std::in
 
 void sample_tile(const Survey& survey, std::int64_t tile, std::vector<SampledPoint>& points,
                  CloudTally& tally) {
+  const Vector2d corner = survey.tiles.corner_W(tile);
+  const double width_m = survey.tiles.width_m();
+  const Vector2d middle = corner + 0.5 * Vector2d(width_m, width_m);
+  // No aim is farther from the middle than a corner.
+  if (!survey.area.contains(middle, kRim_m + width_m)) return;
   const auto ball = ball_of(survey, tile);
   if (!ball) return;
   const TileViews views =
       find_tile_views(survey.views, ball->first, ball->second, kMinAngle_rad, kMaxPartners);
   if (views.shown_in.empty()) return;
   RandomStream random(survey.options.seed, "cloud", fmt::format("photogrammetry.tile_{}", tile));
-  Matcher matcher(survey, views);
+  const TileArea area(survey.area, middle);
+  Matcher matcher(survey, area, views);
   const int side = survey.tiles.side();
   const double cell_m = survey.tiles.cell_m();
-  const Vector2d corner = survey.tiles.corner_W(tile);
   // Most tiles are whole in all of their pictures: then no place need be looked up in them.
   const bool all_whole =
       std::find(views.whole.begin(), views.whole.end(), false) == views.whole.end();
@@ -184,7 +207,7 @@ void sample_tile(const Survey& survey, std::int64_t tile, std::vector<SampledPoi
     const double v = random.uniform(), u = random.uniform();
     const Vector2d aim = corner + cell_m * Vector2d(cell % side + u, cell / side + v);
     const double chance = random.uniform();
-    if (!survey.area.contains(aim, kRim_m)) continue;
+    if (!area.contains(aim, kRim_m)) continue;
     const auto ground_m = survey.ground_m(aim);
     if (!ground_m) continue;
     const Vector3d aim_W(aim.x(), aim.y(), *ground_m);

@@ -6,7 +6,8 @@ namespace vinerow::mapping {
 
 void Triangulation::add(const SurveyView& view, const Eigen::Vector3d& p_W) {
   const Eigen::Matrix<double, 2, 3> J = view.jacobian(p_W);
-  information_.noalias() += J.transpose() * J;
+  // Symmetric: the Cholesky factors below read the lower triangle alone.
+  information_.triangularView<Eigen::Lower>() += J.transpose().lazyProduct(J);
   ++views_;
 }
 

@@ -292,6 +292,16 @@ TEST(Photogrammetry, RefusesWhatCannotBe) {
             "deg");
 }
 
+TEST(SurveyArea, CirclesInsideReachTheNearestEdge) {
+  // An L: 4 m by 4 m without its upper right quarter. Margins do not count.
+  const SurveyArea area({{0, 0}, {4, 0}, {4, 2}, {2, 2}, {2, 4}, {0, 4}}, 1.0);
+  EXPECT_NEAR(area.inside_m({1.0, 1.2}), 1.0, 1e-5);
+  EXPECT_NEAR(area.inside_m({1.5, 1.7}), std::hypot(0.5, 0.3), 1e-5);  // the inner corner
+  EXPECT_NEAR(area.inside_m({3.9, 0.5}), 0.1, 1e-5);
+  EXPECT_EQ(area.inside_m({3.0, 3.0}), 0.0);
+  EXPECT_EQ(area.inside_m({4.5, 1.0}), 0.0);  // in the margin
+}
+
 TEST(SurveyArea, RefusesWhatIsNoArea) {
   const auto refused = [](Polygon polygon, double margin_m) -> std::string {
     try {

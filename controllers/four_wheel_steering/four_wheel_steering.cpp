@@ -99,9 +99,12 @@ class FourWheelSteering final : public Controller, public MayFail {
 
  private:
   void take_plan(Time now) {
-    const std::string slower =
-        describe_too_fast_plan(plan_.value(), params_.drive.speed_mps, "speed_mps");
-    if (!slower.empty()) event_.write(now, {Event::Level::kWarning, part_, slower});
+    const double speed_mps = params_.drive.speed_mps, rim_mps = vehicle_.rim_max_mps;
+    for (const std::string& text :
+         {describe_too_slow_wheels(speed_mps, rim_mps),
+          describe_too_fast_plan(plan_.value(), std::min(speed_mps, rim_mps), "speed_mps")}) {
+      if (!text.empty()) event_.write(now, {Event::Level::kWarning, part_, text});
+    }
     tracker_.set_path(plan_.value());
     state_ = {};
     stop_.reset();

@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "controllers/parts/ground_drive/drive_ports.h"
-#include "controllers/parts/ground_drive/plan_speed.h"
 #include "controllers/parts/paths/path_watch.h"
 #include "controllers/path_follower/path_follower_law.h"
 #include "controllers/path_follower/slip_estimate.h"
@@ -107,14 +106,19 @@ FollowerParams read_params(const ParameterSet& parameters, const ControllerConte
 
 constexpr double kOverspeedFilter_s = 0.1;
 
+PathFollowerParams slow_down(PathFollowerParams law, double reachable_mps) {
+  law.speed.speed_mps = reachable_mps;
+  return law;
+}
+
 class PathFollower final : public Controller, public MayFail {
  public:
   PathFollower(const FollowerParams& params, const ControllerContext& context)
       : ports_(context, "path_follower"),
-        law_(params.law),
+        wanted_mps_(params.law.speed.speed_mps),
+        law_(slow_down(params.law, ports_.reachable_mps(wanted_mps_))),
         slip_(params.slip),
         watch_(params.watch),
-        speed_mps_(params.law.speed.speed_mps),
         period_s_(context.period.s()),
         speed_gain_(params.speed_gain),
         wheel_yaw_max_radps_(params.wheel_yaw_max_radps),
@@ -127,8 +131,7 @@ class PathFollower final : public Controller, public MayFail {
       law_.set_path(ports_.plan());
       watch_.reset();
       fault_ = ports_.find_fault_in_plan();
-      const std::string slower = describe_too_fast_plan(ports_.plan(), speed_mps_, "speed_mps");
-      if (!slower.empty()) ports_.report_event(now, Event::Level::kWarning, slower);
+      ports_.report_slower_speed(now, wanted_mps_);
     }
     VelocityCommand command;
     if (ports_.has_estimate() && !watch_.is_lost() && fault_.empty()) {
@@ -164,11 +167,11 @@ class PathFollower final : public Controller, public MayFail {
   }
 
   DrivePorts ports_;
+  double wanted_mps_;  ///< on straights
   PathFollowerLaw law_;
   SlipEstimate slip_;
   PathWatch watch_;
   std::string fault_;  ///< of the plan
-  double speed_mps_;   ///< on straights
   double period_s_;
   double speed_gain_;
   double wheel_yaw_max_radps_;

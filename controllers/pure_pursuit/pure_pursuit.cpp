@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "controllers/parts/ground_drive/drive_ports.h"
-#include "controllers/parts/ground_drive/plan_speed.h"
 #include "controllers/parts/paths/path_watch.h"
 #include "controllers/pure_pursuit/pure_pursuit_law.h"
 #include "engine/api/may_fail.h"
@@ -79,14 +78,22 @@ PursuitParams read_params(const ParameterSet& parameters, const ControllerContex
   return params;
 }
 
+/// The law at the speed that the wheels reach; its smallest radius stays.
+PurePursuitParams slow_down(PurePursuitParams law, double reachable_mps) {
+  law.yaw_rate_limit_radps *= reachable_mps / law.speed_mps;
+  law.speed_mps = reachable_mps;
+  return law;
+}
+
 class PurePursuit final : public Controller, public MayFail {
  public:
   PurePursuit(const PursuitParams& params, const ControllerContext& context)
       : ports_(context, "pure_pursuit"),
-        law_(params.law),
+        wanted_mps_(params.law.speed_mps),
+        speed_mps_(ports_.reachable_mps(wanted_mps_)),
+        law_(slow_down(params.law, speed_mps_)),
         stop_(params.stop_mps2),
         watch_(params.watch),
-        speed_mps_(params.law.speed_mps),
         period_s_(context.period.s()) {}
 
   void connect(Ports& ports) override { ports_.connect(ports); }
@@ -112,8 +119,7 @@ class PurePursuit final : public Controller, public MayFail {
 
  private:
   void take_plan(Time now) {
-    const std::string slower = describe_too_fast_plan(ports_.plan(), speed_mps_, "speed_mps");
-    if (!slower.empty()) ports_.report_event(now, Event::Level::kWarning, slower);
+    ports_.report_slower_speed(now, wanted_mps_);
     law_.set_path(ports_.plan());
     stop_.reset();
     watch_.reset();
@@ -165,11 +171,12 @@ class PurePursuit final : public Controller, public MayFail {
   }
 
   DrivePorts ports_;
+  double wanted_mps_;  ///< on straights
+  double speed_mps_;   ///< the same as far as the wheels reach it
   PurePursuitLaw law_;
   StopProfile stop_;
   PathWatch watch_;
   std::string fault_;  ///< of the plan
-  double speed_mps_;   ///< on straights
   double period_s_;
   Polyline polyline_;
 };

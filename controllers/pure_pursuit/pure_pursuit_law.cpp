@@ -126,8 +126,8 @@ VelocityCommand PurePursuitLaw::step(const Pose2& pose) {
   double full_speed = params_.speed_mps;
   if (speed_mps_[index_] > 0.0) full_speed = std::min(full_speed, speed_mps_[index_]);
   VelocityCommand command;
-  command.v_mps = std::min(full_speed * (1.0 - std::abs(theta) / params_.largest_angle_rad),
-                           calc_corner_speed(pose.p));
+  const double share = std::max(1.0 - std::abs(theta) / params_.largest_angle_rad, 0.0);
+  command.v_mps = std::min(full_speed * share, calc_corner_speed(pose.p));
   command.yaw_rate_radps = std::clamp(params_.turn_gain * theta / params_.cycle_s,
                                       -params_.yaw_rate_limit_radps, params_.yaw_rate_limit_radps);
   return command;

@@ -12,7 +12,7 @@
 ///      headings pass 180 deg.
 ///   4. |theta| below the threshold counts as zero.
 ///   5. v = v_t (1 - |theta| / theta_max) (eq. 7, with |theta|: a turn to the right must not raise
-///      the speed).
+///      the speed, and an angle beyond theta_max must not reverse it).
 ///   6. yaw rate = theta / t (eq. 6), limited to v_t / R_min (table 1).
 /// Open in the paper and chosen here: D_th equals the lookahead distance, and the law aims at the
 /// last waypoint once it is within the lookahead distance. Other choices loop about a waypoint or

@@ -221,6 +221,39 @@ TEST(Corners, WhoLosesItsPathGivesUpWithASentence) {
   EXPECT_TRUE(crashes[0].text.starts_with("lost its path: ")) << crashes[0].text;
 }
 
+TEST(SpeedBeyondTheWheels, IsReportedAndDrivenAsFarAsTheyReach) {
+  struct Case {
+    const char *vehicle, *controller;
+    const char* warning;  ///< radius times largest wheel speed: 0.2 m 20 rad/s and 0.2 m 8 rad/s
+  };
+  for (const Case& c : {Case{"diff_drive_rover", "pure_pursuit",
+                             "speed_mps = 1000 m/s, but the wheels reach 4 m/s"},
+                        Case{"diff_drive_rover", "path_follower",
+                             "speed_mps = 1000 m/s, but the wheels reach 4 m/s"},
+                        Case{"four_wheel_steering_rover", "four_wheel_steering",
+                             "speed_mps = 1000 m/s, but the wheels reach 1.6 m/s"}}) {
+    auto run = vinerow::testing::SmallWorld()
+                   .world("vineyard",
+                          "row_count: 2, row_length_m: 10, relief_m: 0, waves_m: 0, "
+                          "surroundings_m: 120, row_bearing_deg: 90")
+                   .vehicle("rover", c.vehicle, "spawn: {x_m: -20, y_m: -60, yaw_deg: 0}")
+                   .planner("rover", "waypoints", "x_m: [-20, 30], y_m: [-60, -60]")
+                   .controller("rover", c.controller, "speed_mps: 1000")
+                   .duration_s(100.0)
+                   .build();
+    run.run_to_end();
+    EXPECT_TRUE(run.finished()) << c.controller;
+    EXPECT_TRUE(run.session().crashes().empty()) << c.controller;
+    EXPECT_LT((run.truth("rover").X_WB.p.head<2>() - Eigen::Vector2d(30, -60)).norm(), 1.0)
+        << c.controller;
+    std::vector<std::string> warnings;
+    for (const SessionEvent& event : run.session().take_events()) {
+      if (event.event.level == Event::Level::kWarning) warnings.push_back(event.event.text);
+    }
+    EXPECT_EQ(warnings, std::vector<std::string>{c.warning}) << c.controller;
+  }
+}
+
 /// Says after a second that it has done its work, and in the same instant that it failed.
 class LateFailure final : public Controller, public MayFail {
  public:

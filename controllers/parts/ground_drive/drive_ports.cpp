@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "controllers/parts/ground_drive/plan_speed.h"
 #include "controllers/parts/paths/path_corners.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
@@ -38,6 +39,14 @@ std::string DrivePorts::find_fault_in_plan() const {
       "the plan turns by {:.0f} deg at ({:.2f}, {:.2f}), and a vehicle that steers by its front "
       "axle cannot turn on the spot",
       std::abs(deg_from_rad(corners.front().turn_rad)), corner.p_W.x(), corner.p_W.y());
+}
+
+void DrivePorts::report_slower_speed(Time now, double wanted_mps) {
+  const double own_mps = reachable_mps(wanted_mps);
+  for (const std::string& text : {describe_too_slow_wheels(wanted_mps, own_mps),
+                                  describe_too_fast_plan(plan(), own_mps, "speed_mps")}) {
+    if (!text.empty()) report_event(now, Event::Level::kWarning, text);
+  }
 }
 
 Pose2 DrivePorts::pose() const {

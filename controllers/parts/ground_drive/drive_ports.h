@@ -31,6 +31,11 @@ class DrivePorts {
   /// Why the vehicle cannot drive the plan: a corner that requires a turn on the spot. Empty if it
   /// can.
   std::string find_fault_in_plan() const;
+  /// The speed straight ahead that the wheels reach, if it is less than the wanted one.
+  double reachable_mps(double wanted_mps) const { return drive_->limit({wanted_mps, 0.0}).v_mps; }
+  /// Warns if the wheels do not reach the follower's speed, or if the plan wants more than that.
+  /// Allocates. @param wanted_mps  its parameter speed_mps
+  void report_slower_speed(Time now, double wanted_mps);
   bool has_estimate() const { return estimate_.has_value(); }
   const Odometry& estimate() const { return estimate_.value(); }
   Pose2 pose() const;

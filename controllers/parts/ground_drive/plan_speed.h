@@ -1,5 +1,6 @@
 #pragma once
-/// Message for a plan that wants a higher speed than its follower drives.
+/// Messages for speeds that cannot be driven: of a plan, beyond its follower's, and of a follower,
+/// beyond its wheels'.
 
 #include <fmt/format.h>
 
@@ -20,6 +21,13 @@ inline std::string describe_too_fast_plan(const PlannedPath& plan, double own_mp
   if (max_mps <= own_mps * (1.0 + kRounding)) return "";
   return fmt::format("the plan wants up to {:.3g} m/s, the limit is {:.3g} m/s ({})", max_mps,
                      own_mps, key);
+}
+
+/// "speed_mps = 19.4 m/s, but the wheels reach 4 m/s"; empty if they reach it.
+inline std::string describe_too_slow_wheels(double own_mps, double wheels_mps) {
+  if (own_mps <= wheels_mps) return "";
+  return fmt::format("speed_mps = {:.6g} m/s, but the wheels reach {:.3g} m/s", own_mps,
+                     wheels_mps);
 }
 
 }  // namespace vinerow::controllers

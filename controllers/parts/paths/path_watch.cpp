@@ -40,8 +40,9 @@ void PathWatch::update(const Cycle& cycle) {
   if (gap_m > nearest_m_ + params_.lost_m) {
     failure_ = fmt::format("lost its path: {:.1f} m away from it {}", gap_m, where());
   } else if (distance_m_ > allowed_m_) {
-    failure_ = fmt::format("lost its path: it has driven {:.0f} m without progress {}", distance_m_,
-                           where());
+    failure_ =
+        fmt::format("lost its path: its wheels were commanded to roll {:.0f} m without progress {}",
+                    distance_m_, where());
   }
 }
 

@@ -35,6 +35,17 @@ TEST(PurePursuitLaw, AimsAtTheLookaheadPointAndSlowsByEquationSeven) {
   EXPECT_NEAR(command.v_mps, params.speed_mps * (1.0 - std::abs(theta) / (2.0 * kPi)), 1e-12);
 }
 
+TEST(PurePursuitLaw, TurnsOnTheSpotBeyondTheLargestAngleOfEquationSeven) {
+  PurePursuitParams params;
+  params.largest_angle_rad = rad_from_deg(30.0);
+  PurePursuitLaw law(params);
+  law.set_path(make_straight_plan());
+  // The goal is 60 deg to the left: the equation's speed is -v_t.
+  const VelocityCommand command = law.step({{0.0, 0.0}, rad_from_deg(-60.0)});
+  EXPECT_EQ(command.v_mps, 0.0);
+  EXPECT_GT(command.yaw_rate_radps, 0.0);
+}
+
 TEST(PurePursuitLaw, LimitsTheYawRateAndWrapsTheAngle) {
   PurePursuitLaw law(PurePursuitParams{});
   law.set_path(make_straight_plan());

@@ -188,7 +188,8 @@ TEST(PathWatch, TellsWhoGoesAwayAndWhoDoesNotGetOn) {
   EXPECT_FALSE(circling.is_lost());  // 10 times 5 m and three times the 1 m beside
   for (int i = 0; i < 40; ++i) circling.update(at(10.0, 1.0, 10.0, 0.1));
   EXPECT_EQ(circling.failure(),
-            "lost its path: it has driven 53 m without progress at (10.00, 1.00), 10.0 m along "
+            "lost its path: its wheels were commanded to roll 53 m without progress at (10.00, "
+            "1.00), 10.0 m along "
             "its path of 100.0 m");
 
   // A stationary vehicle is never lost.

@@ -383,6 +383,11 @@ TrafficConfig read_traffic(const ParameterSet& values, const io::SourceMark& whe
     }
     seen.push_back(vehicle);
   }
+  if (seen.size() == 1) {
+    io::fail_at(where, fmt::format("traffic.reserve_alleys: '{}' is named alone, must be at least "
+                                   "2 vehicles",
+                                   seen.front()));
+  }
   return traffic;
 }
 

@@ -23,7 +23,7 @@ std::vector<std::string> picture_sources(const PhaseConfig& phase,
                                          const std::vector<VehicleConfig>& vehicles,
                                          const Registry& registry);
 
-/// @throws ConfigError if a vehicle that reserves alleys is unknown or named twice
+/// @throws ConfigError if a vehicle that reserves alleys is unknown, named twice or alone
 TrafficConfig read_traffic(const ParameterSet& values, const io::SourceMark& where,
                            const std::vector<std::string>& vehicles);
 

@@ -313,20 +313,21 @@ std::string AlleyTraffic::describe_cycle(int vehicle) const {
   return fmt::format("{} holds alley {}{}", name(vehicle), alleys_[held].id, text);
 }
 
-std::optional<std::string> AlleyTraffic::deadlock() const {
-  for (int i = 0; i < vehicles(); ++i) {
-    if (is_requesting(i) && at(waits_to_get_, i, i)) return describe_cycle(i);
+std::optional<std::string> AlleyTraffic::deadlock(int vehicle) const {
+  if (!is_requesting(vehicle) || is_stuck_[vehicle] == 0) return std::nullopt;
+  if (at(waits_to_get_, vehicle, vehicle)) return describe_cycle(vehicle);
+  std::optional<std::string> reason;
+  for (const int alley : wanted(lanes_[vehicle])) {
+    const int other = holder_[alley];
+    if (other < 0 || other == vehicle) continue;
+    const std::string waits =
+        fmt::format("{} waits for alley {}", name(vehicle), alleys_[alley].id);
+    if (lanes_[other].stays) return fmt::format("{}, in which {} has stopped", waits, name(other));
+    if (reason || is_stuck_[other] == 0) continue;
+    // Not a cycle, so the chain of holders ends.
+    reason = fmt::format("{}, which {} holds; {}", waits, name(other), *deadlock(other));
   }
-  for (int i = 0; i < vehicles(); ++i) {
-    if (!is_requesting(i)) continue;
-    for (const int alley : wanted(lanes_[i])) {
-      const int other = holder_[alley];
-      if (other < 0 || !lanes_[other].stays) continue;
-      return fmt::format("{} waits for alley {}, in which {} has stopped", name(i),
-                         alleys_[alley].id, name(other));
-    }
-  }
-  return std::nullopt;
+  return reason;
 }
 
 }  // namespace vinerow

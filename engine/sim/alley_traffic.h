@@ -69,10 +69,11 @@ class AlleyTraffic {
     return lanes_[vehicle].stretches;
   }
 
-  /// Sentence about vehicles that wait forever, as of the last serve(): "rover holds alley 5 and
+  /// Sentence about a vehicle that waits forever, as of the last serve(): "rover holds alley 5 and
   /// waits for alley 6, which drone holds, waiting for alley 5"; "rover waits for alley 6, in which
-  /// drone has stopped". Allocates if there is a deadlock.
-  std::optional<std::string> deadlock() const;
+  /// drone has stopped"; "cart waits for alley 5, which rover holds; rover waits for ...". Empty
+  /// for one that can still be served. Allocates if there is a deadlock.
+  std::optional<std::string> deadlock(int vehicle) const;
 
  private:
   struct Lane {

@@ -111,11 +111,11 @@ void TrafficControl::step(Time now) {
   for (int i = 0; i < traffic_->vehicles(); ++i) {
     if (lanes_[i].works) lanes_[i].authority.write(now, traffic_->authority(i));
   }
-  const std::optional<std::string> deadlock = traffic_->deadlock();
-  if (!deadlock) return;
   for (int i = 0; i < traffic_->vehicles(); ++i) {
     Lane& lane = lanes_[i];
-    if (!lane.works || lane.lost || traffic_->authority(i).alley < 0) continue;
+    if (!lane.works || lane.lost) continue;
+    const std::optional<std::string> deadlock = traffic_->deadlock(i);
+    if (!deadlock) continue;
     lane.lost = true;
     on_deadlock_(lane.vehicle->name(), *deadlock);
   }

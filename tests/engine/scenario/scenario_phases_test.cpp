@@ -171,6 +171,8 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"traffic: {reserve_alleys: [rover, dron]}\n",
               "traffic.reserve_alleys: unknown vehicle 'dron'"},
         Fault{"traffic: {reserve_alleys: [rover, rover]}\n", "'rover' is named twice"},
+        Fault{"traffic: {reserve_alleys: [rover]}\n",
+              "traffic.reserve_alleys: 'rover' is named alone, must be at least 2 vehicles"},
         Fault{"phases:\n  a: {vehicles: [plane, rover]}\npictures: {moments: [a + x]}\n",
               "pictures.moments: 'a + x', must be '<phase>' or '<phase> + <seconds>'"},
         Fault{"phases:\n  a: {vehicles: [plane, rover]}\npictures: {moments: [b + 3]}\n",

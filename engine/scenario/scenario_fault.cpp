@@ -41,6 +41,7 @@ std::string range_text(const ParameterSpec& spec) {
 struct Home {
   std::string path;
   std::vector<std::string> keys;
+  std::vector<ParameterSpec> groups = {};  ///< mappings inside it
 };
 
 void add_part_home(const io::YamlNode* node, PartKind kind, const std::string& path,
@@ -49,7 +50,11 @@ void add_part_home(const io::YamlNode* node, PartKind kind, const std::string& p
   if (!type || !type->is_scalar()) return;
   const std::vector<std::string> known = registry.names(kind);
   if (std::find(known.begin(), known.end(), type->text) == known.end()) return;
-  homes.push_back({path, names_of(registry.spec(kind, type->text).parameters)});
+  Home home{path, names_of(registry.spec(kind, type->text).parameters)};
+  for (const ParameterSpec& spec : registry.spec(kind, type->text).parameters) {
+    if (spec.kind == ParameterKind::kGroup) home.groups.push_back(spec);
+  }
+  homes.push_back(std::move(home));
 }
 
 /// All mappings of the scenario with fixed keys, in file order.
@@ -86,13 +91,29 @@ std::vector<Home> all_homes(const ReadContext& context) {
   return homes;
 }
 
-std::string belongs_hint(const std::string& key, const ReadContext& context) {
-  for (const Home& home : all_homes(context)) {
-    if (std::find(home.keys.begin(), home.keys.end(), key) != home.keys.end()) {
-      return home.path.empty() ? "; it belongs at the top level" : "; it belongs to " + home.path;
+bool contains(const std::vector<std::string>& keys, const std::string& key) {
+  return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
+/// Where a key of the mapping at `path` belongs: elsewhere, or in the only group of this mapping
+/// that has it.
+std::string belongs_hint(const std::string& key, const std::string& path,
+                         const ReadContext& context) {
+  const std::vector<Home> homes = all_homes(context);
+  for (const Home& home : homes) {
+    if (!contains(home.keys, key)) continue;
+    return home.path.empty() ? "; it belongs at the top level" : "; it belongs to " + home.path;
+  }
+  std::string hint;
+  for (const Home& home : homes) {
+    if (home.path != path) continue;
+    for (const ParameterSpec& group : home.groups) {
+      if (!contains(names_of(group.fields), key)) continue;
+      if (!hint.empty()) return "";
+      hint = fmt::format("; it belongs to {}", join_path(path, group.name));
     }
   }
-  return "";
+  return hint;
 }
 
 }  // namespace
@@ -155,7 +176,7 @@ void check_keys(const io::YamlNode& mapping, const std::string& path,
     if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
     std::vector<std::string> sorted = known;
     std::sort(sorted.begin(), sorted.end());
-    std::string hint = context ? belongs_hint(entry.key, *context) : "";
+    std::string hint = context ? belongs_hint(entry.key, path, *context) : "";
     const std::string likely = likely_key(entry.key, sorted);
     if (hint.empty() && !likely.empty()) hint = fmt::format("; did you mean '{}'?", likely);
     io::fail_at(

@@ -61,6 +61,28 @@ io::YamlNode& list_item(io::YamlNode& list, const std::string& key, const std::s
   return list.items[index];
 }
 
+/// Sets a key of a mapping. One that it has keeps its place: the order of vehicles and sensors is
+/// that of their steps.
+void set_key(io::YamlNode& mapping, const std::string& key, io::YamlNode value) {
+  for (io::YamlEntry& entry : mapping.entries) {
+    if (entry.key != key) continue;
+    entry.mark = value.mark;
+    entry.value = std::move(value);
+    return;
+  }
+  mapping.put(key, std::move(value));
+}
+
+void check_list_is_given(const io::YamlNode& mapping, const std::string& key,
+                         const std::string& index, const std::string& path,
+                         const io::SourceMark& mark) {
+  const bool is_index = index.find_first_not_of("0123456789") == std::string::npos;
+  if (!is_index || mapping.has(key)) return;
+  io::fail_at(mark,
+              fmt::format("{} is not given, so it has no entry {}; set the whole list: {}=[...]",
+                          path, index, path));
+}
+
 void set_value(io::YamlNode& root, const std::vector<std::string>& keys, io::YamlNode value) {
   const io::SourceMark mark = value.mark;
   io::YamlNode* node = &root;
@@ -88,10 +110,10 @@ void set_value(io::YamlNode& root, const std::vector<std::string>& keys, io::Yam
       return;
     }
     if (last) {
-      node->erase(keys[i]);
-      node->put(keys[i], std::move(value));
+      set_key(*node, keys[i], std::move(value));
       return;
     }
+    check_list_is_given(*node, keys[i], keys[i + 1], path, mark);
     if (!node->has(keys[i])) {
       io::YamlNode created = io::yaml_mapping();
       created.mark = mark;

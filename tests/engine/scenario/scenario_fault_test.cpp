@@ -41,6 +41,10 @@ TEST(ScenarioFault, KeyInTheWrongPlaceIsToldWhereItBelongs) {
   EXPECT_THAT(fault_of(with_line(3, "world: {type: flat, seed: 3}")),
               HasSubstr("world.seed: unknown key of world 'flat'; it belongs at the top level"));
   EXPECT_THAT(fault_of(with_line(2, "step_s: 0.001")), HasSubstr("it belongs to physics"));
+  EXPECT_THAT(fault_of(with_line(7, "    wheel_radius_m: 0.2\n    torque_Nm: 1")),
+              HasSubstr("scenario:8: vehicles.rover.torque_Nm: unknown key of vehicle 'cart'; it "
+                        "belongs to vehicles.rover.motor (known: "));
+  EXPECT_THAT(fault_of(with_line(13, "      torque_Nm: 1")), ::testing::Not(HasSubstr("belongs")));
 }
 
 TEST(ScenarioFault, KnownKeysAreSortedAndCompleteAtTheTop) {
@@ -487,6 +491,9 @@ TEST(ScenarioFault, OverridesNameTheirText) {
             "rover.controller.rate_Hz");
   EXPECT_EQ(fault("criteria.1.max=1"),
             "--set criteria.1.max=1: criteria is a list, its entries are 0 to 0, not '1'");
+  EXPECT_EQ(fault("rover.inertia_kgm2.0=1"),
+            "--set rover.inertia_kgm2.0=1: vehicles.rover.inertia_kgm2 is not given, so it has no "
+            "entry 0; set the whole list: vehicles.rover.inertia_kgm2=[...]");
   EXPECT_EQ(fault("rover.wheel_radius_m.x=1"),
             "--set rover.wheel_radius_m.x=1: vehicles.rover.wheel_radius_m = 0.2 has no key 'x'");
 }

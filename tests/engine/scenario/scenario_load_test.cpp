@@ -336,7 +336,7 @@ TEST(ScenarioPlugins, MissingLibraryIsNamed) {
     EXPECT_THAT(
         fault.what(),
         ::testing::EndsWith("a.yaml:3: plugins[0] = 'mime.so': no such file (looked for " +
-                          (folder.path() / "mime.so").string() + "); did you mean 'mine.so'?"));
+                            (folder.path() / "mime.so").string() + "); did you mean 'mine.so'?"));
   }
 }
 
@@ -361,6 +361,27 @@ TEST(ScenarioOverride, SetsValuesByPath) {
   EXPECT_TRUE(s.vehicles[0].sensors.empty());
   EXPECT_EQ(s.duration_s, 50.0) << "the last one wins";
   EXPECT_EQ(s.seed, 123u);
+}
+
+TEST(ScenarioOverride, ReplacedVehiclesAndSensorsKeepTheirPlaces) {
+  const std::string yaml = with_line(
+      10,
+      "      gps: {type: gps}\n      imu: {type: imu}\n  cart:\n    type: cart\n    "
+      "wheel_radius_m: "
+      "0.2\n    spawn: {alley: 1}\n  last:\n    type: cart\n    wheel_radius_m: 0.2\n    spawn: "
+      "{alley: 2}");
+  const Scenario s =
+      parse_scenario(yaml, "/", fake_registry(),
+                     {{"rover.sensors.gps={type: gps}",
+                       "vehicles.cart={type: cart, wheel_radius_m: 0.3, spawn: {alley: 1}}"},
+                      {}});
+  ASSERT_EQ(s.vehicles.size(), 3u);
+  EXPECT_EQ(s.vehicles[1].name, "cart");
+  EXPECT_EQ(s.vehicles[1].vehicle.parameters.number("wheel_radius_m"), 0.3);
+  EXPECT_EQ(s.vehicles[2].name, "last");
+  ASSERT_EQ(s.vehicles[0].sensors.size(), 2u);
+  EXPECT_EQ(s.vehicles[0].sensors[0].name, "gps");
+  EXPECT_EQ(s.vehicles[0].sensors[1].name, "imu");
 }
 
 TEST(ScenarioOverride, NewValueDoesNotKeepTheOldSource) {

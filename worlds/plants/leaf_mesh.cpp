@@ -20,15 +20,15 @@ double bend_of(LeafKind kind) {
 }  // namespace
 
 void append_blade(TriangleMesh& mesh, LeafKind kind, const LeafOrgan& leaf, double area_m2,
-                  int level) {
+                  int level, double widening) {
   const std::span<const Eigen::Vector2d> outline = leaf_outline(kind, level);
-  const double length_m = leaf_length_m(kind, area_m2, level);
+  const double length_m = leaf_length_m(kind, area_m2 / widening, level);
   const Vector3d across = leaf.normal.cross(leaf.along);
   // The blade is bent: heights over its plane per length, of the rim at this distance.
   const auto point = [&](const Eigen::Vector2d& p) {
     const double fold = 0.22 * std::abs(p.y()), bend = bend_of(kind) * p.squaredNorm();
-    return Vector3d(leaf.junction +
-                    length_m * (p.x() * leaf.along + p.y() * across + (fold - bend) * leaf.normal));
+    return Vector3d(leaf.junction + length_m * (p.x() * leaf.along + widening * p.y() * across +
+                                                (fold - bend) * leaf.normal));
   };
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   const auto add = [&](const Vector3d& p, const Vector3d& normal) {
@@ -38,8 +38,8 @@ void append_blade(TriangleMesh& mesh, LeafKind kind, const LeafOrgan& leaf, doub
   };
   add(leaf.junction, leaf.normal);
   for (const Eigen::Vector2d& p : outline) {
-    const Vector3d tilt = 2.0 * bend_of(kind) * (p.x() * leaf.along + p.y() * across) -
-                          0.22 * std::copysign(1.0, p.y()) * across;
+    const Vector3d tilt = 2.0 * bend_of(kind) * (p.x() * leaf.along + p.y() / widening * across) -
+                          0.22 * std::copysign(1.0, p.y()) / widening * across;
     add(point(p), (leaf.normal + tilt).normalized());
   }
   const auto count = static_cast<std::uint32_t>(outline.size());

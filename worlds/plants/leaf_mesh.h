@@ -20,8 +20,8 @@ struct LeafOrgan {
 
 /// Appends a blade: a fan about the junction, folded along the midrib, its rim bent down. Seen
 /// along its normal it has this area. @param area_m2  of the blade, if it stands for several leaves
-/// @param level  of the outline
+/// @param level  of the outline @param widening  width of the blade over that of its kind
 void append_blade(TriangleMesh& mesh, LeafKind kind, const LeafOrgan& leaf, double area_m2,
-                  int level);
+                  int level, double widening = 1.0);
 
 }  // namespace vinerow::worlds

@@ -7,7 +7,7 @@ namespace vinerow::worlds {
 namespace {
 
 /// Raised when the same parameters give other meshes, so that older files are not read.
-constexpr int kGeneratorVersion = 8;
+constexpr int kGeneratorVersion = 9;
 
 template <class T>
 void add_list(Hasher& hasher, const std::vector<T>& list) {

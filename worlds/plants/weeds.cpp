@@ -104,9 +104,10 @@ class WeedGrower {
     mesh_.triangles.push_back({first + 3, first + 2, first + 4});
   }
 
-  /// The upper face looks up.
+  /// The upper face looks up. @param widening  of a blade that stands for several: the part of
+  /// their area that makes it wider and not longer
   void add_leaf(LeafKind kind, const Vector3d& junction_W, const Vector3d& along, double length_m,
-                const Vector3f& colour) {
+                const Vector3f& colour, double widening = 1.0) {
     LeafOrgan leaf;
     leaf.node = leaf.junction = junction_W;
     leaf.along = along;
@@ -114,18 +115,21 @@ class WeedGrower {
     leaf.colour = colour;
     const double unit_m = leaf_length_m(kind, 1.0);
     leaf.area_m2 = length_m * length_m / (unit_m * unit_m);
-    append_blade(mesh_, kind, leaf, fewer() * leaf.area_m2, std::max(level_, 1));
+    append_blade(mesh_, kind, leaf, fewer() * leaf.area_m2, std::max(level_, 1), widening);
   }
 
   void grow_rosette() {
+    constexpr double kLongestLeaf_m = 0.4;  // as of large docks and dandelions
     const Vector3f colour = shaded(kRosetteLeaf, random_);
     const int leaves = 7 + static_cast<int>(random_.uniform() * 8.0);
     for (int i = 0; i < leaves; ++i) {
       const double bearing = kGoldenAngle_rad * i + random_.uniform(-0.2, 0.2);
       const Vector3d along = direction_at(bearing, rad_from_deg(random_.uniform(5.0, 40.0)));
-      const double length_m = height_m_ * random_.uniform(0.5, 0.9);
+      const double length_m = std::min(height_m_ * random_.uniform(0.5, 0.9), kLongestLeaf_m);
       if (i % fewer() != 0) continue;
-      add_leaf(LeafKind::kOlive, root_W_ + 0.01 * Vector3d::UnitZ(), along, length_m, colour);
+      // As long as near, so that the plant's outline stays.
+      add_leaf(LeafKind::kOlive, root_W_ + 0.01 * Vector3d::UnitZ(), along, length_m, colour,
+               fewer());
     }
   }
 

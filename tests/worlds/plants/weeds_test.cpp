@@ -104,6 +104,33 @@ TEST(Weeds, FarLevelsHaveAsMuchLeafOfFewerTriangles) {
   EXPECT_LT(far.triangles.size(), 0.5 * static_cast<double>(middle.triangles.size()));
 }
 
+/// Largest distance from the root, seen from above.
+double reach_of(const Weed& weed, int level) {
+  double reach_m = 0.0;
+  for (const Eigen::Vector3f& p : make_weed_mesh({&weed, 1}, level).vertices) {
+    reach_m = std::max(reach_m, (p.cast<double>() - weed.root_W).head<2>().norm());
+  }
+  return reach_m;
+}
+
+TEST(Weeds, FarLevelsReachNoFartherThanAPlantIsHigh) {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    const Weed weed{{100.0, -50.0, 20.0}, 0.3, seed};
+    const double allowed_m = std::max(1.1 * reach_of(weed, 0), 0.3);
+    EXPECT_LE(reach_of(weed, 1), allowed_m) << seed;
+    EXPECT_LE(reach_of(weed, 2), allowed_m) << seed;
+  }
+}
+
+TEST(Weeds, LeavesOfRosettesOnTheGroundAreNotLongerThanHalfAMetre) {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    const Weed weed{{0.0, 0.0, 0.0}, 1.6, seed};
+    // Grass and herbs of this height stand up.
+    if (make_weed_mesh({&weed, 1}, 0).bounds().max().z() > 0.8) continue;
+    EXPECT_LE(reach_of(weed, 0), 0.5) << seed;
+  }
+}
+
 ParameterSet with_weeds(const std::string& world, double per_m2) {
   ParameterSet parameters = test::world_parameters(world);
   if (world == "vineyard") parameters.set("row_count", 2.0).set("row_length_m", 20.0);

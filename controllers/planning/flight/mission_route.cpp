@@ -142,8 +142,8 @@ class MissionRoute final : public Planner {
     begin.speed_mps = mission_places_.first_speed_mps;
     add(start_.p, winged_ ? PathKind::kTransit : PathKind::kVertical, begin);
     bool is_first = true;
-    const MissionPlace* before = nullptr;
-    for (const MissionPlace& place : mission_places_.places) {
+    std::optional<MissionPlace> before;
+    for (MissionPlace place : mission_places_.places) {
       using Task = MissionPlace::Task;
       if (place.task == Task::kReturn || (place.task == Task::kLand && !place.has_place)) {
         // Return home, or land at the current position, at the current height.
@@ -156,11 +156,11 @@ class MissionRoute final : public Planner {
         land(place);
         continue;
       }
+      // A take-off without a position is where the vehicle is.
+      if (!place.has_place) place.p_W = path_.points.back().p_W.head<2>();
       const auto height_m = height_of(place);
       if (!height_m) return height_m.reason();
       Vector3d p(place.p_W.x(), place.p_W.y(), *height_m);
-      if (!place.has_place)
-        p.head<2>() = path_.points.back().p_W.head<2>();  // a take-off without a position
       if (place.task == Task::kLand) p.z() = path_.points.back().p_W.z();
       if (is_first && !winged_) {
         add({start_.p.x(), start_.p.y(), p.z()}, PathKind::kTransit, place);
@@ -170,14 +170,14 @@ class MissionRoute final : public Planner {
         climb_to(p, place);
       }
       is_first = false;
-      const bool follows_ground = before != nullptr && before->has_place && place.has_place &&
+      const bool follows_ground = before && place.has_place &&
                                   before->reference == MissionPlace::Reference::kGround &&
                                   place.reference == MissionPlace::Reference::kGround;
       if (follows_ground) follow_ground(*before, place);
       if (const auto fault = go_around_fences(p, place)) return fault;
       add(p, PathKind::kLeg, place);
       if (place.task == Task::kLand) land(place);
-      before = &place;
+      before = place;
     }
     return path_.points.size() < 2 ? std::optional<std::string>("there is nothing to fly")
                                    : std::nullopt;
@@ -300,6 +300,7 @@ class MissionRoute final : public Planner {
     report_.numbers["length_m"] = path_.length_m;
     report_.numbers["ignored_items"] = mission_places_.ignored_items;
     report_.numbers["loiters"] = mission_places_.loiters;
+    report_.numbers["ignored_holds"] = mission_places_.ignored_holds;
   }
 
   const io::MissionFile mission_;

@@ -154,6 +154,7 @@ class GroundMission final : public Planner {
     report_.numbers["length_m"] = path.length_m;
     report_.numbers["ignored_items"] = places_.ignored_items;
     report_.numbers["loiters"] = places_.loiters;
+    report_.numbers["ignored_holds"] = places_.ignored_holds;
     report_.numbers["fence_detours"] = detours_;
   }
 

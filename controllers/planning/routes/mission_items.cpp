@@ -28,7 +28,10 @@ void set_place(const io::MissionItem& item, const LocalFrame& frame, MissionPlac
                     : altitude == io::MavAltitude::kTerrain      ? Reference::kGround
                     : altitude == io::MavAltitude::kMeanSeaLevel ? Reference::kWorld
                                                                  : Reference::kKeep;
-  if (!place.has_place) return;
+  if (!place.has_place) {
+    if (place.reference == Reference::kWorld) place.altitude_m -= frame.origin().altitude_m;
+    return;
+  }
   Geodetic at = io::place_of(item);
   // The horizontal position depends slightly on the height: 1 mm per 6 m at 1 km from the origin.
   if (place.reference != Reference::kWorld) at.altitude_m += frame.origin().altitude_m;
@@ -114,6 +117,9 @@ MissionPlaces place_mission(const io::MissionFile& mission, const GeoOrigin& ori
         place.task = MissionPlace::Task::kLand;
         break;
       case kWaypoint:
+        if (!winged && item.command == io::kNavWaypoint && item.params[0] > 0.0) {
+          ++result.ignored_holds;
+        }
         break;
     }
     set_place(item, frame, place);

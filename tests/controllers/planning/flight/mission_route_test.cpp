@@ -14,6 +14,7 @@
 #include "engine/math/geo.h"
 #include "tests/controllers/support/mission.h"
 #include "tests/support/data.h"
+#include "tests/support/plain_scene.h"
 
 namespace vinerow::test::mission_route_test {
 namespace {
@@ -42,6 +43,7 @@ struct MissionFlight {
   VehicleDescription vehicle = plane();
   Pose start{Eigen::Quaterniond::Identity(), {0, 0, 0.0}};
   Values values = {};
+  const SceneQuery* scene = nullptr;
 };
 
 std::unique_ptr<Planner> make(const MissionFlight& setup) {
@@ -49,6 +51,7 @@ std::unique_ptr<Planner> make(const MissionFlight& setup) {
   context.part = "plane.planner";
   context.vehicle_description = &setup.vehicle;
   context.origin = setup.origin;
+  context.scene = setup.scene;
   Values values = setup.values;
   values.emplace_back("file", setup.file);
   const PartSpec spec = controllers::mission_route_spec();
@@ -279,6 +282,46 @@ TEST(MissionRoute, FramesTellWhatHeightsAreMeasuredFrom) {
               0.01);  // the Earth falls away: d^2 / 2R
   EXPECT_NEAR(path.points[3].p_W.z(), 43.0, 1e-6);
   EXPECT_NEAR(path.points[4].p_W.z(), 73.0, 1e-6);
+}
+
+TEST(MissionRoute, ATakeOffWithoutAPlaceIsWhereTheVehicleStands) {
+  // The ground rises by 0.1 to the east and is 30 m high at the start, 32 m at the waypoint.
+  const PlainScene scene(GroundPlane{.rise_x = 0.1});
+  const auto take_off = [](int frame, double altitude_m) {
+    return io::MissionItem{
+        22, frame, {0, 0, 0, std::nan(""), std::nan(""), std::nan(""), altitude_m}};
+  };
+  struct Case {
+    int frame;
+    double take_off_m, waypoint_m;
+  };
+  for (const Case& c :
+       {Case{0, 488.0 + 40.0, 488.0 + 42.0}, Case{3, 10.0, 12.0}, Case{10, 10.0, 10.0}}) {
+    SCOPED_TRACE(c.frame);
+    MissionFlight setup{
+        write_items({take_off(c.frame, c.take_off_m), at(16, 320, 0, c.waypoint_m, c.frame)})};
+    setup.vehicle = quadrotor();
+    setup.start.p = {300, 0, 30.2};
+    setup.scene = &scene;
+    const PlannedPath path = plan(setup);
+    ASSERT_EQ(path.points.size(), 3u);
+    EXPECT_NEAR(path.points[1].p_W.x(), 300.0, 1e-9);
+    EXPECT_NEAR(path.points[1].p_W.z(), 40.0, 0.02);  // the Earth falls away by 1 cm on 320 m
+    EXPECT_NEAR(path.points[2].p_W.z(), 42.0, 0.02);
+  }
+}
+
+TEST(MissionRoute, CountsTheHoldsThatItLeavesOut) {
+  io::MissionItem wait = at(16, 900, 0, 50);
+  wait.params[0] = 10.0;
+  const std::string file = write_items({wait, at(16, 1000, 0, 50)});
+  for (const auto& [vehicle, holds] : {std::pair{quadrotor(), 1.0}, {plane(), 0.0}}) {
+    MissionFlight setup{file};
+    setup.vehicle = vehicle;
+    const auto planner = make(setup);
+    ASSERT_TRUE(planner->plan(setup.start).ok());
+    EXPECT_EQ(planner->report()->numbers.at("ignored_holds"), holds);
+  }
 }
 
 TEST(MissionRoute, RefusesByNumberAndName) {

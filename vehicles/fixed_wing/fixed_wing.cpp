@@ -129,12 +129,14 @@ void FixedWing::meet_faults(Time now) {
         motor_runs_ = false;
         report_event(Event::Level::kError, "the motor fails");
         break;
-      case FixedWingFault::Kind::kElevonStuck:
-        stuck_[fault.left ? 0 : 1] = true;
-        report_event(Event::Level::kError, fmt::format("the {} elevon is stuck at {:.1f} deg",
-                                                       fault.left ? "left" : "right",
-                                                       deg_from_rad(states_[fault.left ? 1 : 2])));
+      case FixedWingFault::Kind::kElevonStuck: {
+        const bool left = fault.left.value_or(true);
+        stuck_[left ? 0 : 1] = true;
+        report_event(Event::Level::kError,
+                     fmt::format("the {} elevon is stuck at {:.1f} deg", left ? "left" : "right",
+                                 deg_from_rad(states_[left ? 1 : 2])));
         break;
+      }
     }
   }
   if (motor_runs_ && battery_.charge <= 0.0) {

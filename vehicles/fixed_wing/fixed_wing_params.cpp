@@ -43,7 +43,11 @@ const ParameterTable<FixedWingFault>& wing_fault_table() {
           .number("at_s", "s", &F::at_s, between(0.0, 1e9), "time of the fault")
           .required()
           .choice("elevon", &F::left, {{"left", true}, {"right", false}},
-                  "elevon that stays at its present deflection");
+                  "elevon that stays at its present deflection; default: left")
+          .rule([](const F& fault) -> std::string {
+            if (fault.kind == F::Kind::kElevonStuck || !fault.left) return "";
+            return "'elevon' is a key of elevon_stuck";
+          });
   return table;
 }
 

@@ -54,7 +54,7 @@ struct FixedWingFault {
   enum class Kind { kMotorFailure, kElevonStuck, kBatteryEmpty };
   Kind kind = Kind::kMotorFailure;
   double at_s = 0.0;
-  bool left = true;  ///< which elevon
+  std::optional<bool> left = {};  ///< which elevon is stuck; absent: the left one
 };
 
 struct FixedWingParams {

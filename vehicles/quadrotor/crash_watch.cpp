@@ -13,10 +13,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-double tilt_of(const physics::BodyState& body) {
-  return std::acos(std::clamp((body.X_WB.q * Vector3d::UnitZ()).z(), -1.0, 1.0));
-}
-
 /// Which part met something, for people.
 const char* part_name(const QuadrotorParams& params, const Vector3d& p_B) {
   if (is_at_rotors(params, p_B.z())) return "a rotor";
@@ -39,12 +35,16 @@ std::string judge_ground(const QuadrotorParams& params, const Vector3d& p_B, dou
 
 }  // namespace
 
+double calc_tilt_rad(const Eigen::Quaterniond& q_WB) {
+  return std::acos(std::clamp((q_WB * Vector3d::UnitZ()).z(), -1.0, 1.0));
+}
+
 std::string judge_contacts(const physics::PhysicsWorld& world, physics::BodyId body,
                            const physics::BodyState& before, const QuadrotorParams& params) {
   return judge_touches(
       world, body, before, [&](const Vector3d& p_B) { return part_name(params, p_B); },
       [&](const GroundTouch& touch) {
-        return judge_ground(params, touch.p_B, tilt_of(before), touch.speed_mps);
+        return judge_ground(params, touch.p_B, calc_tilt_rad(before.X_WB.q), touch.speed_mps);
       });
 }
 
@@ -55,7 +55,8 @@ std::string find_crash_at_foot(const FootContact& contact, const physics::BodySt
     return fmt::format("hit {} with its landing gear at {:.1f} m/s", to_string(contact.surface),
                        speed_mps);
   }
-  return judge_ground(params, Vector3d(0.0, 0.0, -params.stand_height_m), tilt_of(body), speed_mps);
+  return judge_ground(params, Vector3d(0.0, 0.0, -params.stand_height_m),
+                      calc_tilt_rad(body.X_WB.q), speed_mps);
 }
 
 }  // namespace vinerow::vehicles

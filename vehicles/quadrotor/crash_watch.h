@@ -9,6 +9,9 @@
 
 namespace vinerow::vehicles {
 
+/// Angle between the body's z axis and the vertical, 0 to pi.
+double calc_tilt_rad(const Eigen::Quaterniond& q_WB);
+
 /// @param before  state at the start of the step, with the velocities of the impact
 /// @returns the reason for a wreck, e.g. "hit the ground at 2.3 m/s"; empty without a wreck,
 /// and then no heap

@@ -31,6 +31,16 @@ Vector3d calc_body_drag_W(double drag_area_m2, double air_density_kgm3, const Ve
   return (0.5 * air_density_kgm3 * drag_area_m2 * air_W.norm()) * air_W;
 }
 
+/// Beyond the limit its landing gear crashes where it stands.
+void demand_flat_start(const Pose& X_WB, const QuadrotorParams& params) {
+  const double tilt_rad = calc_tilt_rad(X_WB.q);
+  if (tilt_rad <= params.landing_tilt_limit_rad) return;
+  throw ConfigError(fmt::format(
+      "{}: the ground of its start slopes by {:.1f} deg, must be at most landing_tilt_limit_deg = "
+      "{:.1f} deg",
+      params.name, deg_from_rad(tilt_rad), deg_from_rad(params.landing_tilt_limit_rad)));
+}
+
 }  // namespace
 
 Quadrotor::Quadrotor(const QuadrotorParams& params, const VehicleContext& context,
@@ -63,6 +73,7 @@ Quadrotor::Quadrotor(const QuadrotorParams& params, const VehicleContext& contex
 
 void Quadrotor::spawn(physics::PhysicsWorld& world, const Pose& X_WB) {
   demand_step(world.settings().step, kMaxFlightStep, params_.name, "its rotors");
+  demand_flat_start(X_WB, params_);
   world_ = &world;
   physics::BodySpec spec;
   spec.name = params_.name;
@@ -126,9 +137,10 @@ void Quadrotor::meet_faults(Time now) {
       continue;
     }
     // Thrust goes with the speed squared.
-    speed_share_[*fault.rotor] = std::sqrt(fault.remaining);
+    const double remaining = fault.remaining.value_or(0.0);
+    speed_share_[*fault.rotor] = std::sqrt(remaining);
     report_event(Event::Level::kError, fmt::format("rotor {} fails: {:.0f} % of its thrust left",
-                                                   *fault.rotor + 1, 100.0 * fault.remaining));
+                                                   *fault.rotor + 1, 100.0 * remaining));
   }
   if (powered_ && battery_.charge <= 0.0) {
     powered_ = false;

@@ -51,9 +51,14 @@ const ParameterTable<QuadrotorFault>& fault_table() {
               "rotor that fails: 1 is the front (left) one, the others follow counter-clockwise",
               kCountedFromOne)
           .number("remaining", "", &F::remaining, between(0.0, 1.0),
-                  "share of the rotor's thrust that is left")
+                  "share of the rotor's thrust that is left; default: 0")
           .rule([](const F& fault) -> std::string {
-            if (fault.kind != F::Kind::kRotorFailure || fault.rotor) return "";
+            if (fault.kind != F::Kind::kRotorFailure) {
+              return fault.rotor || fault.remaining
+                         ? "'rotor' and 'remaining' are keys of a rotor_failure"
+                         : "";
+            }
+            if (fault.rotor) return "";
             return fmt::format("a rotor_failure must name its 'rotor' (1 to {})", kRotors);
           });
   return table;

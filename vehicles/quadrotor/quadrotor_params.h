@@ -28,8 +28,8 @@ struct QuadrotorFault {
   enum class Kind { kRotorFailure, kBatteryEmpty };
   Kind kind = Kind::kRotorFailure;
   double at_s = 0.0;
-  std::optional<std::size_t> rotor;  ///< 0..3; of a rotor failure
-  double remaining = 0.0;            ///< share of the thrust that is left, 0..1
+  std::optional<std::size_t> rotor;      ///< 0..3; of a rotor failure
+  std::optional<double> remaining = {};  ///< share of its thrust that is left, 0..1; absent: 0
 };
 
 struct QuadrotorParams {

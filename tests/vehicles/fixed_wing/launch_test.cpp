@@ -223,6 +223,18 @@ TEST(FixedWingParameters, DefaultsAreThoseOfTheFile) {
   EXPECT_EQ(numbers, 63);
 }
 
+TEST(FixedWingParameters, RefusesAnElevonOfOtherFaults) {
+  const auto with_fault = [](const std::string& kind) {
+    return refusal([&](ParameterSet& s) {
+      ParameterSet fault = s.make_group("faults");
+      fault.set("kind", kind).set("at_s", 5.0).set("elevon", std::string("left"));
+      s.set("faults", std::vector<ParameterSet>{fault});
+    });
+  };
+  EXPECT_EQ(with_fault("motor_failure"), "plane: faults[0]: 'elevon' is a key of elevon_stuck");
+  EXPECT_EQ(with_fault("elevon_stuck"), "");
+}
+
 TEST(FixedWingParameters, RefusesWhatDoesNotFly) {
   EXPECT_EQ(refusal([](ParameterSet& s) { s.set("cruise_speed_mps", 8.0); }),
             "plane: cruise_speed_mps = 8, but it stalls below 8.4 m/s");

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/core/error.h"
 #include "tests/vehicles/quadrotor/rig.h"
 
 namespace vinerow::vehicles::contact_test {
@@ -36,6 +37,22 @@ TEST(QuadrotorGear, RestsStillOnASlopeOfTenDegrees) {
     rig.run(60.0);
     EXPECT_LT((rig.body().X_WB.p - start).norm(), 1e-9) << yaw_deg;  // asked for: 1e-4
     EXPECT_EQ(rig.crash(), "");
+  }
+}
+
+TEST(QuadrotorGear, IsNotPutOnASlopeOnWhichItCrashes) {
+  QuadrotorParams params;
+  params.landing_tilt_limit_rad = rad_from_deg(20.0);
+  QuadrotorRig stands(params, make_slope_world(rad_from_deg(19.0)));
+  stands.run(0.1);
+  EXPECT_EQ(stands.crash(), "");
+  try {
+    QuadrotorRig(params, make_slope_world(rad_from_deg(21.0)));
+    FAIL() << "accepted";
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(),
+                 "drone: the ground of its start slopes by 21.0 deg, must be at most "
+                 "landing_tilt_limit_deg = 20.0 deg");
   }
 }
 

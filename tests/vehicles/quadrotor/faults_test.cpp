@@ -84,7 +84,7 @@ TEST(QuadrotorFaults, AnEmptyBatteryStopsTheRotors) {
 }
 
 TEST(QuadrotorFaults, TheBatteryFailsWhenTheScenarioSaysSo) {
-  QuadrotorParams params = with_fault({QuadrotorFault::Kind::kBatteryEmpty, 1.0, 0, 0.0});
+  QuadrotorParams params = with_fault({QuadrotorFault::Kind::kBatteryEmpty, 1.0, {}, {}});
   params.faults.push_back({QuadrotorFault::Kind::kRotorFailure, 1.0, 0, 0.0});
   QuadrotorRig rig(params);
   Listener listener(rig);

@@ -194,6 +194,20 @@ TEST(QuadrotorParams, ReadsFaultsAndRefusesARotorFailureWithoutARotor) {
   EXPECT_EQ(params.faults[0].rotor, 2u);
   EXPECT_EQ(params.faults[0].at_s, 5.0);
   EXPECT_EQ(params.faults[0].remaining, 0.25);
+  // An empty battery stops all rotors.
+  for (const bool names_rotor : {true, false}) {
+    ParameterSet battery = parameters.make_group("faults");
+    battery.set("kind", std::string("battery_empty")).set("at_s", 5.0);
+    names_rotor ? battery.set("rotor", std::int64_t{3}) : battery.set("remaining", 0.0);
+    parameters.set("faults", std::vector<ParameterSet>{battery});
+    try {
+      read_quadrotor_params(parameters, "drone", kGravity);
+      FAIL() << "accepted";
+    } catch (const ConfigError& error) {
+      EXPECT_STREQ(error.what(),
+                   "drone: faults[0]: 'rotor' and 'remaining' are keys of a rotor_failure");
+    }
+  }
 }
 
 /// Defaults of the spec are those of the struct.

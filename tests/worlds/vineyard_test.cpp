@@ -306,10 +306,10 @@ TEST(Vineyard, TooMuchGroundIsRefusedBeforeTheSlopeIsFitted) {
 }
 
 /// Mesh files are read back as long as the generator's version is the same. If this test fails,
-/// raise kGeneratorVersion in planted_folder.cpp and take over the new digests: otherwise old files would
-/// be read for new meshes, on machines that have them.
+/// raise kGeneratorVersion in planted_folder.cpp and take over the new digests: otherwise old files
+/// would be read for new meshes, on machines that have them.
 TEST(Vineyard, MeshesAreThoseOfTheGeneratorsVersion) {
-  const auto digest_of = [](bool with_vines) {
+  const auto digest_of = [](bool with_vines, bool with_weeds = false) {
     ParameterSet parameters = test::world_parameters("vineyard");
     parameters.set("row_count", std::int64_t{1}).set("row_length_m", 8.0).set("relief_m", 1.0);
     parameters.set("leaf_cards_per_m", 10.0);
@@ -318,6 +318,8 @@ TEST(Vineyard, MeshesAreThoseOfTheGeneratorsVersion) {
       vines.set("bbch", 85.0).set("berries", std::int64_t{5});
       parameters.set("vines", std::vector<ParameterSet>{vines});
     }
+    if (with_weeds)
+      parameters.set("weeds", std::vector<ParameterSet>{parameters.make_group("weeds")});
     // Not a folder of earlier builds.
     const auto folder = std::filesystem::temp_directory_path() /
                         ("vinerow_generator_" + std::to_string(::getpid()));
@@ -330,6 +332,7 @@ TEST(Vineyard, MeshesAreThoseOfTheGeneratorsVersion) {
   };
   EXPECT_EQ(digest_of(false), "829fd372833625a7c5b524d6912ba179");
   EXPECT_EQ(digest_of(true), "0ca75a25671ba8b8c36a658732aa1672");
+  EXPECT_EQ(digest_of(false, true), "4387d10d2dff0e5a5c7b6bd1aaa78bbd");
 }
 
 }  // namespace

@@ -280,8 +280,8 @@ class MissionRoute final : public Planner {
         const auto ground_m = ground_(p.head<2>());
         if (!ground_m) continue;
         if (p.z() < *ground_m) {
-          return fmt::format("{} goes {:.1f} m below the ground at ({:.1f}, {:.1f})", leg,
-                             *ground_m - p.z(), p.x(), p.y());
+          return fmt::format("{} goes {:.1f} m below the ground at ({:.1f}, {:.1f}){}", leg,
+                             *ground_m - p.z(), p.x(), p.y(), mission_places_.height_hint);
         }
         if (a.kind != PathKind::kTransit) min_m = std::min(min_m, p.z() - *ground_m);
       }

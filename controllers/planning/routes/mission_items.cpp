@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/core/error.h"
+#include "engine/io/missions/gis_mission.h"
 #include "engine/io/missions/mav_command.h"
 #include "engine/math/angles.h"
 #include "engine/math/polygon.h"
@@ -62,6 +63,9 @@ MissionPlaces place_mission(const io::MissionFile& mission, const GeoOrigin& ori
   result.first_speed_mps = speed_mps;
   bool camera = false, sprays = false, is_speed_given = false;
   constexpr int kSprayer = 216;
+  if (io::is_gis_mission(mission.file)) {
+    result.height_hint = "; the property height_m of a line or point sets its height";
+  }
   int flown = 0;
   for (const io::MissionItem& item : mission.items) {
     const io::MavCommand& command = *io::find_mav_command(item.command);

@@ -35,6 +35,7 @@ struct MissionPlaces {
   bool uses_sprayer = false;     ///< whether any item switches it
   int ignored_items = 0;         ///< items that do not move the vehicle
   int loiters = 0;               ///< loiter items, treated as waypoints
+  std::string height_hint;       ///< "; the property ..." of files without items, for messages
   int ignored_holds = 0;         ///< waypoints at which other than winged vehicles should wait
 };
 

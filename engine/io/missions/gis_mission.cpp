@@ -16,7 +16,7 @@ namespace vinerow::io {
 namespace {
 
 constexpr int kWaypointCommand = 16, kSpeedCommand = 178, kSprayerCommand = 216;
-constexpr int kAboveSea = 0, kNoPlace = 2, kAboveHome = 3;
+constexpr int kAboveSea = 0, kNoPlace = 2, kAboveHome = 3, kAboveGround = 10;
 
 std::string place_of_feature(const std::filesystem::path& file, const GeoFeature& feature) {
   return fmt::format("mission '{}', feature {}", file.string(), feature.index);
@@ -75,16 +75,21 @@ class Route {
     const bool sprays = property_switch(mission_.file, feature, "sprayer").value_or(false);
     const std::optional<double> height_m = property_number(mission_.file, feature, "height_m");
     const int number = feature.index + 1;
+    // As <altitudeMode> of KML defines it; other formats have no such property.
+    const std::string mode = feature.property("altitudemode");
+    const bool has_altitude = !height_m && feature.has_altitude && mode != "clampToGround";
+    const int frame = !has_altitude                ? kAboveHome
+                      : mode == "relativeToGround" ? kAboveGround
+                                                   : kAboveSea;
     bool is_first = true;
     for (const Geodetic& point : feature.points) {
-      const bool is_above_sea = !height_m && feature.has_altitude;
       MissionItem item;
       item.command = kWaypointCommand;
-      item.frame = is_above_sea ? kAboveSea : kAboveHome;
+      item.frame = frame;
       item.number = number;
       item.params[4] = deg_from_rad(point.latitude_rad);
       item.params[5] = deg_from_rad(point.longitude_rad);
-      item.params[6] = is_above_sea ? point.altitude_m : height_m.value_or(0.0);
+      item.params[6] = has_altitude ? point.altitude_m : height_m.value_or(0.0);
       add(item);
       if (!is_first) continue;
       // These take effect from the preceding position.

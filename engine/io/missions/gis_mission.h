@@ -14,8 +14,8 @@ bool is_gis_mission(const std::filesystem::path& file);
 /// order. Properties of a line or point:
 ///   speed_mps   sets the speed from there on (MAV_CMD 178)
 ///   sprayer     of a line, true or false: on along the line, off after it (MAV_CMD 216)
-///   height_m    above home; without it the third coordinate, above mean sea level, else 0 above
-///               home
+///   height_m    above home; without it the third coordinate, above mean sea level or as
+///               <altitudeMode> of a KML file defines it, else 0 above home
 /// Polygons with the property fence = inclusion or exclusion are fences; other polygons are
 /// ignored.
 /// @throws ConfigError as read_features(); also if there is no line or point, or a property has an

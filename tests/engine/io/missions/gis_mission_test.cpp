@@ -92,6 +92,30 @@ TEST(GisMission, VisitsPointsInTheirOrder) {
   EXPECT_EQ(mission.items[2].params[6], 12.0);
 }
 
+TEST(GisMission, HeightsOfKmlAreAboveWhatTheirAltitudeModeNames) {
+  struct Case {
+    std::string mode;
+    int frame;
+    double altitude_m;
+  };
+  for (const Case& c : {Case{"<altitudeMode>relativeToGround</altitudeMode>", 10, 20.0},
+                        Case{"<altitudeMode>absolute</altitudeMode>", 0, 20.0},
+                        Case{"<altitudeMode>clampToGround</altitudeMode>", 3, 0.0}}) {
+    SCOPED_TRACE(c.mode);
+    const auto file = test_file(".kml");
+    std::ofstream(file) << R"(<?xml version="1.0" encoding="UTF-8"?>
+<kml xmlns="http://www.opengis.net/kml/2.2"><Document><Placemark><LineString>)"
+                        << c.mode << "<coordinates>8.1,44.5,20 8.2,44.5,20</coordinates>"
+                        << "</LineString></Placemark></Document></kml>";
+    const MissionFile mission = read_mission(file);
+    ASSERT_EQ(mission.items.size(), 2u);
+    for (const MissionItem& item : mission.items) {
+      EXPECT_EQ(item.frame, c.frame);
+      EXPECT_EQ(item.params[6], c.altitude_m);
+    }
+  }
+}
+
 TEST(GisMission, SaysWhatIsWrong) {
   const std::string line = "[[8.1, 44.5], [8.2, 44.5]]";
   const auto error = [&](const std::string& properties) {

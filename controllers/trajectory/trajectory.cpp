@@ -69,13 +69,21 @@ class Trajectory final : public Guidance {
           yaw_rad, params_.flight);
     }
     if (flight_.empty()) return;
-    const std::string slower =
-        params_.hover_m ? ""
-                        : describe_too_fast_plan(plan_.value(), params_.flight.limits.row_speed_mps,
-                                                 "row_speed_mps");
-    report_event(now, slower.empty() ? Event::Level::kInfo : Event::Level::kWarning,
-                 fmt::format("takes off for {:.1f} m in {:.1f} s{}{}", flight_.length_m(),
-                             flight_.duration_s(), slower.empty() ? "" : "; ", slower));
+    const std::string warning = params_.hover_m ? "" : describe_plan();
+    report_event(now, warning.empty() ? Event::Level::kInfo : Event::Level::kWarning,
+                 fmt::format("takes off for {:.1f} m in {:.1f} s{}", flight_.length_m(),
+                             flight_.duration_s(), warning));
+  }
+
+  /// What a plan wants that the flight does not give; empty: nothing.
+  std::string describe_plan() const {
+    std::string text =
+        describe_too_fast_plan(plan_.value(), params_.flight.limits.row_speed_mps, "row_speed_mps");
+    if (!text.empty()) text.insert(0, "; ");
+    if (flight_.at(flight_.duration_s()).phase != Phase::kLand) {
+      text += "; its plan has no landing: it hovers at the end and does not finish";
+    }
+    return text;
   }
 
   /// Place at which the flight waits until it may continue.

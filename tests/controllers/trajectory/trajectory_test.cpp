@@ -455,6 +455,33 @@ TEST(Trajectory, TakesWantedSpeedsOfThePlan) {
   EXPECT_NEAR(second, 2.97, 0.04);  // 10 m from rest to rest at 1 m/s2
 }
 
+TEST(Trajectory, WarnsOfAPlanWithoutALanding) {
+  PlannedPath plan = make_corner();
+  for (PathPoint& point : plan.points) point.p_W.z() = 8.0;
+  plan.points.insert(plan.points.begin(), plan.points.front());
+  plan.points.front().p_W.z() = 1.2;
+  plan.points.front().kind = PathKind::kVertical;
+  for (const bool lands : {false, true}) {
+    PlannedPath flown = plan;
+    if (lands) {
+      flown.points.back().kind = PathKind::kVertical;
+      flown.points.push_back(flown.points.back());
+      flown.points.back().p_W.z() = 1.2;
+    }
+    GuideBench bench;
+    bench.give_plan(flown);
+    Phase last = Phase::kWait;
+    bench.fly({5, 0, 1.2}, 200.0, 1.2,
+              [&](double, const ReferenceTrajectory& reference) { last = reference.phase; });
+    EXPECT_EQ(last, lands ? Phase::kDone : Phase::kHover);
+    EXPECT_EQ(bench.events().front().level, lands ? Event::Level::kInfo : Event::Level::kWarning);
+    const std::string warning =
+        "; its plan has no landing: it hovers at the end and does not finish";
+    EXPECT_EQ(bench.events().front().text.ends_with(warning), !lands)
+        << bench.events().front().text;
+  }
+}
+
 TEST(Trajectory, HoldsAPlaceWithoutAPlan) {
   const Values values = {
       {"hover_m", std::vector<double>{4.0, 3.0, 2.0}}, {"hover_yaw_deg", 90.0}, {"hover_s", 5.0}};

@@ -14,6 +14,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import termios
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
@@ -42,11 +43,14 @@ def options_of(*command: str) -> set[str]:
             for o in re.findall(r"--[\w-]+", o.split("  ")[0])}  # fmt: skip
 
 
-def on_a_terminal(*arguments, **environment) -> str:
-    """What the command prints where standard output is a terminal."""
+def on_a_terminal(*arguments, progress_columns=0, **environment) -> str:
+    """What the command prints where standard output is a terminal; or standard error, of so many columns."""
     master, slave = pty.openpty()
+    if progress_columns:
+        termios.tcsetwinsize(slave, (24, progress_columns))
+    out, err = (subprocess.DEVNULL, slave) if progress_columns else (slave, subprocess.DEVNULL)
     env = {k: v for k, v in os.environ.items() if k != "NO_COLOR"}
-    run = subprocess.Popen([VINEROW, *arguments], stdout=slave, stderr=subprocess.DEVNULL, env={**env, "TERM": "xterm", **environment})
+    run = subprocess.Popen([VINEROW, *arguments], stdout=out, stderr=err, env={**env, "TERM": "xterm", **environment})
     os.close(slave)
     text = b""
     while True:
@@ -185,6 +189,22 @@ class Colours(unittest.TestCase):
     def test_color_always_wins(self):
         self.assertIn(RED, self.run_it(False, "--color", "always"))
         self.assertIn(RED, self.run_it(True, "--color", "always", NO_COLOR="1"))
+
+
+class Progress(unittest.TestCase):
+    def test_a_bar_stays_on_its_line(self):
+        for columns, longest in [(20, 19), (70, 69), (80, 79), (200, None)]:
+            with self.subTest(columns=columns), tempfile.TemporaryDirectory() as folder:
+                scenario = pathlib.Path(folder, "c.yaml")
+                scenario.write_text(Colours.FAILS.replace("duration_s: 0.2", "duration_s: 600"))
+                text = on_a_terminal("run", str(scenario), "--out", folder + "/out", "--no-log", "--no-report", "--no-pictures", progress_columns=columns)
+                bars = [bar.removesuffix("\x1b[K") for bar in re.split(r"[\r\n]+", text) if bar.startswith("[")]
+                self.assertTrue(bars)
+                for bar in bars:
+                    self.assertLessEqual(len(bar), longest or 200)
+                    self.assertTrue(columns < 70 or bar.endswith(" s left"), bar)
+                if longest is None:
+                    self.assertEqual({bar.index("]") for bar in bars}, {31})
 
 
 def vinerow_any(*arguments, **environment) -> str:

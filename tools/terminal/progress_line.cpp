@@ -1,12 +1,35 @@
 #include "tools/terminal/progress_line.h"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
 
 namespace vinerow::tools {
+namespace {
+
+/// Characters that fit on a line of the terminal. One less than its columns: at the last one some
+/// terminals begin the next line.
+int line_width() {
+  winsize size{};
+  const bool is_known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return (is_known ? size.ws_col : 80) - 1;
+}
+
+/// "[====      ] text" in at most `width` characters: a shorter bar first, then a shorter text.
+std::string draw_bar(double share, const std::string& text, int width) {
+  constexpr int kLongest = 30, kShortest = 5, kFrame = 3;
+  const int room = width - kFrame - static_cast<int>(text.size());
+  const int length = std::clamp(room, kShortest, kLongest);
+  const int filled = static_cast<int>(share * length);
+  const std::string line =
+      fmt::format("[{:=<{}}{: <{}}] {}", "", filled, "", length - filled, text);
+  return line.substr(0, static_cast<std::size_t>(std::max(width, 0)));
+}
+
+}  // namespace
 
 ProgressLine::ProgressLine(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
 
@@ -19,11 +42,9 @@ void ProgressLine::show(std::string_view stage, double share, const std::string&
   }
   share = std::clamp(share, 0.0, 1.0);
   if (terminal_) {
-    constexpr int kWidth = 30;
-    const int filled = static_cast<int>(share * kWidth);
     // Clear to the end of the line: the previous text may have been longer.
-    fmt::print(stderr, "\r[{:=<{}}{: <{}}] {} {}\x1b[K", "", filled, "", kWidth - filled, stage,
-               detail);
+    fmt::print(stderr, "\r{}\x1b[K",
+               draw_bar(share, fmt::format("{} {}", stage, detail), line_width()));
     std::fflush(stderr);
     stands_ = true;
   } else if (share >= next_share_ - 1e-9) {

@@ -10,7 +10,7 @@ namespace vinerow {
 enum class EndKind {
   kCrashed,
   kStuck,   ///< undamaged, but it makes no progress
-  kGaveUp,  ///< undamaged, but its guidance or controller cannot continue
+  kGaveUp,  ///< undamaged, but its guidance or controller cannot continue, or waits forever
 };
 
 /// "crashed", "is stuck", "gave up"

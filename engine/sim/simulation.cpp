@@ -136,10 +136,11 @@ void Simulation::add_traffic(const RunContext& run) {
   }
   if (scenario_.traffic.vehicles.empty()) return;
   traffic_ = std::make_unique<TrafficControl>(
-      run, vehicles_, [this](const std::string& vehicle, const std::string& reason) {
+      run, vehicles_, [this](VehicleRuntime& vehicle, const std::string& reason) {
+        if (!mission_) return vehicle.give_up(now_, reason);
         emit(Event::Level::kError, "traffic", reason);
         // This runs inside a task, and phases may end only when no task runs.
-        if (mission_) lost_vehicles_.emplace_back(vehicle, reason);
+        lost_vehicles_.emplace_back(vehicle.name(), reason);
       });
   scheduler_.add(Stage::kPlan, "run.traffic", period, {},
                  [this](Time now) { traffic_->step(now); });

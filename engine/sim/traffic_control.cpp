@@ -47,9 +47,9 @@ TrafficVehicle describe(const VehicleRuntime& vehicle, double stop_before_m) {
 
 }  // namespace
 
-TrafficControl::TrafficControl(
-    const RunContext& run, const std::vector<std::unique_ptr<VehicleRuntime>>& vehicles,
-    std::function<void(const std::string&, const std::string&)> on_deadlock)
+TrafficControl::TrafficControl(const RunContext& run,
+                               const std::vector<std::unique_ptr<VehicleRuntime>>& vehicles,
+                               std::function<void(VehicleRuntime&, const std::string&)> on_deadlock)
     : on_deadlock_(std::move(on_deadlock)) {
   const scenario::TrafficConfig& config = run.scenario.traffic;
   std::vector<TrafficVehicle> described;
@@ -117,7 +117,7 @@ void TrafficControl::step(Time now) {
     const std::optional<std::string> deadlock = traffic_->deadlock(i);
     if (!deadlock) continue;
     lane.lost = true;
-    on_deadlock_(lane.vehicle->name(), *deadlock);
+    on_deadlock_(*lane.vehicle, *deadlock);
   }
 }
 

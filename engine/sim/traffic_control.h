@@ -24,7 +24,7 @@ class TrafficControl {
   ///   no alleys
   TrafficControl(
       const RunContext& run, const std::vector<std::unique_ptr<VehicleRuntime>>& vehicles,
-      std::function<void(const std::string& vehicle, const std::string& reason)> on_deadlock);
+      std::function<void(VehicleRuntime& vehicle, const std::string& reason)> on_deadlock);
 
   /// One tick, in the stage kPlan.
   void step(Time now);
@@ -45,7 +45,7 @@ class TrafficControl {
 
   std::vector<Lane> lanes_;
   std::unique_ptr<AlleyTraffic> traffic_;
-  std::function<void(const std::string&, const std::string&)> on_deadlock_;
+  std::function<void(VehicleRuntime&, const std::string&)> on_deadlock_;
 };
 
 }  // namespace vinerow

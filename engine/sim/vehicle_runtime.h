@@ -65,6 +65,8 @@ class VehicleRuntime {
   bool has_controller() const { return parts_->controller != nullptr; }
   /// How it crashed or got stuck, or why its guidance or controller gave up, if so.
   const std::optional<Crash>& crash() const { return watch_.crash(); }
+  /// Its task cannot be done, because of others (deadlock).
+  void give_up(Time now, const std::string& reason) { watch_.give_up(now, reason); }
   scenario::OnCrash on_crash() const { return config_.on_crash; }
 
   /// Checks a value from outside if it is for its actuators. @throws ConfigError with the

@@ -33,6 +33,11 @@ class VehicleWatch {
   /// @param actuators  commanded values, in the order of the description
   void check_progress(Time now, const Eigen::Vector3d& p_W, const std::vector<double>& actuators);
 
+  /// Its task cannot be done. Without effect if it has crashed, got stuck or given up before.
+  void give_up(Time now, const std::string& reason) {
+    if (!crash_) set_crash(now, EndKind::kGaveUp, reason);
+  }
+
   /// How the vehicle crashed or got stuck, or why its guidance or controller gave up, if so.
   const std::optional<Crash>& crash() const { return crash_; }
 

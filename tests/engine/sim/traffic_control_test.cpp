@@ -18,6 +18,7 @@
 namespace vinerow::traffic_control_test {
 namespace {
 
+using ::testing::Contains;
 using ::testing::HasSubstr;
 
 constexpr double kHalfLength_m = 0.9;
@@ -209,6 +210,8 @@ class AlleyRun : public RunObserver {
     if (event.level == Event::Level::kError) errors_.push_back(event.source + ": " + event.text);
   }
   const std::vector<std::string>& errors() const { return errors_; }
+  std::vector<Crash> crashes() const { return simulation_->crashes(); }
+  double now_s() const { return simulation_->now().s(); }
 
  private:
   Registry registry_;
@@ -247,7 +250,26 @@ TEST(TrafficControl, AWreckKeepsItsAlleyClosed) {
   EXPECT_DOUBLE_EQ(run.distance_m("second"), kStand_m);
   ASSERT_EQ(run.errors().size(), 2u);
   EXPECT_THAT(run.errors()[0], HasSubstr("crashed: turned over"));
-  EXPECT_EQ(run.errors()[1], "traffic: second waits for alley 7, in which first has stopped");
+  EXPECT_EQ(run.errors()[1],
+            "second: gave up: second waits for alley 7, in which first has stopped");
+  ASSERT_EQ(run.crashes().size(), 2u);
+  EXPECT_EQ(run.crashes()[1].vehicle, "second");
+}
+
+TEST(TrafficControl, ADeadlockEndsARunLikeACrash) {
+  AlleyRun run({"first.crash_s=15", "second.on_crash=end"});
+  run.until(59.0);
+  EXPECT_LT(run.now_s(), 30.0);
+  ASSERT_EQ(run.crashes().size(), 2u);
+}
+
+TEST(TrafficControl, APhaseOfAMissionFailsByADeadlock) {
+  AlleyRun run({"first.crash_s=15"}, kPhases);
+  run.until(59.0);
+  EXPECT_THAT(run.errors(), Contains("traffic: second waits for alley 7, in which first has "
+                                     "stopped"));
+  ASSERT_EQ(run.crashes().size(), 1u);
+  EXPECT_EQ(run.crashes()[0].vehicle, "first");
 }
 
 TEST(TrafficControl, AWreckBeyondTheAlleyClosesNothing) {

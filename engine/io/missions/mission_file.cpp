@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -14,8 +15,52 @@
 #include "engine/io/missions/qgc_plan.h"
 #include "engine/io/missions/qgc_wpl.h"
 #include "engine/math/angles.h"
+#include "engine/math/geo.h"
+#include "engine/math/polygon.h"
 
 namespace vinerow::io {
+namespace {
+
+MissionFile read_any_mission(const std::filesystem::path& file) {
+  if (is_gis_mission(file)) return read_gis_mission(file);
+  std::optional<std::string> bytes = read_bytes(file);
+  if (!bytes) throw ConfigError(fmt::format("mission file '{}' does not exist", file.string()));
+  std::string& text = *bytes;
+  const std::string kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.rfind(kByteOrderMark, 0) == 0) text.erase(0, kByteOrderMark.size());
+  const std::size_t begin = text.find_first_not_of(" \t\r\n");
+  if (begin == std::string::npos) {
+    throw ConfigError(fmt::format("mission file '{}' is empty", file.string()));
+  }
+  if (text.compare(begin, 3, "QGC") == 0) return parse_qgc_wpl(text.substr(begin), file);
+  if (text[begin] == '{') return parse_qgc_plan(text, file);
+  throw ConfigError(fmt::format(
+      "mission file '{}' is neither a QGroundControl plan (JSON) nor a 'QGC WPL 110' text; lines "
+      "and points of a map are read from .gpkg, .kml, .kmz, .shp and .geojson",
+      file.string()));
+}
+
+/// A polygon that crosses itself has no side that is inside.
+void check_fence(const FencePolygon& fence, int number, const std::filesystem::path& file) {
+  constexpr std::size_t kMost = 5'000;  // each edge is compared with each other
+  if (fence.points.size() > kMost) return;
+  const LocalFrame frame({fence.points[0].latitude_rad, fence.points[0].longitude_rad, 0.0});
+  Polygon points;
+  for (const Geodetic& point : fence.points) points.push_back(frame.to_local(point).head<2>());
+  const Polygon polygon = without_repeats(points);
+  if (polygon.size() < 4) return;  // a triangle cannot
+  const auto crossing = find_crossing(polygon);
+  if (!crossing) return;
+  const auto number_of = [&](int corner) {
+    return std::find(points.begin(), points.end(), polygon[corner]) - points.begin() + 1;
+  };
+  throw ConfigError(fmt::format(
+      "mission '{}', fence polygon {}: the edge from its point {} meets the edge from its point "
+      "{}, points must be in order around it",
+      file.string(), number, number_of(crossing->first), number_of(crossing->second)));
+}
+
+}  // namespace
 
 std::string mission_place(const std::filesystem::path& file, int number) {
   return fmt::format("mission '{}', item {}", file.string(), number);
@@ -76,22 +121,10 @@ Geodetic place_of(const MissionItem& item) {
 }
 
 MissionFile read_mission(const std::filesystem::path& file) {
-  if (is_gis_mission(file)) return read_gis_mission(file);
-  std::optional<std::string> bytes = read_bytes(file);
-  if (!bytes) throw ConfigError(fmt::format("mission file '{}' does not exist", file.string()));
-  std::string& text = *bytes;
-  const std::string kByteOrderMark = "\xEF\xBB\xBF";
-  if (text.rfind(kByteOrderMark, 0) == 0) text.erase(0, kByteOrderMark.size());
-  const std::size_t begin = text.find_first_not_of(" \t\r\n");
-  if (begin == std::string::npos) {
-    throw ConfigError(fmt::format("mission file '{}' is empty", file.string()));
-  }
-  if (text.compare(begin, 3, "QGC") == 0) return parse_qgc_wpl(text.substr(begin), file);
-  if (text[begin] == '{') return parse_qgc_plan(text, file);
-  throw ConfigError(fmt::format(
-      "mission file '{}' is neither a QGroundControl plan (JSON) nor a 'QGC WPL 110' text; lines "
-      "and points of a map are read from .gpkg, .kml, .kmz, .shp and .geojson",
-      file.string()));
+  MissionFile mission = read_any_mission(file);
+  int number = 0;
+  for (const FencePolygon& fence : mission.fence_polygons) check_fence(fence, ++number, file);
+  return mission;
 }
 
 }  // namespace vinerow::io

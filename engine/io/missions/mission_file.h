@@ -51,7 +51,8 @@ struct MissionFile {
 /// Reads any of the formats; extension and content select it.
 /// @throws ConfigError in one sentence, with the file, the item's number and the allowed values:
 /// missing file, unknown format, versions other than `.plan` 1, mission 2, survey 5, fences 2;
-/// missing parts; unknown commands and frames; complex items other than surveys; invalid numbers
+/// missing parts; unknown commands and frames; complex items other than surveys; invalid numbers;
+/// fences that cross themselves
 MissionFile read_mission(const std::filesystem::path& file);
 
 /// True if an item has a position: params[4] and params[5] are finite and not both zero.

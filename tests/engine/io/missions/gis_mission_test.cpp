@@ -136,6 +136,13 @@ TEST(GisMission, SaysWhatIsWrong) {
   EXPECT_EQ(error_of(areas),
             "mission '" + areas.string() +
                 "', feature 0: fence = 'keep out', must be inclusion or exclusion");
+  const std::string bow = "[[[8, 44], [8, 44], [9, 45], [9, 44], [8, 45], [8, 44]]]";
+  const auto crossed = write_geojson(feature("LineString", line) + "," +
+                                     feature("Polygon", bow, R"("fence": "exclusion")"));
+  EXPECT_EQ(error_of(crossed),
+            "mission '" + crossed.string() +
+                "', fence polygon 1: the edge from its point 1 meets the edge from its point 4, "
+                "points must be in order around it");
   const auto none = write_geojson(feature("Polygon", ring));
   EXPECT_EQ(error_of(none), "mission '" + none.string() + "' has neither lines nor points");
   std::ofstream(test_file(".gpkg")) << "hello";

@@ -364,6 +364,33 @@ class Export(unittest.TestCase):
         stems = ["______escape", "a_x", "a_x_2", "b"]
         self.assertEqual(there, sorted(["log.mcap"] + [f"out/{s}.{e}" for s in stems for e in ["csv", "npz"]]))
 
+    def test_topics_that_do_not_fit_into_memory_together_are_those_of_their_own_export(self):
+        # 58 + 58 + 29 MB, of which 128 MB fit. The first messages of the third are not typical.
+        log = Log()
+        random = numpy.random.default_rng(1)
+        channels = [log.channel(f"/scan/{k}", "test_msgs/msg/Scan", "float64[] ranges\n") for k in range(4)]
+        for i in range(12):
+            for k, channel in enumerate(channels):
+                count = 3 if k == 3 else 1_000 if k == 2 and i < 6 else 600_000
+                data = bytes(4) + random.random(count).tobytes()
+                log.message(channel, i, b"\x00\x01\x00\x00" + struct.pack("<I", count) + data)
+        log.write(self.log)
+        self.run_export("--topic", "/scan/*", "--npz", "-o", "all")
+        for k in range(4):
+            self.run_export("--topic", f"/scan/{k}", "-o", f"one_{k}.npz")
+            self.assertEqual((self.folder / f"all/scan_{k}.npz").read_bytes(), (self.folder / f"one_{k}.npz").read_bytes())
+        self.assertEqual(numpy.load(self.folder / "all/scan_2.npz")["ranges"].shape, (12, 600_000))
+
+    def test_nothing_is_written_if_a_topic_cannot_be_decoded(self):
+        log = Log()
+        log.message(log.channel("/a", "vinerow_msgs/msg/NamedValues", NAMED), 0, named_message(0, []))
+        log.channel("/b", "vinerow_msgs/msg/NamedValues", NAMED, "json")
+        log.channel("/c", "test_msgs/msg/Bad", "a/B x\n")
+        log.write(self.log)
+        self.assertIn("topic '/b' has messages of encoding 'json'", self.run_export("--topic", "*", "-o", "out", status=2).stderr)
+        self.assertIn("names the type 'a/B'", self.run_export("--topic", "/a", "--topic", "/c", "-o", "out", status=2).stderr)
+        self.assertFalse((self.folder / "out").exists())
+
     def test_without_such_a_topic_the_nearest_are_named(self):
         self.write_kinds()
         run = self.run_export("--topic", "/rover/kind", status=2)

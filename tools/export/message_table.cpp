@@ -161,6 +161,7 @@ bool MessageTable::add(std::int64_t stamp_ns, std::int64_t logged_ns,
     rows_.push_back({stamp_ns, logged_ns, element});
   }
   keep(count);
+  bytes_ += count * (sizeof(TableRow) + columns_.size() * sizeof(std::uint32_t));
   return true;
 }
 
@@ -276,8 +277,13 @@ void MessageTable::append(const Leaf& leaf, std::size_t row) {
   if (column.kind == RosKind::kText) {
     column.texts.insert(column.texts.end(), texts_.begin() + leaf.from,
                         texts_.begin() + leaf.from + leaf.count);
+    for (std::uint32_t i = 0; i < leaf.count; ++i) {
+      bytes_ += sizeof(std::string) + texts_[leaf.from + i].size();
+    }
   } else {
-    column.numbers.append(numbers_, leaf.from, leaf.count * record::size_of(column.kind));
+    const std::size_t size = leaf.count * record::size_of(column.kind);
+    column.numbers.append(numbers_, leaf.from, size);
+    bytes_ += size;
   }
 }
 

@@ -51,6 +51,8 @@ class MessageTable {
   bool has_elements() const { return rows_of_elements_; }
   const std::vector<TableRow>& rows() const { return rows_; }
   const std::vector<TableColumn>& columns() const { return columns_; }
+  /// Size of the values, apart from what containers reserve.
+  std::size_t bytes() const { return bytes_; }
 
  private:
   static constexpr int kEveryRow = -1;
@@ -88,6 +90,7 @@ class MessageTable {
   std::vector<TableColumn> columns_;
   std::map<std::string, std::size_t> places_;  ///< indices of columns by name
   std::vector<TableRow> rows_;
+  std::size_t bytes_ = 0;
   // Scratch of the current message.
   std::vector<Leaf> leaves_;
   std::string numbers_;

@@ -3,6 +3,8 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "engine/core/error.h"
 #include "engine/core/files.h"
@@ -16,18 +18,11 @@
 #include "tools/export/table_files.h"
 #include "tools/vinerow/export_clouds.h"
 #include "tools/vinerow/export_source.h"
+#include "tools/vinerow/export_tables.h"
 #include "tools/vinerow/subcommands.h"
 
 namespace vinerow::tools {
 namespace {
-
-MessageTable table_of(record::McapReader& log, const std::string& topic, const TopicSource& source,
-                      const ExportArguments& arguments) {
-  MessageTable table(record::RosSchema::parse(source.schema->name, source.schema->data),
-                     arguments.long_form);
-  add_messages(log, topic, source, arguments, table);
-  return table;
-}
 
 /// Unique file stem of a topic: "rover_follower" for "/rover/follower".
 std::string file_stem(const std::string& topic, std::set<std::string>& taken) {
@@ -123,66 +118,73 @@ void export_topics(ExportArguments arguments) {
   std::optional<CloudFormat> cloud_format;
   if (arguments.pcd) cloud_format = CloudFormat::kPcd;
   if (arguments.ply) cloud_format = CloudFormat::kPly;
-  std::set<std::string> taken;
-  const auto export_one = [&](const ChosenTopic& chosen) {
-    const std::string& topic = chosen.name;
-    const TopicSource source = source_of(log, topic, arguments);
+  const bool to_clouds = cloud_format || arguments.las;
+  const auto is_in_picture_files = [&](const std::string& type) {
+    return is_picture_type(type) && arguments.csv;
+  };
+  // Everything is checked before the first file is written.
+  std::vector<std::pair<ChosenTopic, TopicSource>> exported;
+  std::vector<WantedTable> wanted_tables;
+  for (const ChosenTopic& topic : topics) {
+    TopicSource source = source_of(log, topic.name, arguments);
     const std::string& type = source.schema->name;
-    const bool to_clouds = cloud_format || arguments.las;
     if (to_clouds && !is_cloud_type(type)) {
       // A pattern exports every topic that can be exported.
-      if (chosen.by_pattern) return false;
+      if (topic.by_pattern) continue;
       throw ConfigError(
-          fmt::format("export: topic '{}' has no clouds, it is of type {}", topic, type));
+          fmt::format("export: topic '{}' has no clouds, it is of type {}", topic.name, type));
     }
+    if (one_file && is_in_picture_files(type)) {
+      throw ConfigError(fmt::format(
+          "export: topic '{}' has pictures, -o must be a folder for them or a .npz file",
+          topic.name));
+    }
+    const bool needs_table = !to_clouds && (arguments.npz || !is_in_picture_files(type));
+    if (needs_table) wanted_tables.push_back({topic.name, source});
+    exported.emplace_back(topic, std::move(source));
+  }
+  if (exported.empty()) {
+    throw ConfigError(fmt::format("{}: none of the topics has clouds", arguments.log.string()));
+  }
+  ExportTables tables(log, arguments, std::move(wanted_tables));
+  std::set<std::string> taken;
+  const auto export_one = [&](const std::string& topic, const TopicSource& source) {
+    const std::string& type = source.schema->name;
     const std::string stem = file_stem(topic, taken);
-    if (to_clouds && one_file) {
-      write_map_cloud(log, topic, source, arguments);
-      return true;
-    }
+    if (to_clouds && one_file) return write_map_cloud(log, topic, source, arguments);
     if (cloud_format) {
       ScanFiles clouds(folder / stem, *cloud_format);
       add_messages(log, topic, source, arguments, clouds);
       fmt::print("{}  {} clouds\n", (folder / stem).string(), clouds.finish());
-      return true;
+      return;
     }
     // Pictures are files, not columns of bytes; arrays of them only where those are requested.
-    const bool as_files = is_picture_type(type) && arguments.csv;
+    const bool as_files = is_in_picture_files(type);
     if (as_files) {
-      if (one_file) {
-        throw ConfigError(fmt::format(
-            "export: topic '{}' has pictures, -o must be a folder for them or a .npz file", topic));
-      }
       PictureFiles pictures(folder / stem);
       add_messages(log, topic, source, arguments, pictures);
       fmt::print("{}  {} pictures\n", (folder / stem).string(), pictures.finish());
-      if (!arguments.npz) return true;
+      if (!arguments.npz) return;
     }
-    const MessageTable table = table_of(log, topic, source, arguments);
+    const MessageTable table = tables.next();
     const auto file = [&](const char* ending) {
       return one_file ? arguments.out : folder / (stem + ending);
     };
     if (arguments.out == "-") {
       fmt::print("{}", csv_of(table, topic));
-      return true;
+      return;
     }
     if (arguments.csv && !as_files) write_table(table, file(".csv"), csv_of(table, topic));
     if (arguments.npz)
       write_table(table, file(".npz"), npz_of(table, topic, is_picture_type(type)));
-    return true;
   };
-  bool has_any = false;
-  for (const ChosenTopic& topic : topics) {
+  for (const auto& [topic, source] : exported) {
     try {
-      has_any = export_one(topic) || has_any;
+      export_one(topic.name, source);
     } catch (const TableTooLarge& error) {
       if (!topic.by_pattern) throw;
-      has_any = true;
       fmt::print(stderr, "vinerow: left out {}\n", error.what());
     }
-  }
-  if (!has_any) {
-    throw ConfigError(fmt::format("{}: none of the topics has clouds", arguments.log.string()));
   }
   if (!log.complete()) {
     fmt::print(stderr, "vinerow: '{}' is cut off: what was written before is exported\n",

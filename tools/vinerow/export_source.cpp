@@ -1,5 +1,6 @@
 #include "tools/vinerow/export_source.h"
 
+#include <fmt/format.h>
 #include <fnmatch.h>
 
 #include <algorithm>
@@ -97,6 +98,14 @@ TopicSource source_of(const record::McapReader& log, const std::string& topic,
     source.channels.insert(channel->id);
   }
   return source;
+}
+
+void note_undecoded(const ExportArguments& arguments, const std::string& topic,
+                    const TopicSource& source, std::uint64_t undecoded) {
+  if (undecoded == 0) return;
+  fmt::print(stderr,
+             "vinerow: {}: {} messages of topic '{}' are not of type {} and were left out\n",
+             arguments.log.string(), undecoded, topic, source.schema->name);
 }
 
 void check_span(const record::McapReader& log, const ExportArguments& arguments) {

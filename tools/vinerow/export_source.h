@@ -1,8 +1,6 @@
 #pragma once
 /// Choice of a log's topics and messages for `vinerow export`.
 
-#include <fmt/format.h>
-
 #include <cstdint>
 #include <filesystem>
 #include <limits>
@@ -45,23 +43,29 @@ TopicSource source_of(const record::McapReader& log, const std::string& topic,
 /// @throws ConfigError if no message can be between --from and --to
 void check_span(const record::McapReader& log, const ExportArguments& arguments);
 
-/// Adds the messages between --from and --to. @param out  has add(stamp_ns, logged_ns, bytes)
+/// Adds the message if it is between --from and --to. @returns false if it cannot be decoded
+/// @param out  has add(stamp_ns, logged_ns, bytes)
+template <class Out>
+bool add_message(const record::McapMessage& message, const ExportArguments& arguments, Out& out) {
+  const auto stamp_ns = static_cast<std::int64_t>(message.publish_time);
+  const double stamp_s = static_cast<double>(stamp_ns) / 1e9;
+  if (stamp_s < arguments.from_s || stamp_s > arguments.to_s) return true;
+  return out.add(stamp_ns, static_cast<std::int64_t>(message.log_time), message.data);
+}
+
+/// Prints how many messages could not be decoded, if any.
+void note_undecoded(const ExportArguments& arguments, const std::string& topic,
+                    const TopicSource& source, std::uint64_t undecoded);
+
+/// Adds all messages of a topic. @param out  as add_message()
 template <class Out>
 void add_messages(record::McapReader& log, const std::string& topic, const TopicSource& source,
                   const ExportArguments& arguments, Out& out) {
   std::uint64_t undecoded = 0;
   log.for_each_message(source.channels, [&](const record::McapMessage& message) {
-    const auto stamp_ns = static_cast<std::int64_t>(message.publish_time);
-    const double stamp_s = static_cast<double>(stamp_ns) / 1e9;
-    if (stamp_s < arguments.from_s || stamp_s > arguments.to_s) return;
-    const auto logged_ns = static_cast<std::int64_t>(message.log_time);
-    undecoded += out.add(stamp_ns, logged_ns, message.data) ? 0 : 1;
+    undecoded += add_message(message, arguments, out) ? 0 : 1;
   });
-  if (undecoded > 0) {
-    fmt::print(stderr,
-               "vinerow: {}: {} messages of topic '{}' are not of type {} and were left out\n",
-               arguments.log.string(), undecoded, topic, source.schema->name);
-  }
+  note_undecoded(arguments, topic, source, undecoded);
 }
 
 }  // namespace vinerow::tools

@@ -105,6 +105,12 @@ TEST(MeshWorld, SdfRowsStandWhereTheFileSays) {
       std::string::npos)
       << notes;
   EXPECT_EQ(notes.find("sun"), std::string::npos) << "lights are no models to miss";
+
+  ParameterSet vines = parameters.make_group("vines");
+  vines.set("pruning", std::string("pergola"));
+  parameters.set("vines", std::vector<ParameterSet>{vines}).set("canopy_width_m", 3.5);
+  EXPECT_EQ(test::config_error_of([&] { test::make_world("mesh", parameters); }),
+            "canopy_width_m = 3.5 m, must be <= the width of alley 0 = 3 m for a pergola");
 }
 
 TEST(MeshWorld, GroundFollowsTheFeetOfSdfPieces) {

@@ -168,6 +168,26 @@ TEST(Surveyed, RefusesBadInputInOneSentence) {
             std::string::npos);
 }
 
+/// Half of the roofs' width from each row: they would overlap.
+TEST(Surveyed, PergolasWiderThanTheNarrowestAlleyAreRefused) {
+  // At 45 degrees of latitude, 2e-5 degrees of longitude are 1.57694 m on the WGS84 ellipsoid.
+  const std::string file = test::temporary_file("narrow.geojson",
+                                                R"({"type":"MultiLineString","coordinates":[
+        [[8.0,45.0],[8.0,45.0001]],[[8.00002,45.0],[8.00002,45.0001]]]})");
+  ParameterSet parameters = test::world_parameters("surveyed");
+  parameters.set("survey_file", file);
+  ParameterSet vines = parameters.make_group("vines");
+  vines.set("pruning", std::string("pergola"));
+  parameters.set("vines", std::vector<ParameterSet>{vines});
+  const std::string error =
+      test::config_error_of([&] { test::make_world("surveyed", parameters); });
+  EXPECT_TRUE(error.starts_with("canopy_width_m = 2 m, must be <= the width of alley 0 = 1.5769"))
+      << error;
+  EXPECT_TRUE(error.ends_with(" m for a pergola")) << error;
+  parameters.set("canopy_width_m", 1.5);
+  EXPECT_EQ(test::make_world("surveyed", parameters)->rows->alleys.size(), 1u);
+}
+
 TEST(Surveyed, PointsFarFromEveryRowAreNoted) {
   const std::string file = test::temporary_file("stray.geojson",
                                                 R"({"type":"FeatureCollection","features":[

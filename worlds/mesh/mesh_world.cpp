@@ -310,6 +310,7 @@ void add_rows(WorldModel& world, const std::vector<mapping::RowCurve>& rows, boo
   };
   RowMap map = mapping::make_row_map(rows, ground, canopy_size(params.planting.canopy),
                                      mapping::parcel_boundary(rows, 8.0, 3.0));
+  if (!have_meshes) check_pitch(params.planting, map);
   if (!have_meshes) placeholder_plants(world, rows, ground, params);
   world.rows = std::move(map);
   add_alley_spawn_points(world);

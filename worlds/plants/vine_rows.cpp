@@ -6,8 +6,10 @@
 #include <cmath>
 #include <map>
 
+#include "engine/api/map.h"
 #include "engine/api/parameter_table.h"
 #include "engine/api/world_model.h"
+#include "engine/core/error.h"
 #include "worlds/parts/foliage.h"
 #include "worlds/parts/leaf_area.h"
 #include "worlds/plants/leaf_outline.h"
@@ -322,6 +324,22 @@ bool is_pergola(const VinePlanting& planting) {
 double canopy_width_m(const VinePlanting& planting) {
   return planting.canopy_width_m.value_or(is_pergola(planting) ? kPergolaWidth_m
                                                                : planting.canopy.width_m);
+}
+
+std::string find_fault_in_pitch(const VinePlanting& planting, double pitch_m,
+                                const std::string& pitch) {
+  const double width_m = canopy_width_m(planting);
+  if (!is_pergola(planting) || width_m <= pitch_m) return "";
+  return fmt::format("canopy_width_m = {:.6g} m, must be <= {} = {:.6g} m for a pergola", width_m,
+                     pitch, pitch_m);
+}
+
+void check_pitch(const VinePlanting& planting, const RowMap& rows) {
+  const auto narrowest = std::ranges::min_element(rows.alleys, {}, &Alley::width_m);
+  if (narrowest == rows.alleys.end()) return;
+  const std::string fault = find_fault_in_pitch(
+      planting, narrowest->width_m, fmt::format("the width of alley {}", narrowest->id));
+  if (!fault.empty()) throw ConfigError(fault);
 }
 
 VinePlanting settle_growth(VinePlanting planting) {

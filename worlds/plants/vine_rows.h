@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "engine/api/forward.h"
@@ -52,6 +53,15 @@ bool is_pergola(const VinePlanting& planting);
 
 /// Given or default, before settle_growth().
 double canopy_width_m(const VinePlanting& planting);
+
+/// Roofs of pergolas must not overlap: fault of the width, before or after settle_growth(), or "".
+/// @param pitch_m  smallest distance between two rows
+/// @param pitch  what it is called in the sentence: "pitch_m"
+std::string find_fault_in_pitch(const VinePlanting& planting, double pitch_m,
+                                const std::string& pitch);
+/// The same for rows that are given: the narrowest alley counts.
+/// @throws ConfigError
+void check_pitch(const VinePlanting& planting, const RowMap& rows);
 
 /// Sets what the user has not given. With growing vines, the space for them is that of `canopy`,
 /// which becomes the extent of their leaves: 0.1 m wide from arms to posts without leaves. Call it

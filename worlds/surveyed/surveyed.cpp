@@ -232,6 +232,7 @@ std::unique_ptr<WorldModel> make_surveyed(const ParameterSet& parameters,
   world->terrain = build_terrain(params.terrain, planting.seed, world->origin, shape, box);
   const mapping::GroundHeight ground = ground_of(*world->terrain);
   world->rows = mapping::make_row_map(rows, ground, canopy_size(planting.canopy), boundary);
+  check_pitch(planting, world->rows);
   add_alley_spawn_points(*world);
 
   // A point belongs to the nearest row if it is nearer than a third of the way to the next.

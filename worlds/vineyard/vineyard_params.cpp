@@ -52,12 +52,7 @@ const ParameterTable<VineyardParams>& vineyard_table() {
           .include(&P::map, mapping::map_table())
           .include(&P::obstacles, obstacles_table())
           .rule([](const P& p) -> std::string {
-            const double width_m = canopy_width_m(p.planting);
-            if (!is_pergola(p.planting) || width_m <= p.pitch_m) return "";
-            return fmt::format(
-                "canopy_width_m = {:.6g} m, must be <= pitch_m = {:.6g} m for a "
-                "pergola",
-                width_m, p.pitch_m);
+            return find_fault_in_pitch(p.planting, p.pitch_m, "pitch_m");
           });
   return table;
 }

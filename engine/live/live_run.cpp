@@ -8,6 +8,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
+#include "engine/io/files/seconds.h"
 #include "engine/io/files/yaml.h"
 #include "engine/live/command_codec.h"
 #include "engine/live/message_json.h"
@@ -201,7 +202,7 @@ void LiveRun::begin(Session& session) {
   json fixed = {{"scenario", scenario.name},
                 {"seed", scenario.seed},
                 {"duration_s", scenario.duration_s},
-                {"step_s", scenario.physics_step.s()},
+                {"step_s", io::seconds(scenario.physics_step)},
                 {"command_topics", std::move(topics)}};
   json values = json::object();
   flatten(io::parse_yaml(scenario.resolved_yaml, "scenario.resolved.yaml", "/"), "", values);

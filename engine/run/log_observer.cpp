@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/core/whole_file.h"
+#include "engine/io/files/seconds.h"
 #include "engine/run/run_channels.h"
 #include "engine/run/summary.h"
 #include "engine/sim/simulation.h"
@@ -54,7 +55,7 @@ void EventFile::on_event(Time now, const Event& event) {
   const char* level = event.level == Event::Level::kInfo      ? "info"
                       : event.level == Event::Level::kWarning ? "warning"
                                                               : "error";
-  const std::string line = nlohmann::ordered_json{{"t_s", static_cast<double>(now.ns) / 1e9},
+  const std::string line = nlohmann::ordered_json{{"t_s", io::seconds(now)},
                                                   {"level", level},
                                                   {"source", event.source},
                                                   {"text", event.text}}

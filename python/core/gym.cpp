@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/core/error.h"
+#include "engine/io/files/seconds.h"
 #include "engine/scenario/scenario_reader.h"
 #include "engine/scenario/study_factor.h"
 #include "python/core/arguments.h"
@@ -15,7 +16,6 @@
 #include "python/core/parts.h"
 #include "python/core/run.h"
 #include "python/core/scenario.h"
-#include "python/core/seconds.h"
 #include "python/core/yaml_from_python.h"
 #include "python/tasks/vector_environment.h"
 
@@ -423,7 +423,7 @@ void bind_gym(py::module_& module) {
                         int index) { return session_of(self.get().environment(index)).digest(); })
       .def("now_s",
            [](Environments& self, int index) {
-             return seconds(session_of(self.get().environment(index)).now());
+             return io::seconds(session_of(self.get().environment(index)).now());
            })
       .def("run_seed", [](Environments& self,
                           int index) { return session_of(self.get().environment(index)).seed(); })
@@ -460,7 +460,8 @@ void bind_gym(py::module_& module) {
       .def("agents", &agents_to_python)
       .def("levels", [](Episodes& self) { return levels_to_python(self.environment()); })
       .def("digest", [](Episodes& self) { return session_of(self.environment()).digest(); })
-      .def("now_s", [](Episodes& self) { return seconds(session_of(self.environment()).now()); });
+      .def("now_s",
+           [](Episodes& self) { return io::seconds(session_of(self.environment()).now()); });
 }
 
 }  // namespace vinerow::python

@@ -7,13 +7,13 @@
 #include "engine/core/error.h"
 #include "engine/io/files/placed_error.h"
 #include "engine/io/files/plain_zeros.h"
+#include "engine/io/files/seconds.h"
 #include "python/core/elementary.h"
 #include "python/core/gym.h"
 #include "python/core/log.h"
 #include "python/core/parts.h"
 #include "python/core/run.h"
 #include "python/core/scenario.h"
-#include "python/core/seconds.h"
 #include "python/core/session.h"
 #include "python/core/signal.h"
 #include "python/core/usage_error.h"
@@ -41,7 +41,8 @@ void translate(std::exception_ptr pointer) {
   try {
     if (pointer) std::rethrow_exception(pointer);
   } catch (const SimulationError& error) {
-    raise("SimulationError", io::plain_zeros(error.what()), error.culprit(), seconds(error.time()));
+    raise("SimulationError", io::plain_zeros(error.what()), error.culprit(),
+          io::seconds(error.time()));
   } catch (const io::PlacedError& error) {
     const io::SourceMark& where = error.where();
     raise("ConfigError", io::plain_zeros(error.what()), or_none(where.file, !where.file.empty()),

@@ -63,6 +63,14 @@ TEST_F(SmallRun, APartsEventReachesTheRunsEventsOnce) {
   EXPECT_EQ(own, 2);
 }
 
+TEST_F(SmallRun, TimesOfTheSummaryAreTheNearestDoubles) {
+  // 300,000,000 ns * 1e-9 is 0.30000000000000004.
+  run({"duration_s=0.3", "rover.crash_s=0.3"});
+  EXPECT_EQ(summary()["simulated_s"], 0.3);
+  EXPECT_EQ(summary()["metrics"]["rover"]["time_s"], 0.3);
+  EXPECT_EQ(summary()["crashes"][0]["time_s"], 0.3);
+}
+
 TEST_F(SmallRun, EventsAndTreesAreNotInTheDigest) {
   const std::string digest = run().digest;
   EXPECT_EQ(run({"rover.controller.tells=false"}).digest, digest);

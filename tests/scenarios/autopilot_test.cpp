@@ -445,6 +445,27 @@ TEST(Ardupilot, SaysWhatWentWrong) {
                         ": another program has it"));
 }
 
+TEST(Ardupilot, TwoWithOnePortAreRefusedBeforeTheRun) {
+  const int instance = free_instance();
+  const auto text = [&](int of_other, const std::string& more) {
+    return rover_text(ardupilot(instance)) +
+           "  other:\n    type: diff_drive_rover\n    spawn: {alley: 0}\n    autopilot: {" +
+           ardupilot(of_other, more) + "}\n";
+  };
+  EXPECT_THAT(
+      fault_of(text(instance, ""), 0),
+      HasSubstr("other.autopilot (ardupilot): UDP port " + std::to_string(port_of(instance)) +
+                " of 127.0.0.1 is that of rover.autopilot (ardupilot): give one of them "
+                "another instance or mavlink_port"));
+  const std::string mavlink_port = std::to_string(14555 + 10 * instance);
+  EXPECT_THAT(fault_of(text(instance + 1, ", mavlink_port: " + mavlink_port), 0),
+              HasSubstr("UDP port " + mavlink_port + " of 127.0.0.1 is that of rover.autopilot"));
+  // Other instances are built, twice: nothing has been started.
+  Session session = open(text(instance + 1, ""));
+  session.reset(2);
+  EXPECT_EQ(session.now().ns, 0);
+}
+
 std::vector<std::string> autopilots() {
   Registry registry;
   register_all(registry);

@@ -29,8 +29,8 @@ std::unique_ptr<Autopilot> make_ardupilot(const ParameterSet& parameters,
                                           const AutopilotContext& context) {
   const std::string who = context.part + " (ardupilot)";
   const FirmwareParams params = ardupilot_table().read(parameters, who);
-  RunningLockstepOptions options =
-      running_options(params, lockstep_port_of(params), mavlink_port_of(params), context, who);
+  RunningLockstepOptions options = running_options(params, Protocol::kUdp, lockstep_port_of(params),
+                                                   mavlink_port_of(params), context, who);
   options.command = start_command(params, context);
   options.files = {{kParameterFile, parameter_text(start_parameters(params, context))}};
   std::optional<FirmwareLinkOptions> link;

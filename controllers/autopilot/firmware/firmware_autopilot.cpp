@@ -52,8 +52,9 @@ std::vector<FirmwareParameter> user_parameters(const FirmwareParams& params) {
   return parameters;
 }
 
-RunningLockstepOptions running_options(const FirmwareParams& params, int port, int mavlink_port,
-                                       const AutopilotContext& context, const std::string& who) {
+RunningLockstepOptions running_options(const FirmwareParams& params, Protocol protocol, int port,
+                                       int mavlink_port, const AutopilotContext& context,
+                                       const std::string& who) {
   const auto host = mavlink::parse_ipv4(params.address);
   if (!host) {
     throw ConfigError(fmt::format("{}: address = '{}', must be an IPv4 address such as 127.0.0.1",
@@ -62,6 +63,12 @@ RunningLockstepOptions running_options(const FirmwareParams& params, int port, i
   RunningLockstepOptions options;
   options.own = {*host, static_cast<std::uint16_t>(port)};
   if (params.uses_mavlink) options.mavlink = {*host, static_cast<std::uint16_t>(mavlink_port)};
+  const std::string run = context.folder.parent_path().string();
+  options.claims.push_back(std::make_shared<PortClaim>(run, protocol, options.own, who));
+  if (options.mavlink) {
+    options.claims.push_back(
+        std::make_shared<PortClaim>(run, Protocol::kUdp, *options.mavlink, who));
+  }
   options.folder = context.folder;
   if (!params.record.empty()) {
     const std::filesystem::path file(params.record);

@@ -29,9 +29,12 @@ FirmwareLinkOptions firmware_link_options(const FirmwareParams& params);
 std::vector<FirmwareParameter> user_parameters(const FirmwareParams& params);
 
 /// Options of a lock-step that do not depend on the firmware: addresses, limits, the recording.
-/// @throws ConfigError if the address or the name of the recording is wrong
-RunningLockstepOptions running_options(const FirmwareParams& params, int port, int mavlink_port,
-                                       const AutopilotContext& context, const std::string& who);
+/// @param protocol, port  of the outputs
+/// @throws ConfigError if the address or the name of the recording is wrong, or another autopilot
+/// of the run has one of the ports
+RunningLockstepOptions running_options(const FirmwareParams& params, Protocol protocol, int port,
+                                       int mavlink_port, const AutopilotContext& context,
+                                       const std::string& who);
 
 /// Path of a program: a name alone is looked for in the folder that an environment variable names.
 std::string find_program(const std::string& name, const char* variable);

@@ -13,12 +13,14 @@
 #include "controllers/autopilot/firmware/lockstep.h"
 #include "controllers/autopilot/link/child_process.h"
 #include "controllers/autopilot/link/datagram_record.h"
+#include "controllers/autopilot/link/port_claim.h"
 
 namespace vinerow::controllers {
 
 struct RunningLockstepOptions {
   mavlink::UdpAddress own;                     ///< where the autopilot sends its outputs
   std::optional<mavlink::UdpAddress> mavlink;  ///< where it sends MAVLink; absent: no MAVLink
+  std::vector<std::shared_ptr<const PortClaim>> claims;  ///< of both
   std::vector<std::string> command;      ///< program and arguments; empty: it is started elsewhere
   std::vector<std::string> environment;  ///< "NAME=value", added to ours
   std::filesystem::path folder;          ///< it works there

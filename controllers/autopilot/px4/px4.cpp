@@ -50,8 +50,8 @@ std::unique_ptr<Autopilot> make_px4(const ParameterSet& parameters,
   const FirmwareParams params = px4_table().read(parameters, who);
   check_rate(context, who);
   auto dialect = std::make_unique<Px4Dialect>(params, context, who);
-  RunningLockstepOptions options =
-      running_options(params, px4_port_of(params), px4_mavlink_port_of(params), context, who);
+  RunningLockstepOptions options = running_options(params, Protocol::kTcp, px4_port_of(params),
+                                                   px4_mavlink_port_of(params), context, who);
   options.command = px4_command(params);
   if (!options.command.empty()) {
     options.environment = px4_environment(params, context);

@@ -10,6 +10,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 
 #include "engine/core/error.h"
 #include "engine/core/profile.h"
@@ -133,11 +134,8 @@ std::vector<std::filesystem::path> write_canopy(const Simulation& simulation,
 
 /// Builds a run and makes all checks that are possible before its first step. @throws ConfigError
 Session open_run(const scenario::Scenario& scenario, const Registry& registry,
-                 const std::filesystem::path& products, std::shared_ptr<RunShelf> shelf) {
+                 SessionOptions options) {
   const ProfileSpan span("session", "set-up");
-  SessionOptions options;
-  options.products = products;
-  options.shelf = std::move(shelf);
   // A non-owning pointer: the caller keeps the registry alive.
   Session session(scenario, std::shared_ptr<const Registry>(std::shared_ptr<void>(), &registry),
                   std::move(options));
@@ -238,30 +236,39 @@ std::optional<std::uint64_t> step_and_judge(Session& session, const RunOptions& 
 std::vector<std::string> rehearse_run(const scenario::Scenario& scenario,
                                       const Registry& registry) {
   constexpr Duration kLongest{10'000'000'000};
-  Session session = open_run(scenario, registry, {}, nullptr);
-  std::vector<std::string> notes = session.simulation().world().notes;
   // A job may take minutes.
-  const bool begins_by_job = std::any_of(scenario.phases.begin(), scenario.phases.end(),
-                                         [](const auto& p) { return p.job && p.after.empty(); });
-  if (begins_by_job) return notes;
+  SessionOptions options;
+  options.is_rehearsal = true;
+  Session session = open_run(scenario, registry, std::move(options));
+  std::vector<std::string> notes = session.simulation().world().notes;
+  std::set<std::string> without_firmware;
   for (const scenario::VehicleConfig& vehicle : scenario.vehicles) {
     if (!vehicle.autopilot) continue;
+    without_firmware.insert(vehicle.name);
     notes.push_back(fmt::format(
         "{}.autopilot: plans are not checked, because no firmware is started", vehicle.name));
-    return notes;
   }
+  const auto unchecked = [&] {
+    std::vector<std::string> names = without_plan(session.simulation());
+    std::erase_if(names, [&](const auto& name) { return without_firmware.contains(name); });
+    return names;
+  };
+  const auto note_events = [&] {
+    for (const auto& [time, event] : session.take_events()) {
+      if (event.level == Event::Level::kInfo) continue;
+      notes.push_back(fmt::format("{}: {}", event.source, event.text));
+    }
+  };
   // The first instant in any case: parts may find faults in it.
-  const bool is_mission = !scenario.phases.empty();
-  do {
+  session.advance(session.now());
+  note_events();
+  if (!scenario.phases.empty()) return notes;
+  while (!session.over() && session.now() <= Time{kLongest.ns} && !unchecked().empty()) {
     session.advance(session.now());
-  } while (!is_mission && !session.over() && session.now() <= Time{kLongest.ns} &&
-           !without_plan(session.simulation()).empty());
-  for (const auto& [time, event] : session.take_events()) {
-    if (event.level == Event::Level::kInfo) continue;
-    notes.push_back(fmt::format("{}: {}", event.source, event.text));
   }
-  if (is_mission) return notes;
-  for (const std::string& vehicle : without_plan(session.simulation())) {
+  // Without its firmware, a vehicle soon does what it never does.
+  if (without_firmware.empty()) note_events();
+  for (const std::string& vehicle : unchecked()) {
     notes.push_back(
         fmt::format("{}.planner: not checked, because there is no estimate in the first {:g} s",
                     vehicle, session.now().s()));
@@ -282,8 +289,10 @@ RunResult run_scenario(const scenario::Scenario& scenario, const Registry& regis
                        const RunOptions& options) {
   if (!options.driver) check_runs_alone(scenario);
   const bool writes = !options.out.empty();
-  Session session =
-      open_run(scenario, registry, writes ? options.out / "products" : "", options.shelf);
+  SessionOptions session_options;
+  if (writes) session_options.products = options.out / "products";
+  session_options.shelf = options.shelf;
+  Session session = open_run(scenario, registry, std::move(session_options));
   const auto measure_cost = [&] {
     session.simulation().scheduler().set_clock(wall_ns, options.measure_cost);
   };

@@ -14,4 +14,14 @@ namespace vinerow::sensors {
 std::string find_blindness(const Pose& X_WS, const WorldModel& world, const RayScene& light,
                            VehicleScene* vehicles);
 
+/// Sensor that looks out.
+class LooksOut {
+ public:
+  virtual ~LooksOut() = default;
+  /// Checks what it would see from a vehicle that is at X_WB. For sensors that are rehearsed: those
+  /// that run check it at their first step.
+  /// @throws ConfigError "the camera is below the ground: change its position_m"
+  virtual void check_view(const Pose& X_WB) = 0;
+};
+
 }  // namespace vinerow::sensors

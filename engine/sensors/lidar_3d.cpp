@@ -99,7 +99,7 @@ struct Echo3d {
   double power = 0.0;
 };
 
-class Lidar3d final : public MountedSensor<PointCloud> {
+class Lidar3d final : public MountedSensor<PointCloud>, public LooksOut {
  public:
   Lidar3d(const ParameterSet& parameters, const SensorContext& context)
       : Lidar3d(lidar_3d_table().read(parameters, context.part), parameters, context) {}
@@ -145,6 +145,8 @@ class Lidar3d final : public MountedSensor<PointCloud> {
   }
 
   Duration sampling() const override { return sampling_; }
+
+  void check_view(const Pose& X_WB) override { look_out(X_WB * X_BS_); }
 
   void sample(Time now) override {
     const Pose X_WS_now = X_WS();

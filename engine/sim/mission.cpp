@@ -308,6 +308,10 @@ void Mission::start_vehicles(std::size_t i, Time now) {
 void Mission::run_job(std::size_t i, Time now) {
   Phase& phase = phases_[i];
   PhaseReport& report = reports_[i];
+  if (run_.is_rehearsal) {
+    phase.job_end = Time{std::numeric_limits<std::int64_t>::max()};
+    return;
+  }
   const Scheduler::Clock clock = run_.scheduler.clock();
   const std::int64_t start_ns = clock ? clock() : 0;
   std::error_code failed;

@@ -65,6 +65,7 @@ struct Session::Impl {
     setup.world = std::move(world);
     setup.outside = options.outside;
     setup.shelf = &shelf->files();
+    setup.is_rehearsal = options.is_rehearsal;
     // The old run stays until the new one exists, so that an exception here changes nothing.
     run = std::make_shared<Run>(scenario, *this, std::move(setup));
     broken.clear();

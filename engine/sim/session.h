@@ -114,6 +114,8 @@ struct SessionOptions {
   /// Cache of worlds and file contents, shared with sessions of other scenarios
   /// (engine/sim/run_shelf.h, private). If null, the session has its own.
   std::shared_ptr<RunShelf> shelf;
+  /// No job runs and no firmware starts, for a check of the first instant.
+  bool is_rehearsal = false;
 
   /// E.g. take_over<NamedValues>("rover/actuators") of a vehicle without a controller.
   template <class T>

@@ -82,6 +82,7 @@ Simulation::Simulation(const scenario::Scenario& scenario, const Registry& regis
                        scheduler_,
                        setup.shelf,
                        setup.products,
+                       setup.is_rehearsal,
                        [this]() -> VehicleScene& {
                          if (!vehicle_rays_) {
                            vehicle_rays_ = std::make_unique<VehicleRays>(vehicles_);

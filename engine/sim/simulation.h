@@ -41,6 +41,7 @@ struct SimulationSetup {
   std::optional<BuiltWorld> world;  ///< of this scenario and seed; built if absent
   std::vector<OutsideSignal> outside;
   FileShelf* shelf = nullptr;  ///< outlives the simulation
+  bool is_rehearsal = false;   ///< no job runs and no firmware starts
 };
 
 class Simulation {
@@ -127,9 +128,9 @@ class Simulation {
   Scheduler scheduler_;
   std::vector<std::unique_ptr<VehicleRuntime>> vehicles_;
   std::unique_ptr<VehicleRays> vehicle_rays_;  // null until a camera asks
-  std::filesystem::path own_products_;       // temporary folder; empty if the caller gave one
-  std::unique_ptr<Mission> mission_;         // null: no phases
-  std::unique_ptr<TrafficControl> traffic_;  // null: alleys are not reserved
+  std::filesystem::path own_products_;         // temporary folder; empty if the caller gave one
+  std::unique_ptr<Mission> mission_;           // null: no phases
+  std::unique_ptr<TrafficControl> traffic_;    // null: alleys are not reserved
   std::vector<std::pair<std::string, std::string>> lost_vehicles_;  // deadlocked vehicles; reasons
   std::unique_ptr<Separation> separation_;                          // null: not measured
   SignalWriter<Event> events_;

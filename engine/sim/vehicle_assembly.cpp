@@ -329,10 +329,13 @@ void VehicleAssembly::add_autopilot() {
   Autopilot& firmware = *autopilot;
   parts_.controller = std::move(autopilot);
   note_if_it_may_fail(parts_.controller.get());
+  const std::optional<Time> begin = begin_;
+  if (run_.is_rehearsal) begin_.reset();
   add_stepped(Stage::kControl, part, config, config.rate_Hz, *parts_.controller);
   const std::string answer = part + ".answer";
   schedule(Stage::kActuate, answer, period_of_rate(config.rate_Hz), {},
            guarded(run_.bus, part, config, [&firmware](Time now) { firmware.finish_step(now); }));
+  begin_ = begin;
   schedule_actuators(config.rate_Hz);
 }
 

@@ -36,6 +36,7 @@ struct RunContext {
   FileShelf* shelf;  ///< null: none
   /// Of the run: files of jobs and autopilots. Empty if it has neither.
   std::filesystem::path products;
+  bool is_rehearsal;  ///< no job runs and no firmware starts
   /// All vehicles, as cameras see them; for the first step and later.
   std::function<VehicleScene&()> vehicles;
   std::function<void(Event::Level, const std::string& source, const std::string& text)> emit;

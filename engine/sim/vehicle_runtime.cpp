@@ -10,6 +10,7 @@
 #include "engine/api/may_fail.h"
 #include "engine/core/error.h"
 #include "engine/core/profile.h"
+#include "engine/sensors/blindness.h"
 #include "engine/sim/map_edges.h"
 
 namespace vinerow {
@@ -72,6 +73,17 @@ void VehicleRuntime::unpark() {
   for (const int i : held_bodies_) run_.physics.set_held({i}, false);
   held_bodies_.clear();
   parked_ = false;
+}
+
+void VehicleRuntime::rehearse(const PhaseHandover& handover) {
+  assemble(handover, std::nullopt);
+  for (std::size_t i = 0; i < parts_->sensors.size(); ++i) {
+    auto* const looking = dynamic_cast<sensors::LooksOut*>(parts_->sensors[i].get());
+    if (looking == nullptr) continue;
+    const scenario::NamedPart& sensor = config_.sensors[i];
+    guarded(run_.bus, fmt::format("{}.sensors.{}", name(), sensor.name), sensor.part,
+            [&](Time) { looking->check_view(truth_.X_WB); })(Time{0});
+  }
 }
 
 void VehicleRuntime::begin(Time now, const PhaseHandover& handover) {

@@ -24,9 +24,9 @@ class VehicleRuntime {
   VehicleRuntime(const scenario::VehicleConfig& config, const RunContext& run,
                  std::vector<StartBox>& others);
 
-  /// Builds and connects its parts without running them, to find configuration errors before the
-  /// run. @throws ConfigError
-  void rehearse(const PhaseHandover& handover) { assemble(handover, std::nullopt); }
+  /// Builds and connects its parts without running them and checks what cameras and 3D scanners
+  /// see from its start, to find configuration errors before the run. @throws ConfigError
+  void rehearse(const PhaseHandover& handover);
   /// Rebuilds its parts and runs them from `now` on. @throws ConfigError
   void begin(Time now, const PhaseHandover& handover);
   /// Stops its parts and parks it. If it flies and is not done, its parts keep running instead.

@@ -14,6 +14,7 @@
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 #include "engine/mavlink/udp_socket.h"
+#include "engine/run/run.h"
 #include "tests/controllers/autopilot/fake_ardupilot.h"
 #include "tests/controllers/autopilot/fake_vehicle.h"
 #include "tests/scenarios/autopilot_support.h"
@@ -464,6 +465,38 @@ TEST(Ardupilot, TwoWithOnePortAreRefusedBeforeTheRun) {
   Session session = open(text(instance + 1, ""));
   session.reset(2);
   EXPECT_EQ(session.now().ns, 0);
+}
+
+/// Parts beside a firmware, which no check before a run starts.
+TEST(Ardupilot, RehearsalChecksWhatIsBesideIt) {
+  Registry registry;
+  register_all(registry);
+  const auto rehearse = [&](const std::string& text) -> std::string {
+    try {
+      const auto notes =
+          run::rehearse_run(scenario::parse_scenario(text, ".", registry, {}), registry);
+      EXPECT_THAT(notes, ::testing::Contains(HasSubstr("no firmware is started")));
+      return "";
+    } catch (const ConfigError& error) {
+      return error.what();
+    }
+  };
+  const std::string text = rover_text(ardupilot(free_instance()));
+  EXPECT_EQ(rehearse(text), "");
+  std::string buried = text;
+  replace(buried, "sensors: {", "sensors: {front: {type: camera, position_m: [0, 0, -1]}, ");
+  EXPECT_THAT(rehearse(buried), HasSubstr("rover.sensors.front: the camera is below the ground"));
+  // Without a fix in the first instant, so that its plan comes later.
+  EXPECT_THAT(rehearse(text + R"(
+  other:
+    type: diff_drive_rover
+    spawn: {alley: 0}
+    sensors: {gps: {type: gps, rate_Hz: 5}, imu: {type: imu, rate_Hz: 100}}
+    estimator: {type: gps_pose}
+    planner: {type: waypoints, x_m: [900], y_m: [900]}
+    controller: {type: pure_pursuit}
+)"),
+              HasSubstr("other.planner (waypoints)"));
 }
 
 std::vector<std::string> autopilots() {

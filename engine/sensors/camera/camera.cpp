@@ -11,6 +11,7 @@
 #include "engine/api/messages/commands.h"
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
+#include "engine/sensors/blindness.h"
 #include "engine/sensors/camera/depth_reading.h"
 #include "engine/sensors/camera/imager.h"
 #include "engine/sensors/camera/lens.h"
@@ -129,7 +130,7 @@ ImagerParams within_period(const CameraParams& params, double period_s) {
   return imager;
 }
 
-class Camera final : public MountedSensor<Picture> {
+class Camera final : public MountedSensor<Picture>, public LooksOut {
  public:
   Camera(const ParameterSet& parameters, const SensorContext& context)
       : Camera(camera_table().read(parameters, context.part), parameters, context) {}
@@ -200,6 +201,8 @@ class Camera final : public MountedSensor<Picture> {
     if (exposure_readings_) exposure_readings_->deliver();
     for (Layer& layer : layers_) layer.readings.deliver();
   }
+
+  void check_view(const Pose& X_WB) override { begin(X_WB * X_BS_); }
 
   void step(Time now) override {
     const CameraMotion motion = CameraMotion::of_body(body(), X_BS_);

@@ -3,6 +3,7 @@
 #include "engine/sim/mission.h"
 #include "engine/core/error.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +11,7 @@
 #include <sstream>
 
 #include "engine/record/log_reader.h"
+#include "engine/sensors/register_sensors.h"
 #include "tests/engine/sim/mission_parts.h"
 #include "tests/engine/sim/small_run.h"
 
@@ -264,6 +266,72 @@ TEST_F(MissionRun, HowNearOthersCameIsMeasured) {
   // Boxes of 1 m on a line, 1 m apart.
   EXPECT_EQ(run().metrics.at("rover").at("min_vehicle_distance_m"), 0.0);
   EXPECT_EQ(run({"drone.spawn.x_m=4"}).metrics.at("drone").at("min_vehicle_distance_m"), 2.0);
+}
+
+/// Refuses its first step, as a camera that sees nothing.
+class Picky final : public Controller {
+ public:
+  void connect(Ports& ports) override { actuators_ = ports.write<NamedValues>("actuators"); }
+  bool finished() const override { return false; }
+  void step(Time) override { throw ConfigError("no start like this"); }
+
+ private:
+  SignalWriter<NamedValues> actuators_;
+};
+
+class NoJob final : public Job {
+ public:
+  Result<JobOutcome> run(const std::map<std::string, Product>&) override {
+    ADD_FAILURE() << "a rehearsal ran a job";
+    return Failure{"not to be run"};
+  }
+};
+
+TEST_F(MissionRun, ACameraOfALaterPhaseThatSeesNothingIsRefusedBeforeTheRun) {
+  sensors::register_sensors(registry_);
+  for (const char* const type : {"camera", "lidar_3d"}) {
+    const std::string sets =
+        fmt::format("rover.sensors={{front: {{type: {}, position_m: [0, 0, -1]}}}}", type);
+    try {
+      run({sets});
+      ADD_FAILURE() << type << " was accepted";
+    } catch (const ConfigError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("rover.sensors.front: the"));
+      EXPECT_THAT(error.what(), HasSubstr("is below the ground: change its position_m"));
+    }
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder_));
+}
+
+TEST_F(MissionRun, ARehearsalRunsNoJobAndTakesTheFirstStepOfVehiclesBesideIt) {
+  PartSpec spec;
+  spec.name = "no_job";
+  spec.description = "for tests";
+  spec.gives = ProductKind::kMap;
+  registry_.add_job(
+      spec, [](const ParameterSet&, const JobContext&) { return std::make_unique<NoJob>(); });
+  spec.name = "picky";
+  spec.gives.reset();
+  spec.default_rate_Hz = 20.0;
+  registry_.add_controller(spec, [](const ParameterSet&, const ControllerContext&) {
+    return std::make_unique<Picky>();
+  });
+  scenario::Overrides overrides;
+  overrides.sets = {"criteria=[]",
+                    "phases={prepare: {job: {type: no_job}}, drive: {vehicles: [plane, rover, "
+                    "drone], after: []}}"};
+  const auto rehearse = [&] {
+    return run::rehearse_run(scenario::parse_scenario(kScenario, ".", registry_, overrides),
+                             registry_);
+  };
+  EXPECT_TRUE(rehearse().empty());
+  overrides.sets.push_back("rover.controller={type: picky}");
+  try {
+    rehearse();
+    ADD_FAILURE();
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("rover.controller: no start like this"));
+  }
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ struct DatasetConfig {
   int min_pixels = 16;  ///< smaller things are not listed
   double validation_share = 0.2;
   double test_share = 0.0;
-  SplitBy split_by = SplitBy::kCell;
+  SplitBy split_by = SplitBy::kSeed;
   std::string licence;  ///< of the data set, for its card; "": not stated
 };
 

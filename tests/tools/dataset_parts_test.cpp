@@ -136,6 +136,13 @@ TEST(Splits, GroupsStayTogether) {
   EXPECT_EQ(std::set<Split>(parts.begin(), parts.end()).size(), 3u);
 }
 
+TEST(Splits, PlantsAreInOnePartUnlessTheStudySaysOtherwise) {
+  const scenario::Study study = study_of_thirty();
+  const std::vector<Split> parts = make_splits(study::Design(study), {});
+  for (std::size_t cell = 0; cell < 30; ++cell) EXPECT_EQ(parts[cell], parts[cell % 10]);
+  EXPECT_EQ(std::count(parts.begin(), parts.end(), Split::kValidation), 6);
+}
+
 TEST(Splits, EachPartKeepsOneGroup) {
   scenario::Study study = study_of_thirty();
   study.factors.clear();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/api/parameter_limits.h"
 
@@ -14,10 +15,14 @@ Json range(Json schema, const ParameterSpec& given) {
     spec.min = given.min;
     spec.min_exclusive = true;
   }
-  const auto bound = [](double value) -> Json {
+  const auto bound = [&](double value) -> Json {
     // Whole numbers are printed without point and exponent.
     if (value == std::floor(value) && std::abs(value) < 9e15) {
       return static_cast<std::int64_t>(value);
+    }
+    // As a double, the largest integer is one more.
+    if (spec.kind == ParameterKind::kInteger && value >= 0x1p63) {
+      return std::numeric_limits<std::int64_t>::max();
     }
     return value;
   };

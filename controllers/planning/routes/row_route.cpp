@@ -42,7 +42,7 @@ const ParameterTable<RowRouteParams>& row_route_table() {
   using P = RowRouteParams;
   static const ParameterTable<P> table =
       ParameterTable<P>()
-          .numbers("alleys", "", &P::alleys, kNotNegative,
+          .numbers("alleys", "", &P::alleys, between(0.0, 1e6),
                    "indices of the alleys to drive, in order; empty = all of the map")
           .choice("order", &P::order,
                   {{"serpentine", AlleyOrder::kSerpentine}, {"skip", AlleyOrder::kSkip}},

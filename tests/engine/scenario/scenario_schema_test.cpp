@@ -53,6 +53,7 @@ const Variant kGood[] = {
     {2, "description: 'long text'"},
     {2, "seed: {value: 3, source: dice}"},
     {2, "seed: 3.0"},
+    {2, "seed: 9223372036854775807"},
     {2, "gravity_mps2: 0"},
     {2, "stop_when_finished: false"},
     {2, "physics: {step_s: 0.0005}"},
@@ -87,7 +88,8 @@ const Variant kGood[] = {
      "      gps: {type: gps, rate_Hz: 10}\n      gps2: {type: gps, noise_m: 0}\n      off: null"},
     {11, "    estimator: {type: filter}\n    planner: {type: coverage}\n    controller:"},
     {11, "    estimator: null\n    guidance: {type: window, rate_Hz: 5}\n    controller:"},
-    {11, "    observers: {a: {type: filter}, b: {type: filter, gain: 1}, c: null}\n    controller:"},
+    {11,
+     "    observers: {a: {type: filter}, b: {type: filter, gain: 1}, c: null}\n    controller:"},
     {11, "    map: {type: survey}\n    controller:"},
     {11, "    map: {type: survey, offset_m: -0.1}\n    controller:"},
     {11, "    map: null\n    controller:"},
@@ -295,6 +297,13 @@ TEST(ScenarioSchema, TellsUnitsRangesAndDefaults) {
   EXPECT_EQ(lookahead["default"], 0.75);
   EXPECT_EQ(lookahead["anyOf"][0]["exclusiveMinimum"], 0);
   EXPECT_EQ(schema["$schema"], "https://json-schema.org/draft/2020-12/schema");
+}
+
+/// 2^63 is a double, the greatest integer is not.
+TEST(ScenarioSchema, GreatestSeedIsTheGreatestInteger) {
+  const std::string text = scenario_json_schema(fake_registry());
+  EXPECT_NE(text.find("9223372036854775807"), std::string::npos);
+  EXPECT_EQ(text.find("9.22"), std::string::npos);
 }
 
 TEST(ScenarioSchema, OfAnEmptyRegistryIsStillASchema) {

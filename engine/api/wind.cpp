@@ -103,7 +103,7 @@ const ParameterTable<Wind>& wind_table() {
           .choice("atmosphere", &P::atmosphere,
                   {{"constant", Atmosphere::kConstant}, {"us76", Atmosphere::kStandard76}},
                   "uniform density, or US Standard Atmosphere 1976")
-          .number("air_density_kgm3", "kg/m3", &P::air_density_kgm3, kPositive,
+          .number("air_density_kgm3", "kg/m3", &P::air_density_kgm3, above(0.0, 100.0),
                   "density of a constant atmosphere; default: that of the standard at the altitude "
                   "of the world's origin, 1.225 at sea level")
           .rule(judge_roughness)

@@ -290,7 +290,7 @@ TEST(Vineyard, RefusesBadInputInOneSentence) {
   EXPECT_EQ(error("post_spacing_m", 5.4e-6),
             "post_spacing_m = 5.4e-06 m, must be >= 0.1 m and <= 100 m");
   EXPECT_EQ(error("trunk_radius_m", 28000.0),
-            "trunk_radius_m = 28000 m, must be > 0 m and <= 0.5 m");
+            "trunk_radius_m = 28000 m, must be >= 0.001 m and <= 0.5 m");
   EXPECT_EQ(error("row_length_m", 1e9),
             "row_length_m = 1000000000 m, must be >= 1 m and <= 5000 m");
 }

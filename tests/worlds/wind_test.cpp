@@ -129,7 +129,9 @@ TEST_P(WorldWind, RefusesValuesOutOfRange) {
   EXPECT_EQ(refusal(wind_, "turbulence", -0.1), "turbulence = -0.1, must be >= 0 and <= 10");
   EXPECT_EQ(refusal(wind_, "shelter", 7.0), "shelter = 7, must be >= 0 and <= 5");
   EXPECT_EQ(refusal(wind_, "air_density_kgm3", 0.0),
-            "air_density_kgm3 = 0 kg/m3, must be > 0 kg/m3");
+            "air_density_kgm3 = 0 kg/m3, must be > 0 kg/m3 and <= 100 kg/m3");
+  EXPECT_EQ(refusal(wind_, "air_density_kgm3", 1e15),
+            "air_density_kgm3 = 1000000000000000 kg/m3, must be > 0 kg/m3 and <= 100 kg/m3");
   EXPECT_EQ(refusal(wind_, "height_law", std::string("log")),
             "height_law = 'log', must be one of: uniform, logarithmic, power, linear");
   ParameterSet one = gust(0.0, 1.0);

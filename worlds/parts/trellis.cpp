@@ -29,7 +29,7 @@ const ParameterTable<TrellisParams>& trellis_table() {
                   "height of posts above ground")
           .degrees("end_post_lean_deg", &P::end_post_lean_rad, between(0.0, 40.0),
                    "outward lean of end posts")
-          .number("trunk_radius_m", "m", &P::trunk_radius_m, above(0.0, 0.5),
+          .number("trunk_radius_m", "m", &P::trunk_radius_m, between(1e-3, 0.5),
                   "radius of vine stems")
           .number("arm_height_m", "m", &P::arm_height_m, above(0.0, 10.0),
                   "height of the vines' arms and of the first wire; default: 0.75 m, of a pergola "

@@ -274,6 +274,15 @@ TEST(VineWorld, APergolaCarriesItsShootsOnTheRoof) {
   }
 }
 
+/// Of 1e-9 m they have no area in 32-bit coordinates, and the world would refuse a mesh.
+TEST(VineWorld, StemsAreThinToAMillimetre) {
+  ParameterSet parameters = parameters_at(75);
+  EXPECT_EQ(test::config_error_of([&] { parameters.set("trunk_radius_m", 1e-9); }),
+            "trunk_radius_m = 1e-09 m, must be >= 0.001 m and <= 0.5 m");
+  parameters.set("trunk_radius_m", 1e-3);
+  EXPECT_FALSE(test::make_world("vineyard", parameters)->meshes.empty());
+}
+
 TEST(VineWorld, TrunksOfAPergolaEndJustBelowItsRoof) {
   const auto world = test::make_world("vineyard", pergola_at(75));
   double top_m = 0.0;

@@ -139,7 +139,8 @@ class Sprayer final : public Payload {
         {"litres_left", tank_l_},
         {"litres_per_ha", treated_m2_ > 0.0 ? sprayed_l_ / treated_m2_ * kM2PerHa : nothing},
         {"on_target_share", sprayed_l_ > 0.0 ? fate_.canopy_ml / kMlPerL / sprayed_l_ : nothing},
-        {"spray_time_s", spray_time_s_},
+        // The double nearest to the decimal: periods have whole nanoseconds.
+        {"spray_time_s", sprayed_periods_ * static_cast<double>(period_.ns) / 1e9},
         {"covered_share", all.covered_share},
         {"deposit_mean_ml_per_m2", all.mean},
         {"worked_share", all.area_m2 > 0.0 ? worked.area_m2 / all.area_m2 : nothing},
@@ -187,7 +188,7 @@ class Sprayer final : public Payload {
     const double used_l = share * wanted_l;
     sprayed_l_ += used_l;
     tank_l_ = std::max(0.0, tank_l_ - used_l);
-    spray_time_s_ += share * period_.s();
+    sprayed_periods_ += share;
     account_rows(truth, boom_W, v_W, share * nozzle_l);
     if (share < 1.0 || tank_l_ <= 0.0) run_dry(now, boom_W);
     return used_l;
@@ -278,7 +279,7 @@ class Sprayer final : public Payload {
   SprayFate fate_;  // of all portions
   double off_row_l_ = 0.0;
   double treated_m2_ = 0.0;
-  double spray_time_s_ = 0.0;
+  double sprayed_periods_ = 0.0;
 };
 
 std::vector<ResultSpec> sprayer_results() {

@@ -86,7 +86,7 @@ class CloudMapJob : public Job {
         {"points", static_cast<double>(map.report.points)},
         {"rows", static_cast<double>(map.map.rows.size())},
         {"alleys", static_cast<double>(map.map.alleys.size())},
-        {"mesh_MB", 1e-6 * static_cast<double>(map.report.mesh_bytes)},
+        {"mesh_MB", static_cast<double>(map.report.mesh_bytes) / 1e6},
         {"reduction_share", map.report.reduction},
         {"containment_share", map.report.containment},
     };

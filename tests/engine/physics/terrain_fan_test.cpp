@@ -1,0 +1,58 @@
+/// Rays over terrain that are cast together share what is known of their origin. The judge is each
+/// ray alone.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "engine/api/world_model.h"
+#include "engine/core/random.h"
+#include "engine/physics/world_scene.h"
+#include "tests/engine/physics/small_worlds.h"
+
+namespace vinerow::physics::terrain_fan_test {
+namespace {
+
+using Eigen::Vector3d;
+
+TEST(SceneFans, RaysOverTerrainMeetTogetherWhatTheyMeetAlone) {
+  WorldModel world;
+  world.terrain = test::make_hills();
+  const WorldScene scene(world);
+  RandomStream random(3, "test", "fans");
+  std::vector<SceneRay> rays;
+  for (int fan = 0; fan < 600; ++fan) {
+    const double x = random.uniform(-15, 15), y = random.uniform(-15, 15);
+    // Fans from high up and from near the ground follow each other, some start below it.
+    const double up_m = fan % 3 == 0 ? 60.0 : random.uniform(-0.5, 3.0);
+    const Vector3d p_W(x, y, world.terrain->height_m(x, y) + up_m);
+    for (int i = 0; i < 8; ++i) {
+      const double yaw = random.uniform(-3.1, 3.1), pitch = random.uniform(-1.2, 1.2);
+      const double range_m = random.uniform(0.5, 80.0);
+      rays.push_back(
+          {p_W,
+           {std::cos(pitch) * std::cos(yaw), std::cos(pitch) * std::sin(yaw), std::sin(pitch)},
+           range_m});
+    }
+  }
+  std::vector<std::optional<RayHit>> hits(rays.size());
+  const auto blocked = std::make_unique<bool[]>(rays.size());
+  scene.cast_rays(rays, hits, kAllSurfaces);
+  scene.find_blocked(rays, {blocked.get(), rays.size()}, kAllSurfaces);
+  int met = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const auto alone =
+        scene.cast_ray(rays[i].p_W, rays[i].dir_W, rays[i].max_distance_m, kAllSurfaces);
+    ASSERT_EQ(hits[i].has_value(), alone.has_value()) << i;
+    ASSERT_EQ(blocked[i], alone.has_value()) << i;
+    if (!alone) continue;
+    ++met;
+    EXPECT_EQ(hits[i]->distance_m, alone->distance_m) << i;
+  }
+  EXPECT_GT(met, 1000);
+  EXPECT_LT(met, 3800);
+}
+
+}  // namespace
+}  // namespace vinerow::physics::terrain_fan_test

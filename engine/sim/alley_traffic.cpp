@@ -324,8 +324,9 @@ std::optional<std::string> AlleyTraffic::deadlock(int vehicle) const {
         fmt::format("{} waits for alley {}", name(vehicle), alleys_[alley].id);
     if (lanes_[other].stays) return fmt::format("{}, in which {} has stopped", waits, name(other));
     if (reason || is_stuck_[other] == 0) continue;
-    // Not a cycle, so the chain of holders ends.
-    reason = fmt::format("{}, which {} holds; {}", waits, name(other), *deadlock(other));
+    // Not a cycle, so the chain of holders ends. It may have been broken since the last serve().
+    const std::optional<std::string> further = deadlock(other);
+    if (further) reason = fmt::format("{}, which {} holds; {}", waits, name(other), *further);
   }
   return reason;
 }

@@ -28,7 +28,7 @@ TEST(SceneFans, RaysOverTerrainMeetTogetherWhatTheyMeetAlone) {
     const double up_m = fan % 3 == 0 ? 60.0 : random.uniform(-0.5, 3.0);
     const Vector3d p_W(x, y, world.terrain->height_m(x, y) + up_m);
     for (int i = 0; i < 8; ++i) {
-      const double yaw = random.uniform(-3.1, 3.1), pitch = random.uniform(-1.2, 1.2);
+      const double yaw = random.uniform(-3.1, 3.1), pitch = random.uniform(-0.9, 0.3);
       const double range_m = random.uniform(0.5, 80.0);
       rays.push_back(
           {p_W,

@@ -23,7 +23,7 @@ TEST(SceneFans, RaysOverTerrainMeetTogetherWhatTheyMeetAlone) {
   RandomStream random(3, "test", "fans");
   std::vector<SceneRay> rays;
   for (int fan = 0; fan < 600; ++fan) {
-    const double x = random.uniform(-15, 15), y = random.uniform(-15, 15);
+    const double x = random.uniform(-11, 11), y = random.uniform(-11, 11);
     // Fans from high up and from near the ground follow each other, some start below it.
     const double up_m = fan % 3 == 0 ? 60.0 : random.uniform(-0.5, 3.0);
     const Vector3d p_W(x, y, world.terrain->height_m(x, y) + up_m);

@@ -9,6 +9,7 @@ if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release)
 endif()
 # -O3 instead of -O2: missions take 4 to 11 % less time, the library 7 % more to build. Its results have the same bits.
+# -fno-math-errno and -fno-trapping-math besides: no difference.
 set(CMAKE_CXX_FLAGS_RELEASE "-O3")
 # The preset `single`, which looks for missing includes and runs nothing.
 set(CMAKE_CXX_FLAGS_DEBUG "-O0")

@@ -24,12 +24,15 @@ TEST(SceneFans, RaysOverTerrainMeetTogetherWhatTheyMeetAlone) {
   std::vector<SceneRay> rays;
   for (int fan = 0; fan < 600; ++fan) {
     const double x = random.uniform(-11, 11), y = random.uniform(-11, 11);
-    // Fans from high up and from near the ground follow each other, some start below it.
-    const double up_m = fan % 3 == 0 ? 60.0 : random.uniform(-0.5, 3.0);
+    // Fans from high up, from near the ground and from close to it follow each other; some start
+    // below it.
+    const double up_m = fan % 3 == 0   ? 60.0
+                        : fan % 3 == 1 ? random.uniform(-0.5, 3.0)
+                                       : random.uniform(0.02, 0.4);
     const Vector3d p_W(x, y, world.terrain->height_m(x, y) + up_m);
     for (int i = 0; i < 8; ++i) {
-      const double yaw = random.uniform(-3.1, 3.1), pitch = random.uniform(-0.9, 0.3);
-      const double range_m = random.uniform(0.5, 80.0);
+      const double yaw = random.uniform(-3.1, 3.1), pitch = random.uniform(-0.9, 0.5);
+      const double range_m = random.uniform(0.3, i % 2 == 0 ? 3.0 : 80.0);
       rays.push_back(
           {p_W,
            {std::cos(pitch) * std::cos(yaw), std::cos(pitch) * std::sin(yaw), std::sin(pitch)},

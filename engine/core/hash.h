@@ -20,7 +20,9 @@ class Hasher {
   Hasher(Hasher&&) noexcept;
   Hasher& operator=(Hasher&&) noexcept;
 
+  /// @param data  may be null where there are no bytes, as data() of an empty list is
   void add_bytes(const void* data, std::size_t size) {
+    if (size == 0) return;  // memcpy must not see null
     if (size > waiting_.size() - waiting_count_) return pass_on(data, size);
     std::memcpy(waiting_.data() + waiting_count_, data, size);
     waiting_count_ += size;

@@ -11,7 +11,10 @@ namespace vinerow {
 struct Duration {
   std::int64_t ns = 0;
 
+  /// For computing. It is rounded twice, 2.5010000000000003 for 2.501 s; digests depend on it.
   constexpr double s() const { return static_cast<double>(ns) * 1e-9; }
+  /// For people and other programs: the double nearest to the span, which prints as 2.501.
+  constexpr double nearest_s() const { return static_cast<double>(ns) / 1e9; }
   constexpr auto operator<=>(const Duration&) const = default;
 };
 
@@ -19,7 +22,10 @@ struct Duration {
 struct Time {
   std::int64_t ns = 0;
 
+  /// For computing, as of Duration.
   constexpr double s() const { return static_cast<double>(ns) * 1e-9; }
+  /// For people and other programs, as of Duration.
+  constexpr double nearest_s() const { return static_cast<double>(ns) / 1e9; }
   constexpr auto operator<=>(const Time&) const = default;
 };
 

@@ -8,7 +8,6 @@
 
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
-#include "engine/io/files/seconds.h"
 #include "engine/io/files/yaml.h"
 #include "engine/live/command_codec.h"
 #include "engine/live/message_json.h"
@@ -99,7 +98,7 @@ json LiveRun::changing_parameters() const {
           {"paused", run.state == RunState::kPaused},
           {"over", run.state == RunState::kOver},
           {"real_time_factor", run.real_time_factor},
-          {"time_s", static_cast<double>(run.now.ns) / 1e9}};
+          {"time_s", run.now.nearest_s()}};
 }
 
 json LiveRun::parameters() const {
@@ -202,7 +201,7 @@ void LiveRun::begin(Session& session) {
   json fixed = {{"scenario", scenario.name},
                 {"seed", scenario.seed},
                 {"duration_s", scenario.duration_s},
-                {"step_s", io::seconds(scenario.physics_step)},
+                {"step_s", scenario.physics_step.nearest_s()},
                 {"command_topics", std::move(topics)}};
   json values = json::object();
   flatten(io::parse_yaml(scenario.resolved_yaml, "scenario.resolved.yaml", "/"), "", values);

@@ -25,8 +25,8 @@ class BoxTree {
   /// Calls `visit(item)` for items whose box may be nearer than sqrt(best2_m2), nearest branches
   /// first. No heap, thread safe.
   /// @param distance2  lower bound, m2, of the squared distance to what is in a box:
-  ///   double(const Box&); and, where that is cheaper, of two boxes: Array2d(const Box&, const
-  ///   Box&)
+  ///   double(const Box&). Where two boxes at once are cheaper, also
+  ///   Array2d(const Box&, const Box&)
   /// @param best2_m2  `visit` may lower it; it is read again after each call
   template <class Distance2, class Visit>
   void search(const Distance2& distance2, const double& best2_m2, Visit&& visit) const {

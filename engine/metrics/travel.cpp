@@ -38,8 +38,7 @@ class Travel final : public Metric {
   }
 
   std::map<std::string, double> results() const override {
-    // Duration::s() is rounded twice: 84.80000000000001 for 84.8 s.
-    const double time_s = static_cast<double>((now_ - begin_).ns) / 1e9;
+    const double time_s = (now_ - begin_).nearest_s();
     const double energy_J =
         battery_.has_value() ? battery_.value().energy_used_J - start_energy_J_ : kNotMeasured;
     const double mean_power_W = time_s > 0.0 ? energy_J / time_s : kNotMeasured;

@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/core/whole_file.h"
-#include "engine/io/files/seconds.h"
 #include "engine/run/run_channels.h"
 #include "engine/run/summary.h"
 #include "engine/sim/simulation.h"
@@ -55,7 +54,7 @@ void EventFile::on_event(Time now, const Event& event) {
   const char* level = event.level == Event::Level::kInfo      ? "info"
                       : event.level == Event::Level::kWarning ? "warning"
                                                               : "error";
-  const std::string line = nlohmann::ordered_json{{"t_s", io::seconds(now)},
+  const std::string line = nlohmann::ordered_json{{"t_s", now.nearest_s()},
                                                   {"level", level},
                                                   {"source", event.source},
                                                   {"text", event.text}}

@@ -17,7 +17,6 @@
 #include "engine/core/whole_file.h"
 #include "engine/io/files/output_folder.h"
 #include "engine/io/files/plain_zeros.h"
-#include "engine/io/files/seconds.h"
 #include "engine/playback/canopy_file.h"
 #include "engine/playback/run_frames.h"
 #include "engine/run/earlier_run.h"
@@ -149,7 +148,7 @@ Session open_run(const scenario::Scenario& scenario, const Registry& registry,
 /// Fills in the results of a run: numbers, verdicts, status.
 void judge_run(const scenario::Scenario& scenario, const Session& session, RunResult& result) {
   const Simulation& simulation = session.simulation();
-  result.simulated_s = io::seconds(session.now());
+  result.simulated_s = session.now().nearest_s();
   result.digest = session.digest();
   result.finished = session.finished();
   result.metrics = session.metrics();

@@ -8,7 +8,6 @@
 
 #include "engine/api/abi_version.h"
 #include "engine/api/world_model.h"
-#include "engine/io/files/seconds.h"
 #include "engine/run/run_profile.h"
 
 namespace vinerow::run {
@@ -51,8 +50,8 @@ ordered_json phases_json(const RunResult& result) {
     }
     json["after"] = phase.after;
     json["state"] = to_string(phase.state);
-    json["begin_s"] = phase.begin ? ordered_json(io::seconds(*phase.begin)) : ordered_json();
-    json["end_s"] = phase.end ? ordered_json(io::seconds(*phase.end)) : ordered_json();
+    json["begin_s"] = phase.begin ? ordered_json(phase.begin->nearest_s()) : ordered_json();
+    json["end_s"] = phase.end ? ordered_json(phase.end->nearest_s()) : ordered_json();
     json["reason"] = phase.reason;
     json["criteria"] = criteria_json(phase.criteria);
     json["numbers"] = phase.numbers;
@@ -74,7 +73,7 @@ ordered_json crashes_json(const RunResult& result) {
   ordered_json list = ordered_json::array();
   for (const Crash& crash : result.crashes) {
     list.push_back({{"vehicle", crash.vehicle},
-                    {"time_s", io::seconds(crash.time)},
+                    {"time_s", crash.time.nearest_s()},
                     {"kind", to_string(crash.kind)},
                     {"text", crash.text}});
   }
@@ -108,7 +107,7 @@ ordered_json cost_json(Simulation& simulation) {
   for (const Scheduler::TaskReport& task : simulation.scheduler().reports()) {
     list.push_back(
         {{"task", task.name},
-         {"period_s", io::seconds(task.period)},
+         {"period_s", task.period.nearest_s()},
          {"ticks", task.ticks},
          {"wall_s", task.wall_s},
          {"us_per_tick", task.ticks ? 1e6 * task.wall_s / static_cast<double>(task.ticks) : 0.0}});
@@ -169,7 +168,7 @@ std::string summary_json(const RunResult& result, Simulation& simulation,
   summary["simulated_s"] = result.simulated_s;
   summary["wall_s"] = result.wall_s;
   summary["real_time_factor"] = result.real_time_factor();
-  summary["physics_step_s"] = io::seconds(scenario.physics_step);
+  summary["physics_step_s"] = scenario.physics_step.nearest_s();
   summary["steps"] = simulation.steps();
   summary["criteria"] = criteria_json(result.criteria);
   if (!result.phases.empty()) summary["phases"] = phases_json(result);

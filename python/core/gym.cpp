@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "engine/core/error.h"
-#include "engine/io/files/seconds.h"
 #include "engine/scenario/scenario_reader.h"
 #include "engine/scenario/study_factor.h"
 #include "python/core/arguments.h"
@@ -423,7 +422,7 @@ void bind_gym(py::module_& module) {
                         int index) { return session_of(self.get().environment(index)).digest(); })
       .def("now_s",
            [](Environments& self, int index) {
-             return io::seconds(session_of(self.get().environment(index)).now());
+             return session_of(self.get().environment(index)).now().nearest_s();
            })
       .def("run_seed", [](Environments& self,
                           int index) { return session_of(self.get().environment(index)).seed(); })
@@ -461,7 +460,7 @@ void bind_gym(py::module_& module) {
       .def("levels", [](Episodes& self) { return levels_to_python(self.environment()); })
       .def("digest", [](Episodes& self) { return session_of(self.environment()).digest(); })
       .def("now_s",
-           [](Episodes& self) { return io::seconds(session_of(self.environment()).now()); });
+           [](Episodes& self) { return session_of(self.environment()).now().nearest_s(); });
 }
 
 }  // namespace vinerow::python

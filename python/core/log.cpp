@@ -12,7 +12,6 @@
 #include "engine/api/messages.h"
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
-#include "engine/io/files/seconds.h"
 #include "engine/record/log_reader.h"
 #include "python/core/arguments.h"
 #include "python/core/fields_to_python.h"
@@ -140,7 +139,7 @@ std::unique_ptr<Collected> collect(const record::LogReader& log, const std::stri
       if (type->second != T::kType) return;
       topic = std::make_unique<Collected>(Collected{name, T::kType, {}, {}});
       pass.read<T>(info.topic, [to = topic.get()](Time stamp, const T& message) {
-        to->stamps_s.push_back(io::seconds(stamp));
+        to->stamps_s.push_back(stamp.nearest_s());
         visit_fields(message, to->columns);
         to->columns.end_message();
       });
@@ -233,10 +232,10 @@ log["rover/truth"] reads all messages of a signal: a Message with `stamp_s` (n,)
       .def_property_readonly("metadata", info_of([](const LogInfo& info) { return info.metadata; }),
                              "{key: text} about the run: scenario, seed, version.")
       .def_property_readonly("first_s",
-                             info_of([](const LogInfo& info) { return io::seconds(info.first); }),
+                             info_of([](const LogInfo& info) { return info.first.nearest_s(); }),
                              "Simulated time of the first message.")
       .def_property_readonly("last_s",
-                             info_of([](const LogInfo& info) { return io::seconds(info.last); }),
+                             info_of([](const LogInfo& info) { return info.last.nearest_s(); }),
                              "Simulated time of the last message.");
 }
 

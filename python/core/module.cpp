@@ -7,7 +7,6 @@
 #include "engine/core/error.h"
 #include "engine/io/files/placed_error.h"
 #include "engine/io/files/plain_zeros.h"
-#include "engine/io/files/seconds.h"
 #include "python/core/elementary.h"
 #include "python/core/gym.h"
 #include "python/core/log.h"
@@ -42,7 +41,7 @@ void translate(std::exception_ptr pointer) {
     if (pointer) std::rethrow_exception(pointer);
   } catch (const SimulationError& error) {
     raise("SimulationError", io::plain_zeros(error.what()), error.culprit(),
-          io::seconds(error.time()));
+          error.time().nearest_s());
   } catch (const io::PlacedError& error) {
     const io::SourceMark& where = error.where();
     raise("ConfigError", io::plain_zeros(error.what()), or_none(where.file, !where.file.empty()),

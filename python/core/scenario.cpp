@@ -4,7 +4,6 @@
 #include <pybind11/stl.h>
 
 #include "engine/core/error.h"
-#include "engine/io/files/seconds.h"
 #include "engine/sim/plugin_loader.h"
 #include "python/core/arguments.h"
 #include "python/core/yaml_from_python.h"
@@ -86,7 +85,7 @@ void bind_scenario(py::module_& module) {
                              "The run ends here at the latest, s.")
       .def_property_readonly(
           "physics_step_s",
-          [](const LoadedScenario& loaded) { return io::seconds(loaded.scenario.physics_step); },
+          [](const LoadedScenario& loaded) { return loaded.scenario.physics_step.nearest_s(); },
           "Time between two instants, s.")
       .def_property_readonly("yaml", field(&Scenario::resolved_yaml),
                              "The scenario with includes, overrides and defaults written out.")

@@ -10,7 +10,6 @@
 #include "engine/api/messages/event.h"
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
-#include "engine/io/files/seconds.h"
 #include "engine/sim/simulation.h"
 #include "engine/sim/vehicle_runtime.h"
 #include "python/core/arguments.h"
@@ -139,7 +138,7 @@ Typed<"list[vinerow.messages.Event]"> take_events(PythonSession& session) {
   const py::object type = messages("Event");
   py::list events;
   for (const auto& [time, event] : PythonSession::Use(session)->take_events()) {
-    events.append(type(io::seconds(time), level_name(event.level), event.source, event.text));
+    events.append(type(time.nearest_s(), level_name(event.level), event.source, event.text));
   }
   return events;
 }
@@ -148,13 +147,13 @@ Typed<"list[vinerow.messages.Crash]"> crashes(PythonSession& session) {
   const py::object type = messages("Crash");
   py::list list;
   for (const SessionCrash& crash : PythonSession::Use(session)->crashes()) {
-    list.append(type(crash.vehicle, io::seconds(crash.time), crash.text));
+    list.append(type(crash.vehicle, crash.time.nearest_s(), crash.text));
   }
   return list;
 }
 
 std::optional<double> seconds_if(const std::optional<Time>& time) {
-  return time ? std::optional(io::seconds(*time)) : std::nullopt;
+  return time ? std::optional(time->nearest_s()) : std::nullopt;
 }
 
 Typed<"list[vinerow.messages.Phase]"> phases(PythonSession& session) {
@@ -267,7 +266,7 @@ Raises SimulationError if the run breaks off, ConfigError if it is over or a pla
       .def("__exit__", [](PythonSession& session, const py::args&) { session.close(); })
       .def_property_readonly(
           "now_s",
-          [](PythonSession& session) { return io::seconds(PythonSession::Use(session)->now()); },
+          [](PythonSession& session) { return PythonSession::Use(session)->now().nearest_s(); },
           "The next instant to be processed; 0 at the start.")
       .def_property_readonly("over", reading(&Session::over), "The run has ended.")
       .def_property_readonly(

@@ -4,7 +4,6 @@
 #include <pybind11/stl.h>
 
 #include "engine/core/suggest.h"
-#include "engine/io/files/seconds.h"
 #include "python/core/arguments.h"
 #include "python/core/fields_to_python.h"
 #include "python/core/usage_error.h"
@@ -98,7 +97,7 @@ reset() or close() they keep the last values of their run. Numbers, texts and li
                              "Part that writes it; \"outside\" for command().")
       .def_property_readonly("count", &PythonSignal::count, "Number of writes so far.")
       .def_property_readonly(
-          "stamp_s", [](PythonSignal& signal) { return io::seconds(signal.stamp()); },
+          "stamp_s", [](PythonSignal& signal) { return signal.stamp().nearest_s(); },
           "Time of the value, s; for a sensor with a delay, of the measurement.")
       .def_property_readonly(
           "fields", [](PythonSignal & signal) -> Typed<"dict[str, tuple[str, str, str]]"> {

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/core/check.h"
-#include "engine/io/files/seconds.h"
 #include "tools/replay/page_text.h"
 #include "tools/replay/replay_assets.h"
 #include "tools/replay/replay_index.h"
@@ -31,8 +30,8 @@ json phases_of(const ReplayInput& input) {
   json phases = json::array();
   for (const ReplayPhase& phase : input.phases) {
     phases.push_back({{"name", phase.name},
-                      {"begin", phase.begin_s - io::seconds(input.trace->first)},
-                      {"end", phase.end_s - io::seconds(input.trace->first)},
+                      {"begin", phase.begin_s - input.trace->first.nearest_s()},
+                      {"end", phase.end_s - input.trace->first.nearest_s()},
                       {"state", phase.state}});
   }
   return phases;
@@ -77,8 +76,8 @@ std::string replay_section(const ReplayInput& input, const ReplayLimits& limits)
   const ReplayTextures textures = make_replay_textures(input.world->daylight);
 
   json index = replay_index(input.scenario->name, *input.world, textures);
-  index["first_s"] = io::seconds(input.trace->first);
-  index["duration_s"] = io::seconds(input.trace->last - input.trace->first);
+  index["first_s"] = input.trace->first.nearest_s();
+  index["duration_s"] = (input.trace->last - input.trace->first).nearest_s();
   index["phases"] = phases_of(input);
   index["vehicles"] = std::move(tracks.index["vehicles"]);
   index["notes"] = json::array();

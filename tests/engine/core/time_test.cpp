@@ -25,5 +25,12 @@ TEST(Time, DifferencesOfTimesAreDurations) {
   EXPECT_LT(start, end);
 }
 
+TEST(Time, NearestSecondsPrintAsTheirDecimal) {
+  const Time time{84'800'000'000};
+  EXPECT_EQ(time.nearest_s(), 84.8);
+  EXPECT_EQ((time - Time{}).nearest_s(), 84.8);
+  EXPECT_NE(time.s(), 84.8);
+}
+
 }  // namespace
 }  // namespace vinerow::time_test

@@ -360,6 +360,16 @@ TEST(Travel, TimeAndEnergyCountFromTheFirstLook) {
   EXPECT_DOUBLE_EQ(bench.results().at("mean_speed_mps"), 1.0);
 }
 
+TEST(Travel, TimeIsTheDoubleNearestToItsDecimal) {
+  Bench bench;
+  bench.start(make_travel);
+  bench.drive(0.2, {1, 1}, 1.0);
+  bench.step();
+  bench.drive(85.0, {11, 1}, 1.0);
+  bench.step();
+  EXPECT_EQ(bench.results().at("time_s"), 84.8);
+}
+
 TEST(Travel, WithoutBatteryOrCapacityDoesNotGuess) {
   Bench without_capacity;
   without_capacity.start(make_travel);

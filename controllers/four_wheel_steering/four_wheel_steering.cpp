@@ -99,11 +99,9 @@ class FourWheelSteering final : public Controller, public MayFail {
 
  private:
   void take_plan(Time now) {
-    const double speed_mps = params_.drive.speed_mps, rim_mps = vehicle_.rim_max_mps;
     for (const std::string& text :
-         {describe_too_slow_wheels(speed_mps, rim_mps),
-          describe_too_fast_plan(plan_.value(), std::min(speed_mps, rim_mps), "speed_mps")}) {
-      if (!text.empty()) event_.write(now, {Event::Level::kWarning, part_, text});
+         describe_slower_speeds(plan_.value(), params_.drive.speed_mps, vehicle_.rim_max_mps)) {
+      event_.write(now, {Event::Level::kWarning, part_, text});
     }
     tracker_.set_path(plan_.value());
     state_ = {};

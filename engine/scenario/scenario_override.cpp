@@ -61,18 +61,6 @@ io::YamlNode& list_item(io::YamlNode& list, const std::string& key, const std::s
   return list.items[index];
 }
 
-/// Sets a key of a mapping. One that it has keeps its place: the order of vehicles and sensors is
-/// that of their steps.
-void set_key(io::YamlNode& mapping, const std::string& key, io::YamlNode value) {
-  for (io::YamlEntry& entry : mapping.entries) {
-    if (entry.key != key) continue;
-    entry.mark = value.mark;
-    entry.value = std::move(value);
-    return;
-  }
-  mapping.put(key, std::move(value));
-}
-
 void check_list_is_given(const io::YamlNode& mapping, const std::string& key,
                          const std::string& index, const std::string& path,
                          const io::SourceMark& mark) {
@@ -110,7 +98,9 @@ void set_value(io::YamlNode& root, const std::vector<std::string>& keys, io::Yam
       return;
     }
     if (last) {
-      set_key(*node, keys[i], std::move(value));
+      // A key that is there keeps its place: the order of vehicles and sensors is that of their
+      // steps.
+      node->put(keys[i], std::move(value));
       return;
     }
     check_list_is_given(*node, keys[i], keys[i + 1], path, mark);

@@ -309,6 +309,7 @@ void Mission::run_job(std::size_t i, Time now) {
   Phase& phase = phases_[i];
   PhaseReport& report = reports_[i];
   if (run_.is_rehearsal) {
+    // A rehearsal builds what is there at the start. The job's product is not, so it never ends.
     phase.job_end = Time{std::numeric_limits<std::int64_t>::max()};
     return;
   }

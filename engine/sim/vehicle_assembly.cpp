@@ -330,6 +330,7 @@ void VehicleAssembly::add_autopilot() {
   parts_.controller = std::move(autopilot);
   note_if_it_may_fail(parts_.controller.get());
   const std::optional<Time> begin = begin_;
+  // A rehearsal has no firmware: steps without a begin are never due.
   if (run_.is_rehearsal) begin_.reset();
   add_stepped(Stage::kControl, part, config, config.rate_Hz, *parts_.controller);
   const std::string answer = part + ".answer";

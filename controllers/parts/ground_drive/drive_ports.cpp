@@ -42,10 +42,9 @@ std::string DrivePorts::find_fault_in_plan() const {
 }
 
 void DrivePorts::report_slower_speed(Time now, double wanted_mps) {
-  const double own_mps = reachable_mps(wanted_mps);
-  for (const std::string& text : {describe_too_slow_wheels(wanted_mps, own_mps),
-                                  describe_too_fast_plan(plan(), own_mps, "speed_mps")}) {
-    if (!text.empty()) report_event(now, Event::Level::kWarning, text);
+  for (const std::string& text :
+       describe_slower_speeds(plan(), wanted_mps, reachable_mps(wanted_mps))) {
+    report_event(now, Event::Level::kWarning, text);
   }
 }
 

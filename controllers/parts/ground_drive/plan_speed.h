@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include "engine/api/messages/path.h"
 
@@ -28,6 +29,18 @@ inline std::string describe_too_slow_wheels(double own_mps, double wheels_mps) {
   if (own_mps <= wheels_mps) return "";
   return fmt::format("speed_mps = {:.6g} m/s, but the wheels reach {:.3g} m/s", own_mps,
                      wheels_mps);
+}
+
+/// What of the wanted speeds a follower cannot drive, a sentence each.
+/// @param own_mps     the follower's `speed_mps`
+/// @param wheels_mps  that its wheels reach
+inline std::vector<std::string> describe_slower_speeds(const PlannedPath& plan, double own_mps,
+                                                       double wheels_mps) {
+  std::vector<std::string> sentences = {
+      describe_too_slow_wheels(own_mps, wheels_mps),
+      describe_too_fast_plan(plan, std::min(own_mps, wheels_mps), "speed_mps")};
+  std::erase(sentences, "");
+  return sentences;
 }
 
 }  // namespace vinerow::controllers

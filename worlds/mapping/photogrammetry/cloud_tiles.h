@@ -28,6 +28,9 @@ class CloudTiles {
     return corner_W_ + width_m() * Eigen::Vector2d(static_cast<double>(tile % columns_),
                                                    static_cast<double>(tile / columns_));
   }
+  Eigen::Vector2d middle_W(std::int64_t tile) const {
+    return corner_W(tile) + 0.5 * Eigen::Vector2d(width_m(), width_m());
+  }
 
  private:
   Eigen::Vector2d corner_W_;

@@ -176,7 +176,7 @@ std::optional<std::pair<Vector3d, double>> ball_of(const Survey& survey, std::in
   }
   if (low_m > high_m) return std::nullopt;
   high_m += kTallest_m;
-  const Vector2d middle = corner + 0.5 * Vector2d(width_m, width_m);
+  const Vector2d middle = survey.tiles.middle_W(tile);
   const double radius_m = std::hypot(width_m / std::sqrt(2.0), 0.5 * (high_m - low_m)) + 1.0;
   return std::pair(Vector3d(middle.x(), middle.y(), 0.5 * (low_m + high_m)), radius_m);
 }
@@ -185,7 +185,7 @@ void sample_tile(const Survey& survey, std::int64_t tile, std::vector<SampledPoi
                  CloudTally& tally) {
   const Vector2d corner = survey.tiles.corner_W(tile);
   const double width_m = survey.tiles.width_m();
-  const Vector2d middle = corner + 0.5 * Vector2d(width_m, width_m);
+  const Vector2d middle = survey.tiles.middle_W(tile);
   // No aim is farther from the middle than a corner.
   if (!survey.area.contains(middle, kRim_m + width_m)) return;
   const auto ball = ball_of(survey, tile);

@@ -19,7 +19,7 @@ Eigen::Matrix3d Triangulation::covariance_m2(double match_px) const {
 
 Eigen::Vector3d Triangulation::error_m(double match_px, const Eigen::Vector3d& normals) const {
   // A = L L^T, so L^-T n has the covariance L^-T L^-1 = A^-1. Written out, because Eigen's factors
-  // of any size take four times as long for three rows, once for each point of a cloud.
+  // of any size take 2.5 times as long for three rows, once for each point of a cloud.
   const Eigen::Matrix3d& A = information_;
   Eigen::Matrix3d L;
   L(0, 0) = std::sqrt(A(0, 0));

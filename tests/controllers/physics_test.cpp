@@ -254,6 +254,25 @@ TEST(SpeedBeyondTheWheels, IsReportedAndDrivenAsFarAsTheyReach) {
   }
 }
 
+TEST(SpeedBeyondTheWheels, KeepsTheSmallestRadiusOfPurePursuit) {
+  auto run = vinerow::testing::SmallWorld()
+                 .world("vineyard",
+                        "row_count: 2, row_length_m: 10, relief_m: 0, waves_m: 0, "
+                        "surroundings_m: 120, row_bearing_deg: 90")
+                 .vehicle("rover", "diff_drive_rover", "spawn: {x_m: -20, y_m: -60, yaw_deg: 80}")
+                 .planner("rover", "waypoints", "x_m: [-20, 30], y_m: [-60, -60]")
+                 .controller("rover", "pure_pursuit", "speed_mps: 1000, min_turning_radius_m: 2")
+                 .duration_s(2.0)
+                 .build();
+  double largest_radps = 0.0;
+  while (run.time_s() < 1.9) {
+    run.run_for_s(0.025);
+    const auto& command = run.signal<VelocityCommand>("rover/command");
+    largest_radps = std::max(largest_radps, std::abs(command.yaw_rate_radps));
+  }
+  EXPECT_DOUBLE_EQ(largest_radps, 2.0);  // 4 m/s, as far as the wheels reach, / 2 m
+}
+
 /// Says after a second that it has done its work, and in the same instant that it failed.
 class LateFailure final : public Controller, public MayFail {
  public:

@@ -186,6 +186,16 @@ TEST(Surveyed, PergolasWiderThanTheNarrowestAlleyAreRefused) {
   EXPECT_TRUE(error.ends_with(" m for a pergola")) << error;
   parameters.set("canopy_width_m", 1.5);
   EXPECT_EQ(test::make_world("surveyed", parameters)->rows->alleys.size(), 1u);
+
+  // Of two alleys, of 2.4 m and of 1.58 m, the narrower one counts.
+  parameters.set("canopy_width_m", 2.0)
+      .set("survey_file", test::temporary_file("two_alleys.geojson",
+                                               R"({"type":"MultiLineString","coordinates":[
+        [[8.0,45.0],[8.0,45.0001]],[[8.00003,45.0],[8.00003,45.0001]],[[8.00005,45.0],[8.00005,45.0001]]]})"));
+  const std::string of_two =
+      test::config_error_of([&] { test::make_world("surveyed", parameters); });
+  EXPECT_TRUE(of_two.starts_with("canopy_width_m = 2 m, must be <= the width of alley 1 = 1.5769"))
+      << of_two;
 }
 
 TEST(Surveyed, PointsFarFromEveryRowAreNoted) {

@@ -24,10 +24,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-Vector3d random_direction(RandomStream& random) {
-  return Vector3d(random.normal(), random.normal(), random.normal()).normalized();
-}
-
 TEST(Scene, BulletEmbreeAndHeightFieldSeeTheSameSurface) {
   WorldModel field_world;
   field_world.terrain = test::make_hills();
@@ -107,7 +103,7 @@ TEST(Scene, SlantedRaysAgreeBetweenTheHeightFieldAndItsMesh) {
   int hits = 0, different = 0;
   for (int k = 0; k < 20'000; ++k) {
     const Vector3d p(random.uniform(-25, 25), random.uniform(-25, 25), random.uniform(25, 35));
-    const Vector3d dir = random_direction(random);
+    const Vector3d dir = test::random_direction(random);
     const auto own = ground.on_field(p, dir, 60.0);
     const auto embree = ground.on_mesh(p, dir, 60.0);
     if (own.has_value() != embree.has_value()) {
@@ -161,7 +157,7 @@ TEST(Scene, RaysThatRiseFromTheGroundMeetItWhereItsMeshIsMet) {
     const double off_m = random.uniform(-0.5, 0.5);
     if (std::abs(off_m) < 1e-3) continue;
     const Vector3d p(x, y, ground.field().height_m(x, y) + off_m);
-    Vector3d dir = random_direction(random);
+    Vector3d dir = test::random_direction(random);
     dir.z() = std::abs(dir.z());
     const auto own = ground.on_field(p, dir, 60.0);
     const auto embree = ground.on_mesh(p, dir, 60.0);
@@ -398,7 +394,7 @@ WorldModel scattered_boxes() {
     const Vector3d p_W(random.uniform(-9, 9), random.uniform(-9, 9), random.uniform(0, 4));
     MeshInstance box = test::make_instance("box", mesh, p_W, kClasses[k % 3]);
     box.X_WM.q =
-        Eigen::Quaterniond(Eigen::AngleAxisd(random.uniform(0, 3), random_direction(random)));
+        Eigen::Quaterniond(Eigen::AngleAxisd(random.uniform(0, 3), test::random_direction(random)));
     model.meshes.push_back(box);
   }
   return model;
@@ -422,7 +418,7 @@ TEST(Scene, FirstRaysHitWhatEmbreeHits) {
     std::array<SceneRay, 3> rays;
     for (SceneRay& ray : rays) {
       ray.p_W = {random.uniform(-12, 12), random.uniform(-12, 12), random.uniform(-4, 8)};
-      ray.dir_W = k % 8 == 0 ? Vector3d(-Vector3d::UnitZ()) : random_direction(random);
+      ray.dir_W = k % 8 == 0 ? Vector3d(-Vector3d::UnitZ()) : test::random_direction(random);
       ray.max_distance_m = random.uniform(0.0, 20.0);
     }
     const SurfaceMask mask = k % 3 == 0 ? mask_of(SurfaceClass::kPost) : kAllSurfaces;
@@ -456,7 +452,7 @@ TEST(Scene, TheFirstRayOfASceneHitsWhatLaterOnesHit) {
   int met = 0;
   for (int k = 0; k < 4000; ++k) {
     const Vector3d p_W(random.uniform(-12, 12), random.uniform(-12, 12), random.uniform(-2, 6));
-    Vector3d dir_W = random_direction(random);
+    Vector3d dir_W = test::random_direction(random);
     if (k % 8 == 0) dir_W = Vector3d::Unit(k / 8 % 3);  // along the sides of boxes
     const double max_m = random.uniform(0.0, 20.0);
     const SurfaceMask mask = k % 3 == 0 ? mask_of(SurfaceClass::kPost) : kAllSurfaces;
@@ -482,7 +478,7 @@ TEST(Scene, APreparedSceneBuildsNothingLater) {
   const vinerow::test::AllocationCounter counter;
   for (int k = 0; k < 100; ++k) {
     const Vector3d p_W(random.uniform(-9, 9), random.uniform(-9, 9), random.uniform(0, 4));
-    const Vector3d dir_W = random_direction(random);
+    const Vector3d dir_W = test::random_direction(random);
     scene.queries().cast_ray(p_W, dir_W, 20.0, kAllSurfaces);
     scene.light().cast_ray(p_W, dir_W, 20.0);
     Pose X_WBox;
@@ -500,7 +496,7 @@ TEST(Scene, SeveralThreadsMayBeTheFirst) {
     RandomStream random(3, "", "first");
     for (int k = 0; k < 200; ++k) {
       const Vector3d p_W(random.uniform(-12, 12), random.uniform(-12, 12), random.uniform(-2, 6));
-      const auto hit = scene.cast_ray(p_W, random_direction(random), 20.0, kAllSurfaces);
+      const auto hit = scene.cast_ray(p_W, test::random_direction(random), 20.0, kAllSurfaces);
       answers.push_back(hit ? hit->distance_m : -1.0);
       Pose X_WBox;
       X_WBox.p = p_W;
@@ -517,55 +513,6 @@ TEST(Scene, SeveralThreadsMayBeTheFirst) {
       for (auto& own : answers) threads.emplace_back([&] { own = ask(scene); });
     }
     for (const auto& own : answers) EXPECT_EQ(own, expected);
-  }
-}
-
-TEST(Scene, RaysTogetherHitWhatEachHitsAlone) {
-  // Hills as a height field, and the same hills as meshes that stand three times: terrain, meshes
-  // and instances in one packet.
-  WorldModel world;
-  world.terrain = test::make_hills();
-  const auto mesh = test::make_mesh_of(*world.terrain);
-  for (const double x : {-12.0, 3.0, 9.0}) {
-    world.meshes.push_back(
-        test::make_instance("hill", mesh, Vector3d(x, 1.0, 2.0), SurfaceClass::kCanopy));
-  }
-  const WorldScene scene(world);
-  scene.prepare();
-  RandomStream random(1, "", "packets");
-  std::vector<SceneRay> rays;
-  for (int fan = 0; fan < 400; ++fan) {
-    const Vector3d p(random.uniform(-15, 15), random.uniform(-15, 15), random.uniform(26, 46));
-    const Vector3d middle = random_direction(random);
-    // Narrow fans as a laser's beam, and any directions.
-    const double width = fan % 2 == 0 ? 0.01 : 1.0;
-    for (int i = 0; i < 11; ++i) {
-      rays.push_back(
-          {p, (middle + width * random_direction(random)).normalized(), random.uniform(1.0, 40.0)});
-    }
-  }
-  rays[5].dir_W.x() = std::nan("");
-  rays[17].max_distance_m = -1.0;
-  for (const SurfaceMask mask : {kAllSurfaces, mask_of(SurfaceClass::kCanopy)}) {
-    std::vector<std::optional<RayHit>> hits(rays.size());
-    const auto blocked = std::make_unique<bool[]>(rays.size());
-    const vinerow::test::AllocationCounter counter;
-    scene.cast_rays(rays, hits, mask);
-    scene.find_blocked(rays, {blocked.get(), rays.size()}, mask);
-    EXPECT_EQ(counter.count(), 0u);
-    int met = 0;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      const auto alone = scene.cast_ray(rays[i].p_W, rays[i].dir_W, rays[i].max_distance_m, mask);
-      ASSERT_EQ(hits[i].has_value(), alone.has_value()) << i;
-      ASSERT_EQ(blocked[i], alone.has_value()) << i;
-      if (!alone) continue;
-      ++met;
-      EXPECT_EQ(hits[i]->distance_m, alone->distance_m);
-      EXPECT_EQ(hits[i]->normal_W, alone->normal_W);
-      EXPECT_EQ(hits[i]->surface, alone->surface);
-      EXPECT_EQ(hits[i]->mesh, alone->mesh);
-    }
-    EXPECT_GT(met, 500);
   }
 }
 

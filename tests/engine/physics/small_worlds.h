@@ -6,6 +6,7 @@
 
 #include "engine/api/height_field.h"
 #include "engine/api/mesh.h"
+#include "engine/core/random.h"
 #include "engine/physics/physics_world.h"
 
 namespace vinerow::physics::test {
@@ -106,6 +107,12 @@ inline BodySpec make_sphere(double radius_m, double mass_kg, const Eigen::Vector
   spec.X_WB.p = p_W;
   spec.shapes = {{SphereShape{radius_m}, {}}};
   return spec;
+}
+
+/// Unit vector, all directions alike.
+inline Eigen::Vector3d random_direction(RandomStream& random) {
+  const double x = random.normal(), y = random.normal(), z = random.normal();
+  return Eigen::Vector3d(x, y, z).normalized();
 }
 
 inline void run(PhysicsWorld& world, double duration_s) {

@@ -34,8 +34,11 @@ inline Registry fake_registry() {
                               number_parameter("height_m", "m", 2.0, 0.0, 5.0, "above ground")},
                              "single posts")}),
       nullptr);
+  const std::vector<ParameterSpec> speed = {positive_parameter("speed_mps", "m/s", 1.0, "mean")};
   registry.add_world(fake_spec("hilly", {number_parameter("slope_deg", "deg", 5.0, -45.0, 45.0,
-                                                          "positive where x rises")}),
+                                                          "positive where x rises"),
+                                         group_parameter("wind", speed, "of the air"),
+                                         group_parameter("gust", speed, "of its gusts")}),
                      nullptr);
   PartSpec cart =
       fake_spec("cart",

@@ -45,6 +45,10 @@ TEST(ScenarioFault, KeyInTheWrongPlaceIsToldWhereItBelongs) {
               HasSubstr("scenario:8: vehicles.rover.torque_Nm: unknown key of vehicle 'cart'; it "
                         "belongs to vehicles.rover.motor (known: "));
   EXPECT_THAT(fault_of(with_line(13, "      torque_Nm: 1")), ::testing::Not(HasSubstr("belongs")));
+  // Two groups have it: neither is named.
+  EXPECT_THAT(fault_of(with_line(3, "world: {type: hilly, speed_mps: 3}")),
+              ::testing::AllOf(HasSubstr("world.speed_mps: unknown key of world 'hilly'"),
+                               ::testing::Not(HasSubstr("belongs"))));
 }
 
 TEST(ScenarioFault, KnownKeysAreSortedAndCompleteAtTheTop) {

@@ -347,6 +347,22 @@ TEST(MissionRoute, RefusesByNumberAndName) {
             std::string::npos);
 }
 
+TEST(MissionRoute, LinesBelowTheGroundAreToldHowTheirHeightIsSet) {
+  // 200 m to 900 m east of the start at its height; the ground rises by 0.1 on the way.
+  const auto file = std::filesystem::temp_directory_path() / "vinerow_route_low.geojson";
+  std::ofstream(file)
+      << R"({"type":"LineString","coordinates":[[8.54826,47.3977507],[8.55756,47.3977507]]})";
+  const PlainScene scene(GroundPlane{.rise_x = 0.1});
+  MissionFlight setup{file};
+  setup.scene = &scene;
+  const std::string text = refusal(setup);
+  EXPECT_NE(text.find(" m below the ground at ("), std::string::npos) << text;
+  EXPECT_TRUE(text.ends_with("; the property height_m of a line or point sets its height")) << text;
+  // A file with items has no such property.
+  setup.file = write_items({at(16, 200, 0, 0), at(16, 900, 0, 0)});
+  EXPECT_EQ(refusal(setup).find("height_m"), std::string::npos) << refusal(setup);
+}
+
 TEST(MissionRoute, SpeedsCountFromWhereTheyAreSaid) {
   const io::MissionItem slow{178, 2, {0, 11.0, -1, 0, 0, 0, 0}},
       climb{178, 2, {2, 3.0, -1, 0, 0, 0, 0}};

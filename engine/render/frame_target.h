@@ -43,7 +43,7 @@ class FrameTarget {
   void resume() const;
   /// The picture: means of drawn pixels, taken over squared sRGB values, which approximates the
   /// mean of linear light.
-  Image read() const;
+  Image read();
   /// Areas of the stencil values 1, 2, ... count; clears the stencil.
   std::vector<SeenMark> take_marks(std::size_t count) const;
 
@@ -54,9 +54,14 @@ class FrameTarget {
   /// A texture of colours that is read with interpolation, attached to the bound framebuffer.
   GLuint attach_colours(TextureUnit unit, int width, int height) const;
   void release();
-  /// Sums of squares of a row's pixels, RGBA. @param drawn  RGBA of the drawn pixels
-  void sum_row(const std::vector<std::uint8_t>& drawn, int y,
-               std::vector<std::uint32_t>& sums) const;
+  /// Reads what the drawn pixels have where the picture's pixels are.
+  /// @param drawn  of all drawn pixels, as SamplePattern::first_of() counts them
+  void read_drawn(GLenum layout, std::size_t bytes_per_pixel,
+                  std::vector<std::uint8_t>& drawn) const;
+  /// Whether any drawn pixel of a row of the picture has a stencil value.
+  bool has_marks(const std::vector<std::uint8_t>& stencil, int y) const;
+  /// Sums of squares of a row's pixels, RGBA.
+  void sum_row(int y, std::vector<std::uint32_t>& sums) const;
 
   const Gl& gl_;
   SamplePattern pattern_;
@@ -64,6 +69,7 @@ class FrameTarget {
   GLuint foliage_framebuffer_ = 0, albedo_ = 0, normal_ = 0;
   GLuint ground_framebuffer_ = 0, ground_ = 0, ground_depth_ = 0;
   GLuint sky_framebuffer_ = 0, sky_ = 0;
+  std::vector<std::uint8_t> drawn_;  ///< RGBA of the drawn pixels; kept, because new pages are slow
 };
 
 }  // namespace vinerow::render

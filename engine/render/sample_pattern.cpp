@@ -46,6 +46,14 @@ Eigen::Matrix4d SamplePattern::drawn_from_clip() const {
   return matrix;
 }
 
+SamplePattern::Columns SamplePattern::used_columns(int first_row, int rows) const {
+  if (!staggered_) return {0, columns_};
+  // x = a + j/2 - H is 0 to W, the corners of the outer pixels.
+  const int last_row = first_row + rows - 1;
+  return {std::max(0, height_ - (last_row + 1) / 2),
+          std::min(columns_, width_ + height_ - first_row / 2 + 1)};
+}
+
 std::size_t SamplePattern::first_of(int x, int y) const {
   const std::ptrdiff_t above = height_ - 1 - y;
   // The middle of the pixel: row 2 above + 1, and x + 1/2 = a + row/2 - H.

@@ -64,6 +64,11 @@ class SamplePattern {
   /// Index of the first drawn pixel of pixel (x, y), x from the left and y from the top; drawn rows
   /// are stored from below, as OpenGL does.
   std::size_t first_of(int x, int y) const;
+  struct Columns {
+    int begin, end;
+  };
+  /// Drawn columns outside of which no pixel has samples in these drawn rows.
+  Columns used_columns(int first_row, int rows) const;
   /// Drawn pixels from a pixel to the next one in its row.
   int stride() const { return staggered_ ? 1 : scale_; }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <vector>
 
 #include "engine/api/world_model.h"
 #include "engine/render/cameras.h"
@@ -59,6 +60,37 @@ TEST(SamplePattern, SquarePatternsDivideThePixel) {
       const double right = (static_cast<double>(tap % scale) + 0.5) / scale;
       const double up = (static_cast<double>(tap / scale) + 0.5) / scale;
       EXPECT_EQ(tap_of(pattern, 3, 1, tap), drawn_at(pattern, 3 + right, 2 - up));
+    }
+  }
+}
+
+TEST(SamplePattern, UsedColumnsHoldEverySampleAndLittleElse) {
+  for (const int samples : {1, 2, 4}) {
+    for (const auto& [width, height] : {std::pair{70, 51}, std::pair{40, 90}, std::pair{1, 1}}) {
+      const SamplePattern pattern(width, height, samples);
+      std::vector<bool> is_used(static_cast<std::size_t>(pattern.columns()) * pattern.rows());
+      for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+          for (std::size_t tap = 0; tap < pattern.taps().size(); ++tap) {
+            is_used[static_cast<std::size_t>(tap_of(pattern, x, y, tap))] = true;
+          }
+        }
+      }
+      for (const int rows : {1, 2, 7}) {
+        for (int row = 0; row + rows <= pattern.rows(); ++row) {
+          const SamplePattern::Columns columns = pattern.used_columns(row, rows);
+          int first = pattern.columns(), last = 0;
+          for (int k = 0; k < rows * pattern.columns(); ++k) {
+            if (!is_used[static_cast<std::size_t>(row * pattern.columns() + k)]) continue;
+            first = std::min(first, k % pattern.columns());
+            last = std::max(last, k % pattern.columns());
+          }
+          EXPECT_LE(columns.begin, first);
+          EXPECT_GE(columns.begin, first - 1);
+          EXPECT_GT(columns.end, last);
+          EXPECT_LE(columns.end, last + 2);
+        }
+      }
     }
   }
 }

@@ -3,28 +3,16 @@
 
 #include <benchmark/benchmark.h>
 
-#include "engine/api/map.h"
 #include "engine/api/registry.h"
 #include "engine/physics/static_scene.h"
+#include "tests/benchmarks/bench_worlds.h"
 #include "tools/parts/register_all.h"
 
 namespace vinerow::camera_bench {
 namespace {
 
-/// Four rows of 40 m in full leaf.
-std::shared_ptr<const WorldModel> make_vineyard() {
-  Registry registry;
-  register_all(registry);
-  ParameterSet parameters(registry.spec(PartKind::kWorld, "vineyard").parameters, "vineyard");
-  parameters.set("row_count", std::int64_t{4}).set("row_length_m", 40.0);
-  ParameterSet vines = parameters.make_group("vines");
-  vines.set("bbch", 79.0);
-  parameters.set("vines", std::vector<ParameterSet>{vines});
-  return registry.make_world("vineyard", parameters, WorldContext{});
-}
-
 struct Vineyard {
-  std::shared_ptr<const WorldModel> model = make_vineyard();
+  std::shared_ptr<const WorldModel> model = bench::vineyard_in_leaf();
   physics::StaticScene scene{model};
 };
 
@@ -54,12 +42,8 @@ void camera_frame(benchmark::State& state, const char* picture, bool shadows, bo
   SignalWriter<Odometry> truth = bus.advertise<Odometry>("rover/truth", "rover");
   Ports ports(bus, "rover", context.part);
   sensor->connect(ports);
-  const auto& line = v.model->rows->alleys[1].line_W;
-  const Eigen::Vector3d along = (line.back() - line.front()).normalized();
   Odometry odometry;
-  odometry.X_WB.p = line.front() + 0.2 * (line.back() - line.front());
-  odometry.X_WB.p.z() += 1.0;
-  odometry.X_WB.q = Eigen::AngleAxisd(std::atan2(along.y(), along.x()), Eigen::Vector3d::UnitZ());
+  odometry.X_WB = bench::place_in_alley(*v.model);
   truth.write(Time{0}, odometry);
   std::int64_t tick = 0;
   for (auto _ : state) sensor->step(Time{100'000'000 * tick++});

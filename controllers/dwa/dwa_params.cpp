@@ -46,11 +46,11 @@ const ParameterTable<DwaPartParams>& dwa_table() {
                   "distance of the outer circles' centres from the vehicle's centre")
           .choice("cost", cost(&DwaCost::as_printed), {{"corrected", false}, {"printed", true}},
                   "printed: J = alpha d_O + beta d_goal of eq. (23), which drives away")
-          .number("speed_mps", "m/s", guide(&Guide::speed_mps), kPositive,
+          .number("speed_mps", "m/s", guide(&Guide::speed_mps), between(0.05, 100.0),
                   "highest speed if the plan has no speed")
           .number("acceleration_mps2", "m/s2", law(&DwaParams::acceleration_mps2), kPositive,
                   "acceleration and deceleration")
-          .number("window_s", "s", law(&DwaParams::window_s), kPositive,
+          .number("window_s", "s", law(&DwaParams::window_s), between(0.01, 100.0),
                   "the dynamic window contains the commands that can be reached within this time")
           .number("horizon_s", "s", law(&DwaParams::horizon_s), kPositive, "length of the rollouts")
           .number("step_s", "s", law(&DwaParams::step_s), kPositive,
@@ -83,13 +83,13 @@ const ParameterTable<DwaPartParams>& dwa_table() {
                   "largest distance beside the plan of a path past an obstacle")
           .number("fade_m", "m", plan(&PlanAheadParams::fade_m), kPositive,
                   "assumed length over which the tracking controller removes its error")
-          .number("reverse_speed_mps", "m/s", guide(&Guide::reverse_speed_mps), kPositive,
-                  "speed backwards when blocked")
+          .number("reverse_speed_mps", "m/s", guide(&Guide::reverse_speed_mps),
+                  between(0.05, 100.0), "speed backwards when blocked")
           .number("reverse_s", "s", recovery(&RecoveryParams::reverse_s), between(0.0, 60.0),
                   "longest drive back when blocked")
           .integer("max_recoveries", recovery(&RecoveryParams::max_recoveries), between(0, 100),
                    "drives back before it stops")
-          .number("stall_s", "s", recovery(&RecoveryParams::stall_s), kPositive,
+          .number("stall_s", "s", recovery(&RecoveryParams::stall_s), between(0.5, 1e4),
                   "without progress for this long it counts as blocked")
           .number("retry_s", "s", recovery(&RecoveryParams::retry_s), kPositive,
                   "period of further tries after it has stopped")
@@ -108,7 +108,13 @@ const ParameterTable<DwaPartParams>& dwa_table() {
           .integer("hits", memory(&Memory::hits), between(1, 20),
                    "readings that make a point an obstacle")
           .number("forget_s", "s", memory(&Memory::forget_s), kPositive,
-                  "time after the last echo for which points 3 m away are kept");
+                  "time after the last echo for which points 3 m away are kept")
+          .rule([](const P& p) -> std::string {
+            const DwaParams& own = p.guide.law;
+            if (own.step_s <= own.horizon_s) return "";
+            return fmt::format("step_s = {} s is longer than horizon_s = {} s", own.step_s,
+                               own.horizon_s);
+          });
   return table;
 }
 
@@ -125,21 +131,25 @@ DwaPartParams read_dwa_params(const ParameterSet& parameters, const ControllerCo
   demand(geometry.rear_axle_m, "rear_axle_m");
   demand(geometry.max_axle_steer_rad, "max_axle_steer_rad");
   demand(geometry.steer_rate_radps, "steer_rate_radps");
-  guide.speed_limit_mps = demand(
-      vehicle.need(vehicle.max_speed_mps, "max_speed_mps", who(context)), "max_speed_mps");
+  guide.speed_limit_mps =
+      demand(vehicle.need(vehicle.max_speed_mps, "max_speed_mps", who(context)), "max_speed_mps");
   if (geometry.max_axle_steer_rad >= 0.5 * kPi) {
     throw ConfigError(
         fmt::format("{}: 'max_axle_steer_rad' of vehicle type '{}' is {}, must be < pi/2",
                     who(context), vehicle.type, geometry.max_axle_steer_rad));
   }
-  const double longest_s =
-      std::max(guide.law.horizon_s, 0.5 * guide.speed_limit_mps / guide.law.acceleration_mps2);
+  const double stop_s = 0.5 * guide.speed_limit_mps / guide.law.acceleration_mps2;
+  const double longest_s = std::max(guide.law.horizon_s, stop_s);
   if (longest_s > guide.law.step_s * Rollout::kMax) {
+    const std::string cause =
+        stop_s > guide.law.horizon_s
+            ? fmt::format("stopping from {} m/s at acceleration_mps2 = {} m/s2",
+                          guide.speed_limit_mps, guide.law.acceleration_mps2)
+            : "horizon_s";
     throw ConfigError(fmt::format(
-        "{}: rollouts of {} s (horizon_s, or stopping from {} m/s) need {:.0f} steps of "
-        "step_s = {} s, at most {} are possible",
-        who(context), longest_s, guide.speed_limit_mps, std::ceil(longest_s / guide.law.step_s),
-        guide.law.step_s, Rollout::kMax));
+        "{}: rollouts of {:.6g} s ({}) need {:.0f} steps of step_s = {} s, at most {} are possible",
+        who(context), longest_s, cause, std::ceil(longest_s / guide.law.step_s), guide.law.step_s,
+        Rollout::kMax));
   }
   guide.plan.crab_slope = std::tan(geometry.max_axle_steer_rad);
   guide.reverse_speed_mps = std::min(guide.reverse_speed_mps, guide.speed_limit_mps);
@@ -152,8 +162,7 @@ DiscOutline make_dwa_outline(const DwaPartParams& params, const ControllerContex
   if (params.footprint == DwaFootprint::kCircle) return DiscOutline::circumscribed(outline_B);
   const DiscOutline circles =
       DiscOutline::three_circles(params.circle_radius_m, params.circle_spacing_m);
-  const double uncovered_m = circles.uncovered_m(outline_B),
-               margin_m = params.guide.plan.margin_m;
+  const double uncovered_m = circles.uncovered_m(outline_B), margin_m = params.guide.plan.margin_m;
   if (uncovered_m > margin_m) {
     throw ConfigError(
         fmt::format("{}: circles of circle_radius_m = {} m, circle_spacing_m = {} m leave {:.3f} m "

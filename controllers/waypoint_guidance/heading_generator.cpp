@@ -45,7 +45,9 @@ PredictedTurn predict_turn(HeadingGenerator generator, const Eigen::Vector2d& po
   PredictedTurn turn{position, position};
   // Two full turns at full bank and the time to come to rest: an upper bound.
   const double longest_s = 4.0 * kPi / generator.limits().rate_radps(airspeed_mps) + 20.0;
-  const int steps = static_cast<int>(longest_s / kStep_s);
+  // Turns at the smallest bank take less.
+  constexpr double kMaxSteps = 1e5;
+  const int steps = static_cast<int>(std::min(longest_s / kStep_s, kMaxSteps));
   for (int i = 0; i < steps; ++i) {
     const double left_rad = std::abs(wanted_rad - generator.heading_rad());
     if (left_rad < kStraight_rad && std::abs(generator.bank_left_rad()) < 4.0 * kStraight_rad) {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "controllers/waypoint_guidance/landing_slope.h"
 #include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
@@ -45,9 +46,17 @@ std::string find_fault_in_landing(const GivenParams& given) {
     return "land_bearing_deg and land_course_deg, its old form, are both given: leave out the "
            "second";
   }
-  if (p.flare_m < p.approach_height_m) return "";
-  return fmt::format("flare_height_m = {:.2f} m is not below approach_height_m = {:.2f} m",
-                     p.flare_m, p.approach_height_m);
+  if (p.flare_m >= p.approach_height_m) {
+    return fmt::format("flare_height_m = {:.2f} m is not below approach_height_m = {:.2f} m",
+                       p.flare_m, p.approach_height_m);
+  }
+  constexpr double kLongest_m = 100e3;
+  const double glide_m = LandingSlope(0.0, p.glide_rad, p.flare_m).length_m(p.approach_height_m);
+  if (p.end != MissionEnd::kLand || glide_m <= kLongest_m) return "";
+  return fmt::format(
+      "approach_height_m = {:.6g} m, flare_height_m = {:.6g} m and glide_deg = {:.6g} deg make a "
+      "glide of {:.0f} km, must be at most {:.0f} km",
+      p.approach_height_m, p.flare_m, deg_from_rad(p.glide_rad), glide_m / 1e3, kLongest_m / 1e3);
 }
 
 const ParameterTable<GivenParams>& given_table() {
@@ -80,7 +89,7 @@ const ParameterTable<GivenParams>& given_table() {
                   "if the plan has no airspeed; default the vehicle's cruise speed")
           .number("airspeed_rate_mps2", "m/s2", of(&P::airspeed_rate_mps2), kPositive,
                   "rate of changes of the airspeed that the plan or the landing demands")
-          .degrees("bank_deg", &G::bank_rad, above(0.0, 80.0),
+          .degrees("bank_deg", &G::bank_rad, between(1.0, 80.0),
                    "largest bank in turns; default 35 deg or the vehicle's limit if that is less")
           .number("bank_rate_degps", "deg/s", turn(&TurnLimits::bank_rate_radps), kPositive,
                   "largest rate of the bank", kDegrees)
@@ -137,7 +146,7 @@ const ParameterTable<GivenParams>& given_table() {
           .number("approach_speed_mps", "m/s", &G::approach_mps, kPositive,
                   "airspeed of the glide; default airspeed_mps, for which the controllers have "
                   "their trims")
-          .degrees("glide_deg", of(&P::glide_rad), above(0.0, 30.0),
+          .degrees("glide_deg", of(&P::glide_rad), between(0.5, 30.0),
                    "angle of the glide over ground")
           .number("flare_height_m", "m", of(&P::flare_m), kPositive,
                   "height above the touchdown at which the sink rate starts to decay")
@@ -206,6 +215,12 @@ void settle_landing(const GivenParams& given, const VehicleDescription& vehicle,
         "{}: approach_speed_mps = {:.2f} m/s is not above the {:.2f} m/s at which vehicle type "
         "'{}' stalls",
         who, params.approach_mps, params.stall_mps, vehicle.type));
+  }
+  if (params.approach_mps > params.legs.max_airspeed_mps) {
+    throw ConfigError(fmt::format(
+        "{}: approach_speed_mps = {:.2f} m/s is more than the {:.2f} m/s that vehicle type '{}' "
+        "can fly",
+        who, params.approach_mps, params.legs.max_airspeed_mps, vehicle.type));
   }
 }
 

@@ -81,6 +81,7 @@ Result<PlannedPath> PlaceRoute::find(const Pose& start, const std::vector<Eigen:
   report_ = {};
   const std::vector<Pose2> poses =
       find_poses({start.p.head<2>(), yaw_from_quaternion(start.q)}, places, end_yaw_rad);
+  if (poses.size() < 2) return Failure{"the vehicle is at the place already"};
   PathSegments pieces;
   for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
     const auto joined = join(poses[i], poses[i + 1], static_cast<int>(i));
@@ -107,7 +108,13 @@ std::vector<Pose2> PlaceRoute::find_poses(const Pose2& start,
                                           const std::vector<Eigen::Vector2d>& places,
                                           std::optional<double> end_yaw_rad) const {
   std::vector<Pose2> poses = {start};
-  for (const Eigen::Vector2d& place : places) poses.push_back({place, 0.0});
+  constexpr double kSame_m = 1e-3;
+  for (const Eigen::Vector2d& place : places) {
+    // The way to where one is has no direction.
+    if ((place - poses.back().p).norm() > kSame_m) poses.push_back({place, 0.0});
+  }
+  // With a heading there is one nevertheless.
+  if (poses.size() == 1 && end_yaw_rad) poses.push_back({places.back(), 0.0});
   for (std::size_t i = 1; i < poses.size(); ++i) {
     const Pose2& behind = poses[std::min(i + 1, poses.size() - 1)];
     const Eigen::Vector2d chord = behind.p - poses[i - 1].p;

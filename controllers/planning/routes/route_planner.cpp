@@ -182,10 +182,11 @@ class RoutePlanner final : public Planner {
     }
     const Eigen::Vector2d size = calc_size(footprint_.outline_B());
     return fmt::format(
-        "the turn from alley {} to alley {} needs {:.2f} m more clearance at the turning radius of "
+        "the turn from alley {} to alley {} needs {}{:.2f} m more clearance at the turning radius "
+        "of "
         "{:.2f} m (footprint {:.1f} x {:.1f} m, margin {:.2f} m): {}",
-        from.alley, to.alley, *missing_m, params_.turning_radius_m, size.x(), size.y(),
-        params_.margin_m, found.reason());
+        from.alley, to.alley, *missing_m < kClearanceReach_m ? "" : "at least ", *missing_m,
+        params_.turning_radius_m, size.x(), size.y(), params_.margin_m, found.reason());
   }
 
   void append_labelled(const PathSegments& found, PathKind kind, PathSegments& pieces) const {

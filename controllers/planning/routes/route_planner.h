@@ -52,10 +52,13 @@ std::unique_ptr<Planner> make_route_planner(const RoutePlannerParams& params,
 /// Adds "nodes", "iterations" and the tree of a search, at height 0, to the report of a planner.
 void add_search(const SearchReport& done, PlanReport& report);
 
+inline constexpr double kClearanceReach_m = 10.0;  ///< around both ends
+
 /// Distance, m, by which all obstacles would have to be farther away for a turn between two poses
 /// to fit at the turning radius; 0 if it fits. Ground behind a wall counts as occupied. Considers
 /// Dubins paths only, so that a search may still find a path if this is > 0. nullopt if the ends
-/// themselves are occupied or no free ground connects them nearby. For error messages.
+/// themselves are occupied or no free ground connects them nearby; kClearanceReach_m or more if
+/// every turn leaves the surroundings of both ends, however far it leads. For error messages.
 std::optional<double> calc_missing_clearance_m(const Pose2& from, const Pose2& to, double radius_m,
                                                const DistanceField& field,
                                                const std::vector<Eigen::Vector2d>& outline_B,

@@ -8,14 +8,14 @@
 namespace vinerow::controllers {
 namespace {
 
-constexpr double kReach_m = 10.0;  // window around both ends
 constexpr double kClearanceStep_m = 0.1;
 
 OccupancyGrid make_window(const Pose2& from, const Pose2& to, const DistanceField& field) {
   OccupancyGrid window;
   window.cell_m = field.cell_m();
-  window.corner_W = from.p.cwiseMin(to.p).array() - kReach_m;
-  const Eigen::Vector2d size = from.p.cwiseMax(to.p).array() + kReach_m - window.corner_W.array();
+  window.corner_W = from.p.cwiseMin(to.p).array() - kClearanceReach_m;
+  const Eigen::Vector2d size =
+      from.p.cwiseMax(to.p).array() + kClearanceReach_m - window.corner_W.array();
   window.columns = static_cast<int>(std::ceil(size.x() / window.cell_m));
   window.rows = static_cast<int>(std::ceil(size.y() / window.cell_m));
   window.cells.assign(static_cast<std::size_t>(window.columns) * window.rows, 0);
@@ -73,7 +73,8 @@ std::optional<double> calc_missing_clearance_m(const Pose2& from, const Pose2& t
     return std::nullopt;
   }
   const std::vector<Eigen::Vector2d> samples = sample_outline(outline_B);
-  double min_m = std::numeric_limits<double>::infinity();
+  // A turn that leaves the window is not followed farther: it can have thousands of kilometres.
+  double min_m = margin_m + kClearanceReach_m;
   AnalyticTurnParams turn;
   turn.radius_m = radius_m;
   turn.lead_step_m = 0.5;
@@ -88,7 +89,7 @@ std::optional<double> calc_missing_clearance_m(const Pose2& from, const Pose2& t
         for (const Eigen::Vector2d& p_B : samples) {
           const Eigen::Vector2d p = pose.p + p_B.x() * ahead + p_B.y() * left;
           // Outside the window a point is at least as far away as its edge.
-          const double outside_m = beyond.covers(p) ? beyond.at(p) : kReach_m;
+          const double outside_m = beyond.covers(p) ? beyond.at(p) : kClearanceReach_m;
           const double distance_m = outside_m > 0.0 ? -outside_m : field.at(p);
           missing_m = std::max(missing_m, margin_m - distance_m);
         }

@@ -19,9 +19,10 @@ const ParameterTable<RrtStarParams>& rrt_star_table() {
           .integer("iterations", &P::iterations, between(0, 5e3),
                    "iterations of RRT* for every turn that can be shorter; 0: keep the initial "
                    "path; the cost grows with the square")
-          .integer("first_iterations", &P::first_iterations, between(1, 1e5),
-                   "iterations of RRT if no turn in closed form fits; it stops at the first path")
-          .number("range_m", "m", &P::range_m, between(0.01, 1e4), "longest edge of the tree")
+          .integer("first_iterations", &P::first_iterations, between(1, 2e4),
+                   "iterations of RRT if no turn in closed form fits; it stops at the first path; "
+                   "the cost grows with the square")
+          .number("range_m", "m", &P::range_m, between(0.1, 1e4), "longest edge of the tree")
           .number("reach_m", "m", &P::reach_m, between(0.1, 1e4),
                   "distance around both ends within which paths are searched")
           .number("curvature_reserve", "", &P::curvature_reserve, between(0.0, 1.0),

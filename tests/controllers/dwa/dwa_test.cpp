@@ -211,8 +211,13 @@ TEST(Dwa, RefusesWithOneSentence) {
             "leave 0.176 m of the outline of vehicle type 'four_wheel_steering_rover' uncovered, "
             "more than margin_m = 0.05 m");
   EXPECT_EQ(refusal({{"step_s", 0.01}}, same),
-            "rover.guidance (dwa): rollouts of 1.6 s (horizon_s, or stopping from 1.6 m/s) need "
-            "160 steps of step_s = 0.01 s, at most 64 are possible");
+            "rover.guidance (dwa): rollouts of 1.6 s (stopping from 1.6 m/s at acceleration_mps2 = "
+            "0.5 m/s2) need 160 steps of step_s = 0.01 s, at most 64 are possible");
+  EXPECT_EQ(refusal({{"horizon_s", 8.0}}, same),
+            "rover.guidance (dwa): rollouts of 8 s (horizon_s) need 80 steps of step_s = 0.1 s, at "
+            "most 64 are possible");
+  EXPECT_NE(refusal({{"step_s", 5.0}}, same).find("step_s = 5 s is longer than horizon_s = 1.4 s"),
+            std::string::npos);
   EXPECT_EQ(refusal({{"mode", std::string("pur")}}, same).find("mode"), 0u);
   EXPECT_NE(refusal({{"horizon_s", 0.0}}, same).find("horizon_s = 0 s, must be > 0"),
             std::string::npos);

@@ -205,6 +205,16 @@ TEST(HeadingGenerator, PredictionEndsWhereTheTurnEnds) {
   EXPECT_GT((turn.at_rest - turn.near_end).norm(), 5.0);
 }
 
+TEST(HeadingGenerator, PredictionOfAnEndlessTurnEnds) {
+  controllers::TurnLimits limits = make_limits();
+  limits.bank_rad = 1e-9;
+  controllers::HeadingGenerator generator(limits);
+  generator.start(0.0);
+  const controllers::PredictedTurn turn =
+      controllers::predict_turn(generator, {0, 0}, 1.5, 0.05, {0, 0}, 12.0);
+  EXPECT_NEAR(turn.at_rest.x(), 1e5 * 0.05 * 12.0, 1.0);
+}
+
 controllers::FlightLegsOptions make_options() {
   controllers::FlightLegsOptions options;
   options.turn = make_limits();

@@ -439,6 +439,18 @@ TEST(AirMission, RefusesParametersThatCannotBeFlown) {
                      "type 'fixed_wing' stalls");
   expect_refused({{"flare_height_m", 40.0}},
                  who + "flare_height_m = 40.00 m is not below approach_height_m = 30.00 m");
+  expect_refused({{"approach_speed_mps", 22.0}},
+                 who +
+                     "approach_speed_mps = 22.00 m/s is more than the 20.00 m/s that vehicle type "
+                     "'fixed_wing' can fly");
+  // 5 km of height at 2 deg: 143 km.
+  expect_refused(
+      {{"approach_height_m", 5000.0}, {"glide_deg", 2.0}},
+      who +
+          "approach_height_m = 5000 m, flare_height_m = 1.5 m and glide_deg = 2 deg make "
+          "a glide of 143 km, must be at most 100 km");
+  expect_refused({{"glide_deg", 1e-6}}, "glide_deg = 1e-06 deg, must be >= 0.5 deg and <= 30 deg");
+  expect_refused({{"bank_deg", 1e-5}}, "bank_deg = 1e-05 deg, must be >= 1 deg and <= 80 deg");
   VehicleDescription rover;
   rover.type = "rover";
   rover.wheeled.emplace();

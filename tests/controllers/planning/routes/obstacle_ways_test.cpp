@@ -64,6 +64,29 @@ TEST(ObstacleWays, TellsWhatLeavesNoRoom) {
   EXPECT_THAT(path.reason(), HasSubstr("; no path around it: "));
 }
 
+TEST(ObstacleWays, APlaceWhereTheVehicleIsNeedsNoWay) {
+  Yard yard({.row_length_m = 30.0});
+  const auto go_to = [](std::vector<double> x_m, std::vector<double> y_m) {
+    return PartChoice{"go_to", {{"x_m", std::move(x_m)}, {"y_m", std::move(y_m)}}};
+  };
+  const auto once = yard.plan(go_to({1.25}, {28.0}), 1.25, -3.0, 0.5 * kPi);
+  ASSERT_TRUE(once.ok()) << once.reason();
+  for (const auto& choice :
+       {go_to({1.25, 1.25}, {28.0, 28.0}), go_to({1.25, 1.25}, {-3.0, 28.0})}) {
+    const auto path = yard.plan(choice, 1.25, -3.0, 0.5 * kPi);
+    ASSERT_TRUE(path.ok()) << path.reason();
+    EXPECT_DOUBLE_EQ(path->length_m, once->length_m);
+  }
+  EXPECT_EQ(yard.plan(go_to({1.25}, {-3.0}), 1.25, -3.0, 0.5 * kPi).reason(),
+            "the vehicle is at the place already");
+  // Another heading there takes a loop.
+  PartChoice turned = go_to({1.25}, {-3.0});
+  turned.values.emplace_back("end_bearing_deg", 180.0);
+  const auto loop = yard.plan(turned, 1.25, -3.0, 0.5 * kPi);
+  ASSERT_TRUE(loop.ok()) << loop.reason();
+  EXPECT_GT(loop->length_m, 5.0);
+}
+
 TEST(ObstacleWays, GoesFromPlaceToPlaceThroughTheBlock) {
   for (const bool has_crate : {false, true}) {
     Yard yard({.alleys = 3, .row_length_m = 30.0, .has_walls = false});

@@ -305,6 +305,10 @@ TEST(RoutePlanner, NothingIsMissingWhereTheTurnFits) {
   EXPECT_EQ(controllers::calc_missing_clearance_m(from, to, 1.767, field, bench.vehicle.footprint_B,
                                                   0.02),
             0.0);
+  // However long the turn is: 60,000 km here.
+  EXPECT_DOUBLE_EQ(
+      *controllers::calc_missing_clearance_m(from, to, 1e7, field, bench.vehicle.footprint_B, 0.05),
+      10.05);
   EXPECT_EQ(controllers::calc_missing_clearance_m(from, to, 1.767, controllers::DistanceField{},
                                                   bench.vehicle.footprint_B, 0.05),
             0.0);

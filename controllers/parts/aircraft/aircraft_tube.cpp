@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "engine/core/error.h"
 
 namespace vinerow::controllers {
@@ -14,6 +16,21 @@ struct AxisWords {
   const char* gain_key;  ///< for errors
   std::vector<std::string> states, inputs;
 };
+
+/// Rounded down, so that it is feasible as printed.
+std::string describe_gust(double largest_mps) {
+  if (largest_mps < 0.01) return "below 0.01 m/s";
+  return fmt::format("{:.2f} m/s", std::floor(100.0 * largest_mps) / 100.0);
+}
+
+/// Linear programmes that fail count as a reason too.
+Result<TubeSets> find_sets(const TubeModel& model, TubeShape shape) {
+  try {
+    return make_tube_sets(model, shape);
+  } catch (const ConfigError& error) {
+    return Failure{error.what()};
+  }
+}
 
 AxisTube make_axis(const AxisLaw& law, const Eigen::VectorXd& state_limit,
                    const Eigen::VectorXd& input_limit, const std::vector<double>& gain,
@@ -35,6 +52,12 @@ AxisTube make_axis(const AxisLaw& law, const Eigen::VectorXd& state_limit,
   model.input_names = words.inputs;
 
   const Result<GustMargin> gust_margin = calc_gust_margin(model);
+  if (!gust_margin && gain.empty()) {
+    throw ConfigError(fmt::format(
+        "{}: the feedback that follows from 'weights' hardly steadies the {} axis: they are too "
+        "far apart in size ({})",
+        who, words.name, gust_margin.reason()));
+  }
   if (!gust_margin) {
     throw ConfigError(fmt::format("{}: {} does not stabilise the {} axis: {}", who, words.gain_key,
                                   words.name, gust_margin.reason()));
@@ -43,13 +66,19 @@ AxisTube make_axis(const AxisLaw& law, const Eigen::VectorXd& state_limit,
       params.gust_mps > 0.0 ? gust_margin->factor * params.gust_mps : gust_margin->factor;
   if (!(gust_margin->factor > 1.0)) {
     throw ConfigError(fmt::format(
-        "{}: gusts of {:g} m/s alone take {:.0f} % of the limit of {}; the largest feasible gust "
-        "is {:.2f} m/s ({})",
-        who, params.gust_mps, 100.0 / gust_margin->factor, gust_margin->binding, largest_mps,
-        words.name));
+        "{}: gust_mps = {:g} m/s: gusts alone take {:.0f} % of the limit of {}; the largest "
+        "feasible gust is {} ({})",
+        who, params.gust_mps, std::ceil(100.0 / gust_margin->factor), gust_margin->binding,
+        describe_gust(largest_mps), words.name));
   }
-  const Result<TubeSets> sets = make_tube_sets(model, params.shape);
-  if (!sets) throw ConfigError(fmt::format("{}: {} axis: {}", who, words.name, sets.reason()));
+  const Result<TubeSets> sets = find_sets(model, params.shape);
+  if (!sets) {
+    const bool has_tube = params.gust_mps > 0.0 && params.shape == TubeShape::kInvariant;
+    throw ConfigError(fmt::format(
+        "{}: no set of states of the {} axis stays within 'limits' at this rate_Hz; take {}limits "
+        "and weights nearer to the defaults ({})",
+        who, words.name, has_tube ? "a lower rate_Hz, tube_shape: box, or " : "", sets.reason()));
+  }
   const TubeCost cost{law.Q, law.R, params.horizon};
   TubeMpc mpc(model, *sets, cost, {.law = params.law}, who);
   return {model, *sets, std::move(mpc), largest_mps};

@@ -20,7 +20,8 @@ AxisLaw make_law(const LinearAxis& axis, double period_s, const Eigen::VectorXd&
   law.R = inputs.cwiseAbs2().cwiseInverse().asDiagonal();
   const Result<Eigen::MatrixXd> P = solve_dare(law.model.A, law.model.B, law.Q, law.R);
   if (!P) {
-    throw ConfigError(fmt::format("{}: no LQR gain for the {} axis: {}", who, name, P.reason()));
+    throw ConfigError(
+        fmt::format("{}: 'weights' give no LQR gain for the {} axis: {}", who, name, P.reason()));
   }
   law.P = *P;
   law.K = -lqr_gain(law.model.A, law.model.B, law.R, law.P);

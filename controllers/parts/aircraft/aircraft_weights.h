@@ -34,7 +34,7 @@ struct AircraftLaws {
 };
 
 /// Linear models about a trim, sampled, with their LQR gains.
-/// @throws ConfigError "<who>: no LQR gain for the longitudinal axis: ..."
+/// @throws ConfigError "<who>: 'weights' give no LQR gain for the longitudinal axis: ..."
 AircraftLaws make_aircraft_laws(const Aircraft& aircraft, const Trim& trim, double period_s,
                                 const AircraftWeights& weights, const std::string& who);
 

@@ -66,7 +66,11 @@ Failure why_no_solution(const MatrixXd& A, const MatrixXd& B, const MatrixXd& Q)
     return {fmt::format("(A, B) cannot be stabilised: no input reaches the mode with {}",
                         describe(*mode))};
   }
-  if (const auto mode = mode_out_of_reach(A.transpose(), Q)) {
+  // Whether Q sees a mode depends on the directions of its rows, not on their lengths, which can
+  // differ by many orders of magnitude.
+  MatrixXd directions = Q;
+  for (Index i = 0; i < Q.rows(); ++i) directions.row(i).stableNormalize();
+  if (const auto mode = mode_out_of_reach(A.transpose(), directions.transpose())) {
     return {
         fmt::format("(A, Q) leaves an unstable mode unseen: Q gives no weight to the mode with {}",
                     describe(*mode))};

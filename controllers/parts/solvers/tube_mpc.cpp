@@ -49,7 +49,9 @@ TubeMpc::TubeMpc(const TubeModel& model, const TubeSets& sets, const TubeCost& c
       tube_rows_(frees_start(settings.law) ? static_cast<int>(sets.tube_rows.rows()) : 0),
       qp_(static_cast<int>(form_.H.rows()), static_cast<int>(form_.rows.rows()), settings.qp) {
   if (!qp_.set_hessian(form_.H)) {
-    throw ConfigError(who + ": the Hessian of Q and R is not positive definite");
+    throw ConfigError(
+        who +
+        ": the Hessian of Q and R is not positive definite: weights are too far apart in size");
   }
   qp_.set_rows(form_.rows);
   const Index size = form_.H.rows(), rows = form_.rows.rows();

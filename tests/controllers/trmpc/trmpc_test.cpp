@@ -208,11 +208,13 @@ TEST(Trmpc, RefusesWhatCannotBeKept) {
     return complaint([&] { AircraftLoop loop(setup); });
   };
   EXPECT_EQ(refused({{"gust_mps", 1.9}}),
-            "plane.controller (trmpc): gusts of 1.9 m/s alone take 106 % of the limit of aileron; "
-            "the largest feasible gust is 1.79 m/s (lateral)");
+            "plane.controller (trmpc): gust_mps = 1.9 m/s: gusts alone take 107 % of the limit of "
+            "aileron; the largest feasible gust is 1.78 m/s (lateral)");
   EXPECT_EQ(refused({{"gust_mps", 3.0}}),
-            "plane.controller (trmpc): gusts of 3 m/s alone take 144 % of the limit of speed down; "
-            "the largest feasible gust is 2.09 m/s (longitudinal)");
+            "plane.controller (trmpc): gust_mps = 3 m/s: gusts alone take 144 % of the limit of "
+            "speed down; the largest feasible gust is 2.08 m/s (longitudinal)");
+  // As recommended.
+  EXPECT_NE(refused({{"gust_mps", 1.78}}).find("gusts"), 0u);
   EXPECT_EQ(refused({{"gain", std::string("given")}}),
             "plane.controller (trmpc): gain is 'given', so longitudinal_gain must be");
   EXPECT_EQ(refused({{"gain", std::string("given")},
@@ -222,6 +224,26 @@ TEST(Trmpc, RefusesWhatCannotBeKept) {
                        "longitudinal axis: A is not Schur stable",
                        0),
             0u);
+}
+
+// Weights and limits that leave no set are named, and no key that the part does not have.
+TEST(MpcNominal, NamesTheWeightsAndLimitsThatLeaveNoSet) {
+  const auto refused = [](const char* group, const char* name, double value) {
+    WingSetup setup;
+    setup.controller.type = "mpc_nominal";
+    ParameterSet own =
+        make_parameters(parts().spec(PartKind::kController, "mpc_nominal"), {}).make_group(group);
+    own.set(name, value);
+    setup.controller.values = {{group, std::vector<ParameterSet>{own}}};
+    return complaint([&] { AircraftLoop loop(setup); });
+  };
+  const std::string who = "plane.controller (mpc_nominal): ";
+  EXPECT_TRUE(refused("limits", "elevator_deg", 1e-6)
+                  .starts_with(who + "no set of states of the longitudinal axis stays within "
+                                     "'limits' at this rate_Hz; take limits and weights nearer"));
+  EXPECT_TRUE(refused("weights", "phi_deg", 1e-4)
+                  .starts_with(who + "the feedback that follows from 'weights' hardly steadies the "
+                                     "lateral axis"));
 }
 
 }  // namespace

@@ -151,6 +151,16 @@ TEST(Dare, SaysWhatIsNotSeen) {
             "1.25");
 }
 
+// The mode of eigenvalue 1 has a weight, small beside the other one.
+TEST(Dare, WeightsOfVeryDifferentSizeAreSeen) {
+  MatrixXd A(2, 2);
+  A << 1.0, 1.0, 0.0, 1.0;
+  const MatrixXd Q = Eigen::Vector2d(1.0, 1e40).asDiagonal();
+  const Result<MatrixXd> P = controllers::solve_dare(A, Eigen::Vector2d(0.0, 1.0), Q, scalar(1.0));
+  ASSERT_FALSE(P);
+  EXPECT_EQ(P.reason(), "the Riccati equation of (A, B, Q, R) has no stabilising solution");
+}
+
 TEST(Dare, RefusesWeightsThatAreNone) {
   const MatrixXd one = scalar(1.0);
   EXPECT_EQ(controllers::solve_dare(one, one, one, scalar(0.0)).reason(),

@@ -386,7 +386,8 @@ TEST(TubeMpc, RefusesWhatDoesNotFit) {
   cost = wing.cost;
   cost.R *= -1.0;
   EXPECT_EQ(complaint([&] { controllers::TubeMpc(wing, sets, cost, {}, "p.c (trmpc)"); }),
-            "p.c (trmpc): the Hessian of Q and R is not positive definite");
+            "p.c (trmpc): the Hessian of Q and R is not positive definite: weights are too far "
+            "apart in size");
 }
 
 }  // namespace

@@ -96,6 +96,11 @@ class AircraftMpc final : public Controller {
     }
   }
 
+  /// Without gusts there is no tube.
+  static const char* name_bounds(const AxisTube& axis) {
+    return axis.model.gust.isZero(0.0) ? "limits" : "tube";
+  }
+
   /// @returns whether it has reported an event
   bool report(Time now, const AxisTube& axis, const char* name, TubeWatch& watch) {
     switch (watch.update(axis.mpc.soft_violation(), now.s())) {
@@ -103,13 +108,13 @@ class AircraftMpc final : public Controller {
         return false;
       case TubeWatch::PendingEvent::kLeft:
         report_event(now, Event::Level::kWarning,
-                     fmt::format("{} axis outside its tube by {}; soft constraints take over", name,
-                                 axis.describe_violation()));
+                     fmt::format("{} axis outside its {} by {}; soft constraints take over", name,
+                                 name_bounds(axis), axis.describe_violation()));
         return true;
       case TubeWatch::PendingEvent::kBack:
-        report_event(
-            now, Event::Level::kInfo,
-            fmt::format("{} axis back inside its tube after {:.2f} s", name, watch.outside_s()));
+        report_event(now, Event::Level::kInfo,
+                     fmt::format("{} axis back inside its {} after {:.2f} s", name,
+                                 name_bounds(axis), watch.outside_s()));
         return true;
     }
     return false;

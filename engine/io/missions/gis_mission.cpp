@@ -15,7 +15,8 @@
 namespace vinerow::io {
 namespace {
 
-constexpr int kWaypointCommand = 16, kSpeedCommand = 178, kSprayerCommand = 216;
+constexpr int kWaypointCommand = 16, kReturnCommand = 20, kLandCommand = 21;
+constexpr int kSpeedCommand = 178, kSprayerCommand = 216;
 constexpr int kAboveSea = 0, kNoPlace = 2, kAboveHome = 3, kAboveGround = 10;
 
 std::string place_of_feature(const std::filesystem::path& file, const GeoFeature& feature) {
@@ -91,6 +92,7 @@ class Route {
       item.params[5] = deg_from_rad(point.longitude_rad);
       item.params[6] = has_altitude ? point.altitude_m : height_m.value_or(0.0);
       add(item);
+      last_place_ = item;
       if (!is_first) continue;
       // These take effect from the preceding position.
       if (speed_mps) add_command(kSpeedCommand, number, 1.0, *speed_mps);
@@ -98,6 +100,28 @@ class Route {
       is_first = false;
     }
     if (sprays) add_command(kSprayerCommand, number, 0.0, 0.0);
+  }
+
+  /// What comes after a line or point, its property `at_end`. @param is_last  whether nothing
+  /// follows
+  void add_end(const GeoFeature& feature, bool is_last) {
+    const std::string end = feature.property("at_end");
+    if (end.empty() || end == "null") return;
+    const std::string place = place_of_feature(mission_.file, feature);
+    if (end != "land" && end != "return") {
+      throw ConfigError(
+          fmt::format("{}: at_end = '{}', must be land or return", place, end.substr(0, 40)));
+    }
+    if (!is_last) {
+      throw ConfigError(
+          fmt::format("{}: at_end = '{}', but another line or point follows", place, end));
+    }
+    if (end == "return") return add_command(kReturnCommand, feature.index + 1, 0.0, 0.0);
+    MissionItem landing = last_place_;
+    landing.command = kLandCommand;
+    landing.frame = kAboveHome;
+    landing.params[6] = 0.0;
+    add(landing);
   }
 
   MissionFile take() { return std::move(mission_); }
@@ -118,6 +142,7 @@ class Route {
   }
 
   MissionFile mission_;
+  MissionItem last_place_;
 };
 
 /// Sorts by `order` or `number` if all have it.
@@ -156,7 +181,14 @@ MissionFile read_gis_mission(const std::filesystem::path& file) {
     throw ConfigError(fmt::format("mission '{}' has neither lines nor points", file.string()));
   }
   sort_points(file, points);
-  for (const GeoFeature& feature : lines.empty() ? points : lines) route.add_path(feature);
+  const std::vector<GeoFeature>& features = lines.empty() ? points : lines;
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    route.add_path(features[i]);
+    const bool is_last = i + 1 == features.size();
+    // The parts of a multiple geometry have its properties each.
+    if (!is_last && features[i + 1].index == features[i].index) continue;
+    route.add_end(features[i], is_last);
+  }
   MissionFile mission = route.take();
   mission.format = "lines and points of a map";
   return mission;

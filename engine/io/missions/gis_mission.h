@@ -16,6 +16,7 @@ bool is_gis_mission(const std::filesystem::path& file);
 ///   sprayer     of a line, true or false: on along the line, off after it (MAV_CMD 216)
 ///   height_m    above home; without it the third coordinate, above mean sea level or as
 ///               <altitudeMode> of a KML file defines it, else 0 above home
+///   at_end      of the last one: `land` at its end (MAV_CMD 21), or `return` to the start (20)
 /// Polygons with the property fence = inclusion or exclusion are fences; other polygons are
 /// ignored.
 /// @throws ConfigError as read_features(); also if there is no line or point, or a property has an

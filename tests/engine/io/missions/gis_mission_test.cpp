@@ -76,6 +76,35 @@ TEST(GisMission, ReadsLinesWithSpeedsSprayerAndFencesOfAGeoPackage) {
   EXPECT_NEAR(deg_from_rad(mission.fence_polygons[0].points[2].latitude_rad), 45.0, 1e-12);
 }
 
+TEST(GisMission, EndsWithALandingOrAReturn) {
+  const std::string line = "[[8.1, 44.5], [8.2, 44.5]]";
+  const auto ending = [&](const std::string& end) {
+    return write_geojson(feature("LineString", line, R"("height_m": 12)") + "," +
+                         feature("LineString", line, R"("height_m": 12, "at_end": ")" + end + '"'));
+  };
+  const MissionFile landing = read_mission(ending("land"));
+  ASSERT_EQ(landing.items.size(), 5u);
+  EXPECT_EQ(landing.items[4].command, 21);
+  EXPECT_EQ(landing.items[4].frame, 3);
+  EXPECT_EQ(landing.items[4].params[4], 44.5);
+  EXPECT_EQ(landing.items[4].params[5], 8.2);
+  EXPECT_EQ(landing.items[4].params[6], 0.0);
+  // GIS programs store lines as multiple ones.
+  const MissionFile parts = read_mission(write_geojson(
+      feature("MultiLineString", "[" + line + ", " + line + "]", R"("at_end": "land")")));
+  ASSERT_EQ(parts.items.size(), 5u);
+  EXPECT_EQ(parts.items[4].command, 21);
+  const MissionFile returning = read_mission(ending("return"));
+  ASSERT_EQ(returning.items.size(), 5u);
+  EXPECT_EQ(returning.items[4].command, 20);
+  EXPECT_TRUE(
+      error_of(ending("lnd")).ends_with(", feature 1: at_end = 'lnd', must be land or return"));
+  const auto early = write_geojson(feature("LineString", line, R"("at_end": "land")") + "," +
+                                   feature("LineString", line));
+  EXPECT_TRUE(
+      error_of(early).ends_with(", feature 0: at_end = 'land', but another line or point follows"));
+}
+
 TEST(GisMission, VisitsPointsInTheirOrder) {
   const MissionFile mission =
       read_mission(write_geojson(feature("Point", "[8.3, 44.5]", R"("order": 3, "height_m": 12)") +

@@ -216,6 +216,12 @@ TEST(Dwa, RefusesWithOneSentence) {
   EXPECT_EQ(refusal({{"horizon_s", 8.0}}, same),
             "rover.guidance (dwa): rollouts of 8 s (horizon_s) need 80 steps of step_s = 0.1 s, at "
             "most 64 are possible");
+  // Motions below 0.03 m/s count as none, and a jam must last longer than the start of a drive.
+  for (const auto& [name, value] :
+       {std::pair{"speed_mps", 0.04}, std::pair{"window_s", 0.009},
+        std::pair{"reverse_speed_mps", 0.04}, std::pair{"stall_s", 0.4}}) {
+    EXPECT_NE(refusal({{name, value}}, same).find(std::string(name) + " = "), std::string::npos);
+  }
   EXPECT_NE(refusal({{"step_s", 5.0}}, same).find("step_s = 5 s is longer than horizon_s = 1.4 s"),
             std::string::npos);
   EXPECT_EQ(refusal({{"mode", std::string("pur")}}, same).find("mode"), 0u);

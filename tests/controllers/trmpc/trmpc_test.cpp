@@ -214,7 +214,7 @@ TEST(Trmpc, RefusesWhatCannotBeKept) {
             "plane.controller (trmpc): gust_mps = 3 m/s: gusts alone take 144 % of the limit of "
             "speed down; the largest feasible gust is 2.08 m/s (longitudinal)");
   // As recommended.
-  EXPECT_NE(refused({{"gust_mps", 1.78}}).find("gusts"), 0u);
+  EXPECT_EQ(refused({{"gust_mps", 1.78}}), "none");
   EXPECT_EQ(refused({{"gain", std::string("given")}}),
             "plane.controller (trmpc): gain is 'given', so longitudinal_gain must be");
   EXPECT_EQ(refused({{"gain", std::string("given")},
@@ -227,6 +227,16 @@ TEST(Trmpc, RefusesWhatCannotBeKept) {
 }
 
 // Weights and limits that leave no set are named, and no key that the part does not have.
+TEST(MpcNominal, HasLimitsAndNoTube) {
+  const std::vector<LoopEvent> events = fly(stressed("mpc_nominal"), 0, 240).events;
+  int outside = 0;
+  for (const LoopEvent& event : events) {
+    EXPECT_EQ(event.text.find("its tube"), std::string::npos) << event.text;
+    outside += event.text.find(" axis outside its limits by ") != std::string::npos;
+  }
+  EXPECT_GT(outside, 0);
+}
+
 TEST(MpcNominal, NamesTheWeightsAndLimitsThatLeaveNoSet) {
   const auto refused = [](const char* group, const char* name, double value) {
     WingSetup setup;

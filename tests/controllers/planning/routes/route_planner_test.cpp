@@ -259,6 +259,10 @@ TEST(RoutePlanner, TellsTheRoomThatATurnLacks) {
                               "margin 0\\.05 m\\): no luck"));
   EXPECT_EQ(bench.number("nodes"), 7.0);  // reported also after a failure
   EXPECT_EQ(bench.planner->report()->tree.points_W.size(), 2u);
+  // Turns that leave the surroundings are not measured.
+  bench.params.turning_radius_m = 1e6;
+  EXPECT_THAT(bench.plan(1.25, -1.0, 0.5 * kPi, true).reason(),
+              StartsWith("the turn from alley 0 to alley 1 needs at least 10.05 m more clearance"));
 }
 
 TEST(RoutePlanner, TellsWhereASearchFailsThoughThereIsRoom) {

@@ -30,6 +30,9 @@ const ParameterTable<DwaPartParams>& dwa_table() {
   const auto plan = [](auto member) { return inside(&P::guide, &Guide::plan, member); };
   const auto recovery = [](auto member) { return inside(&P::guide, &Guide::recovery, member); };
   const auto memory = [](auto member) { return inside(&P::memory, member); };
+  // The guide takes speeds below 0.03 m/s for standing: with less than these bounds it would call
+  // every alley blocked.
+  constexpr ParameterRange kSpeeds = between(0.05, 100.0);
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .choice("mode", guide(&Guide::mode),
@@ -46,7 +49,7 @@ const ParameterTable<DwaPartParams>& dwa_table() {
                   "distance of the outer circles' centres from the vehicle's centre")
           .choice("cost", cost(&DwaCost::as_printed), {{"corrected", false}, {"printed", true}},
                   "printed: J = alpha d_O + beta d_goal of eq. (23), which drives away")
-          .number("speed_mps", "m/s", guide(&Guide::speed_mps), between(0.05, 100.0),
+          .number("speed_mps", "m/s", guide(&Guide::speed_mps), kSpeeds,
                   "highest speed if the plan has no speed")
           .number("acceleration_mps2", "m/s2", law(&DwaParams::acceleration_mps2), kPositive,
                   "acceleration and deceleration")
@@ -83,8 +86,8 @@ const ParameterTable<DwaPartParams>& dwa_table() {
                   "largest distance beside the plan of a path past an obstacle")
           .number("fade_m", "m", plan(&PlanAheadParams::fade_m), kPositive,
                   "assumed length over which the tracking controller removes its error")
-          .number("reverse_speed_mps", "m/s", guide(&Guide::reverse_speed_mps),
-                  between(0.05, 100.0), "speed backwards when blocked")
+          .number("reverse_speed_mps", "m/s", guide(&Guide::reverse_speed_mps), kSpeeds,
+                  "speed backwards when blocked")
           .number("reverse_s", "s", recovery(&RecoveryParams::reverse_s), between(0.0, 60.0),
                   "longest drive back when blocked")
           .integer("max_recoveries", recovery(&RecoveryParams::max_recoveries), between(0, 100),
@@ -110,6 +113,7 @@ const ParameterTable<DwaPartParams>& dwa_table() {
           .number("forget_s", "s", memory(&Memory::forget_s), kPositive,
                   "time after the last echo for which points 3 m away are kept")
           .rule([](const P& p) -> std::string {
+            // Between the poses of a rollout nothing is checked.
             const DwaParams& own = p.guide.law;
             if (own.step_s <= own.horizon_s) return "";
             return fmt::format("step_s = {} s is longer than horizon_s = {} s", own.step_s,

@@ -50,6 +50,7 @@ std::string find_fault_in_landing(const GivenParams& given) {
     return fmt::format("flare_height_m = {:.2f} m is not below approach_height_m = {:.2f} m",
                        p.flare_m, p.approach_height_m);
   }
+  // The ground below the glide is sampled every metre.
   constexpr double kLongest_m = 100e3;
   const double glide_m = LandingSlope(0.0, p.glide_rad, p.flare_m).length_m(p.approach_height_m);
   if (p.end != MissionEnd::kLand || glide_m <= kLongest_m) return "";

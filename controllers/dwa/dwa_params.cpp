@@ -118,6 +118,13 @@ const ParameterTable<DwaPartParams>& dwa_table() {
             if (own.step_s <= own.horizon_s) return "";
             return fmt::format("step_s = {} s is longer than horizon_s = {} s", own.step_s,
                                own.horizon_s);
+          })
+          .rule([](const P& p) -> std::string {
+            const DwaCost& own = p.guide.law.cost;
+            if (own.clearance_weight > 0.0 || own.goal_weight > 0.0) return "";
+            if (own.as_printed) return "clearance_weight and goal_weight are both 0";
+            if (own.heading_weight > 0.0 || own.path_weight > 0.0) return "";
+            return "clearance_weight, goal_weight, heading_weight and path_weight are all 0";
           });
   return table;
 }

@@ -19,12 +19,17 @@ struct TrmpcParams {
   std::optional<std::vector<double>> longitudinal_gain, lateral_gain;
 };
 
-std::string find_missing_gain(const TrmpcParams& p) {
+std::string find_gain_fault(const TrmpcParams& p) {
   const auto missing = [](const char* name) {
     return fmt::format("gain is 'given', so {} must be", name);
   };
   if (p.is_gain_given && !p.longitudinal_gain) return missing("longitudinal_gain");
   if (p.is_gain_given && !p.lateral_gain) return missing("lateral_gain");
+  const auto unused = [](const char* name) {
+    return fmt::format("{} is used only with gain 'given'", name);
+  };
+  if (!p.is_gain_given && p.longitudinal_gain) return unused("longitudinal_gain");
+  if (!p.is_gain_given && p.lateral_gain) return unused("lateral_gain");
   return "";
 }
 
@@ -61,7 +66,7 @@ const ParameterTable<TrmpcParams>& trmpc_table() {
                    5)
           .include(inside(&P::tube, &Tube::weights), aircraft_weight_table())
           .include(inside(&P::tube, &Tube::limits), aircraft_limit_table())
-          .rule(find_missing_gain);
+          .rule(find_gain_fault);
   return table;
 }
 

@@ -348,6 +348,9 @@ RunResult run_scenario(const scenario::Scenario& scenario, const Registry& regis
 
   reserve.give_back();
   Simulation& simulation = session.simulation();
+  if (options.profile) {
+    options.profile->set_two_cores_save_s(simulation.scheduler().two_cores_save_s());
+  }
   const auto write_verdict = [&] {
     write_whole_file(options.out / "summary.json",
                      summary_json(result, simulation, options.profile));

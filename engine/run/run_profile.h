@@ -38,6 +38,9 @@ class RunProfile final : public ProfileSink {
   /// So far, by falling time; the sum of their times is total_s().
   std::vector<Row> rows() const;
   double total_s() const;
+  /// Bound of what tasks of one instant would save side by side (Scheduler::two_cores_save_s()).
+  void set_two_cores_save_s(double save_s) { two_cores_save_s_ = save_s; }
+  double two_cores_save_s() const { return two_cores_save_s_; }
   bool counts_allocations() const { return heap_ != nullptr; }
 
   /// Trace Event Format, which Perfetto and speedscope open. It has the slices, the phases and the
@@ -112,6 +115,7 @@ class RunProfile final : public ProfileSink {
   std::int64_t slice_start_ns_ = 0, phase_start_ns_ = 0;
   Time slice_from_;
   std::uint64_t slice_allocations_ = 0;
+  double two_cores_save_s_ = 0.0;
 };
 
 }  // namespace vinerow::run

@@ -189,7 +189,10 @@ std::string summary_json(const RunResult& result, Simulation& simulation,
   if (!result.picture_note.empty()) summary["picture_note"] = result.picture_note;
   summary["notes"] = simulation.world().notes;
   summary["cost"] = cost_json(simulation);
-  if (profile) summary["profile"] = profile_json(*profile);
+  if (profile) {
+    summary["profile"] = profile_json(*profile);
+    summary["two_cores_save_s"] = profile->two_cores_save_s();
+  }
   summary["versions"] = {{"vinerow", program_version()},
                          {"abi", fmt::format("{} ({})", VINEROW_ABI_VERSION, VINEROW_ABI_HEADERS)},
                          {"compiler", __VERSION__}};

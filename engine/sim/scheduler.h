@@ -45,6 +45,9 @@ class Scheduler {
     double wall_s = 0.0;  ///< computing time of all ticks; 0 if not measured
   };
   std::vector<TaskReport> reports() const;
+  /// Bound of what tasks of one instant side by side could save on two cores, if none waited for
+  /// another: in each instant the longest task, or half of the sum, is left. 0 if not measured.
+  double two_cores_save_s() const { return static_cast<double>(two_cores_save_ns_) * 1e-9; }
   /// Wall time since an arbitrary moment, ns. A run never reads the time itself. The program that
   /// steps it may provide a clock, which influences no result.
   using Clock = std::int64_t (*)();
@@ -75,6 +78,7 @@ class Scheduler {
   Time earliest_{0};
   Clock clock_ = nullptr;
   bool measure_ = false;
+  std::int64_t two_cores_save_ns_ = 0;
 };
 
 }  // namespace vinerow

@@ -43,6 +43,10 @@ assert.equal(steps.calls, summary.steps);
 assert.ok(rows.some((row) => row.part === "world" && row.allocations > 100), "allocations are counted");
 assert.ok(rows.some((row) => row.part === "report" && row.stage === "results"));
 assert.ok(summary.profile.length > 20);
+// Two cores save some of the ticks' time, half of it at most.
+const ticks_s = summary.cost.reduce((sum, task) => sum + task.wall_s, 0);
+assert.ok(summary.two_cores_save_s > 0 && summary.two_cores_save_s < ticks_s / 2, `${summary.two_cores_save_s} of ${ticks_s} s`);
+assert.ok(run.stdout.includes(`two cores would save ${summary.two_cores_save_s.toFixed(2)} s at most`), run.stdout);
 assert.match(readFileSync(join(out, "report.html"), "utf8"), /<th[^>]*>longest, µs<\/th>/);
 step(`the table has ${rows.length} rows, and as many ticks as the summary`);
 

@@ -224,6 +224,20 @@ TEST(Dwa, RefusesWithOneSentence) {
   }
   EXPECT_NE(refusal({{"step_s", 5.0}}, same).find("step_s = 5 s is longer than horizon_s = 1.4 s"),
             std::string::npos);
+  // No command would be better than another, and none would be driven.
+  EXPECT_EQ(
+      refusal({{"clearance_weight", 0.0}, {"goal_weight", 0.0}, {"cost", std::string("printed")}},
+              same),
+      "rover.guidance (dwa): clearance_weight and goal_weight are both 0");
+  const auto none = refusal({{"clearance_weight", 0.0},
+                             {"goal_weight", 0.0},
+                             {"heading_weight", 0.0},
+                             {"path_weight", 0.0}},
+                            same);
+  EXPECT_EQ(none,
+            "rover.guidance (dwa): clearance_weight, goal_weight, heading_weight and path_weight "
+            "are all 0");
+  EXPECT_EQ(refusal({{"clearance_weight", 0.0}, {"goal_weight", 0.0}}, same), "accepted");
   EXPECT_EQ(refusal({{"mode", std::string("pur")}}, same).find("mode"), 0u);
   EXPECT_NE(refusal({{"horizon_s", 0.0}}, same).find("horizon_s = 0 s, must be > 0"),
             std::string::npos);

@@ -217,6 +217,8 @@ TEST(Trmpc, RefusesWhatCannotBeKept) {
   EXPECT_EQ(refused({{"gust_mps", 1.78}}), "none");
   EXPECT_EQ(refused({{"gain", std::string("given")}}),
             "plane.controller (trmpc): gain is 'given', so longitudinal_gain must be");
+  EXPECT_EQ(refused({{"lateral_gain", std::vector<double>(5, 0.0)}}),
+            "plane.controller (trmpc): lateral_gain is used only with gain 'given'");
   EXPECT_EQ(refused({{"gain", std::string("given")},
                      {"longitudinal_gain", std::vector<double>(10, 0.0)},
                      {"lateral_gain", std::vector<double>(5, 0.0)}})

@@ -61,6 +61,21 @@ TEST(Scheduler, EachTaskHasItsOwnTimeAndNobodyThatBetweenInstants) {
   EXPECT_NEAR(reports[1].wall_s, 2 * 500e-9, 1e-15);
   EXPECT_NEAR(reports[2].wall_s, 4 * 7e-9, 1e-15);
   EXPECT_EQ(clock_reads, 2 * 4 + 2 * 3) << "one for the instant and one for each tick";
+  // Beside the rare one: the other two. Without it: the shorter one.
+  EXPECT_NEAR(scheduler.two_cores_save_s(), (2 * 37 + 2 * 7) * 1e-9, 1e-15);
+}
+
+TEST(Scheduler, TwoCoresSaveHalfAtMost) {
+  Scheduler scheduler(Duration{10});
+  fake_ns = 0;
+  for (const char* name : {"a", "b", "c"}) {
+    scheduler.add(Stage::kSense, name, Duration{10}, {}, [](Time) { fake_ns += 10; });
+  }
+  scheduler.run_due(Time{0});
+  EXPECT_EQ(scheduler.two_cores_save_s(), 0.0) << "without a clock";
+  scheduler.set_clock(read_fake_clock, true);
+  scheduler.run_due(Time{10});
+  EXPECT_NEAR(scheduler.two_cores_save_s(), 15e-9, 1e-15);
 }
 
 TEST(Scheduler, AnOffsetDelaysTheFirstTick) {

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "engine/api/parameter_table.h"
 
 namespace vinerow::sensors {
@@ -43,7 +41,7 @@ DepthReading::DepthReading(const DepthParams& params, double fx_px) : params_(pa
 
 std::uint16_t DepthReading::exact_mm(double depth_m) const {
   if (!(depth_m >= params_.min_m && depth_m <= params_.max_m)) return 0;
-  return static_cast<std::uint16_t>(std::lround(1000.0 * depth_m));
+  return static_cast<std::uint16_t>(1000.0 * depth_m + 0.5);
 }
 
 std::uint16_t DepthReading::reading_mm(double depth_m, QuickNormals& noise) const {

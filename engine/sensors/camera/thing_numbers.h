@@ -28,13 +28,22 @@ class ThingNumbers {
   };
   Thing thing(std::uint32_t number) const;
 
-  /// Of a hit on the world.
-  std::uint32_t of(const RayHit& hit) const;
+  /// A thing and its number.
+  struct Found {
+    Thing thing;
+    std::uint32_t number = kNothing;
+  };
+  /// Number of what a ray met in the world. @param last  what the ray before met, often the same
+  /// thing; then what this one met
+  std::uint32_t of(const RayHit& hit, Found& last) const;
   std::uint32_t of_vehicle(int vehicle) const { return end_ + static_cast<std::uint32_t>(vehicle); }
   /// First number that no thing of the world has.
   std::uint32_t end() const { return end_; }
 
  private:
+  /// @param k  which of the mesh's things
+  Thing thing_of(std::size_t mesh, std::size_t k) const;
+
   std::span<const MeshInstance> meshes_;
   std::vector<std::uint32_t> first_;  ///< of each mesh
   std::uint32_t end_ = kTerrain + 1;

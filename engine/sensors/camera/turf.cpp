@@ -24,14 +24,20 @@ float hash_of(std::int64_t i, std::int64_t j, std::uint32_t seed) {
   return static_cast<float>(h >> 8) * 0x1p-24f;
 }
 
+/// Without a call, which std::floor() is on processors of the baseline.
+std::int64_t floor_of(double x) {
+  const auto whole = static_cast<std::int64_t>(x);
+  return whole - (static_cast<double>(whole) > x ? 1 : 0);
+}
+
 /// Smooth noise over cells of a given size, mean 0.5; fades to the mean where a pixel is larger
 /// than half a cell.
 float noise(double x, double y, double cell_m, double footprint_m, std::uint32_t seed) {
   const auto shown = static_cast<float>(std::clamp(2.0 - 2.0 * footprint_m / cell_m, 0.0, 1.0));
   if (shown == 0.0f) return 0.5f;
   const double u = x / cell_m, v = y / cell_m;
-  const double fu = std::floor(u), fv = std::floor(v);
-  const auto i = static_cast<std::int64_t>(fu), j = static_cast<std::int64_t>(fv);
+  const std::int64_t i = floor_of(u), j = floor_of(v);
+  const auto fu = static_cast<double>(i), fv = static_cast<double>(j);
   const auto smooth = [](double t) { return static_cast<float>(t * t * (3.0 - 2.0 * t)); };
   const float su = smooth(u - fu), sv = smooth(v - fv);
   const float low = hash_of(i, j, seed) * (1.0f - su) + hash_of(i + 1, j, seed) * su;

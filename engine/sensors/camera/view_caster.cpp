@@ -293,6 +293,7 @@ void ViewCaster::look_at_vehicles(TileRays& r) const {
 
 void ViewCaster::write_facts(const Tile& tile, const TileRays& r, View& view) const {
   std::size_t i = 0;
+  ThingNumbers::Found last;
   tile.for_each([&](int row, int x) {
     const std::size_t pixel = tile.pixel(row, x), ray = i++;
     if (!r.hits[ray]) {
@@ -310,7 +311,7 @@ void ViewCaster::write_facts(const Tile& tile, const TileRays& r, View& view) co
       view.thing[pixel] = numbers_.of_vehicle(links_->scene().vehicle_of(hit.mesh));
       return;
     }
-    view.thing[pixel] = numbers_.of(hit);
+    view.thing[pixel] = numbers_.of(hit, last);
     view.label[pixel] = label_at(world_, hit);
   });
 }

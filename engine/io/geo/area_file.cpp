@@ -4,12 +4,10 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <locale>
-#include <sstream>
 
 #include "engine/core/error.h"
 #include "engine/io/geo/geo_features.h"
+#include "engine/io/geo/point_csv.h"
 #include "engine/math/geo.h"
 
 namespace vinerow::io {
@@ -35,30 +33,6 @@ Polygon read_geojson_area(const std::string& file, const GeoOrigin& origin) {
   return polygon;
 }
 
-Polygon read_csv_area(const std::string& file) {
-  std::ifstream stream(file);
-  if (!stream) throw ConfigError(fmt::format("{}: cannot be read", file));
-  Polygon polygon;
-  std::string line;
-  for (int number = 1; std::getline(stream, line); ++number) {
-    while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.pop_back();
-    if (line.empty() || line.front() == '#') continue;
-    std::string fields = line;
-    for (char& c : fields) c = (c == ',' || c == ';') ? ' ' : c;
-    std::istringstream parser(fields);
-    parser.imbue(std::locale::classic());
-    Vector2d p;
-    std::string rest;
-    if (parser >> p.x() >> p.y() && p.allFinite() && !(parser >> rest)) {
-      polygon.push_back(p);
-    } else if (number > 1) {  // the first line may hold names
-      throw ConfigError(
-          fmt::format("{}:{}: '{}' must be two numbers, x and y in metres", file, number, line));
-    }
-  }
-  return polygon;
-}
-
 constexpr double kMinArea_m2 = 1.0;
 
 std::string describe_edge(const Polygon& polygon, std::size_t i) {
@@ -72,12 +46,15 @@ std::string describe_edge(const Polygon& polygon, std::size_t i) {
 Polygon read_area(const std::string& file, const GeoOrigin& origin) {
   std::string ending = std::filesystem::path(file).extension().string();
   for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return without_repeats(ending == ".csv" ? read_csv_area(file) : read_geojson_area(file, origin));
+  return without_repeats(ending == ".csv" ? read_points_csv(file)
+                                          : read_geojson_area(file, origin));
 }
 
 std::optional<std::string> find_area_fault(const Polygon& polygon) {
   const std::size_t n = polygon.size();
-  if (n < 3) return fmt::format("it has {} different points, needs at least 3", n);
+  if (n < 3) {
+    return fmt::format("it has {} different point{}, needs at least 3", n, n == 1 ? "" : "s");
+  }
   constexpr std::size_t kMaxPoints = 5'000;  // each edge is compared with each other
   if (n > kMaxPoints) {
     return fmt::format("it has {} points, must have at most {}: simplify it", n, kMaxPoints);

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "engine/core/error.h"
+#include "engine/io/geo/point_csv.h"
 #include "engine/math/angles.h"
 #include "engine/math/geo.h"
 
@@ -75,6 +76,32 @@ TEST(AreaFile, ReadsGeoJsonAndCsv) {
   } catch (const ConfigError& e) {
     EXPECT_NE(std::string(e.what()).find(":2: '1,2,3' must be two numbers"), std::string::npos);
   }
+}
+
+TEST(PointCsv, ReadsWhatSpreadsheetsWriteAndDropsNoPoint) {
+  const std::string file = ::testing::TempDir() + "vinerow_points.csv";
+  const auto read = [&](const std::string& text) {
+    std::ofstream(file) << text;
+    return read_points_csv(file);
+  };
+  const std::vector<Vector2d> points = {{1, 2}, {-3, 4.5}};
+  EXPECT_EQ(read("\xEF\xBB\xBF"
+                 "1,2\r\n-3;4.5\r\n"),
+            points);
+  EXPECT_EQ(read("\xEF\xBB\xBFx,y\n1,2\n-3,4.5\n"), points);
+  EXPECT_EQ(read("\"x (m)\",\"y (m)\"\n1,2\n-3,4.5\n"), points);
+  const auto fault = [&](const std::string& text) {
+    try {
+      read(text);
+    } catch (const ConfigError& e) {
+      return std::string(e.what());
+    }
+    return std::string("none");
+  };
+  EXPECT_EQ(fault("1,2x\n3,4\n"), file + ":1: '1,2x' must be two numbers, x and y in metres");
+  EXPECT_EQ(fault("x,y\n# nothing\n"), file + ": has no points");
+  EXPECT_EQ(fault(""), file + ": has no points");
+  EXPECT_THROW(read_points_csv(::testing::TempDir()), ConfigError);
 }
 
 }  // namespace

@@ -1,8 +1,12 @@
 #include "controllers/trajectory/flight_trajectory.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "engine/core/error.h"
 
 namespace vinerow::controllers {
 namespace {
@@ -38,6 +42,17 @@ void extend_landing(std::vector<CurveRun>& runs, double by_m) {
   last.length_m += by_m;
 }
 
+/// Runs are sampled every few centimetres.
+void check_length(double run_m) {
+  constexpr double kLongest_m = 1e5;
+  if (run_m <= kLongest_m) return;
+  throw ConfigError(
+      fmt::format("a stretch of {:.0f} m of the plan is too long for a flight, must be at most "
+                  "{:.0f} km: lower "
+                  "its heights, or bring its places nearer",
+                  run_m, kLongest_m / 1e3));
+}
+
 bool is_descent(const CurveRun& run) {
   return run.is_vertical && run.pieces.back().rise_m < 0.0;
 }
@@ -48,8 +63,12 @@ FlightTrajectory::FlightTrajectory(const PlannedPath& plan, double yaw_rad,
                                    const FlightOptions& options) {
   std::vector<CurveRun> curve = make_curve_runs(plan, options.sharp_rad);
   if (curve.empty()) return;
-  for (const CurveRun& run : curve) length_m_ += run.length_m;
+  for (const CurveRun& run : curve) {
+    length_m_ += run.length_m;
+    check_length(run.length_m);
+  }
   end_height_m_ = plan.points.back().p_W.z();
+  landing_mps_ = options.limits.landing_speed_mps;
   const bool lands = is_descent(curve.back());
   if (lands && options.landing_reserve_m > 0.0) extend_landing(curve, options.landing_reserve_m);
 
@@ -148,6 +167,16 @@ FlightTrajectory::Phase FlightTrajectory::phase_of(const Stage& stage, double al
 }
 
 FlightTrajectory::Sample FlightTrajectory::at(double time_s) const {
+  Sample sample = find(time_s);
+  const double after_s = time_s - duration_s();
+  if (sample.phase == Phase::kLand && after_s > 0.0) {
+    sample.point.p_W.z() -= landing_mps_ * after_s;
+    sample.point.v_W.z() = -landing_mps_;
+  }
+  return sample;
+}
+
+FlightTrajectory::Sample FlightTrajectory::find(double time_s) const {
   const auto next = std::upper_bound(stages_.begin(), stages_.end(), time_s,
                                      [](double t, const Stage& stage) { return t < stage.end_s; });
   const Stage& stage = next == stages_.end() ? stages_.back() : *next;

@@ -46,7 +46,8 @@ class FlightTrajectory {
   double length_m() const { return length_m_; }
   double end_height_m() const { return end_height_m_; }
 
-  /// Clamped to [0, duration_s()]. No heap. @pre !empty()
+  /// Clamped to [0, duration_s()], but for a landing, which sinks on at its speed until the ground
+  /// is met. No heap. @pre !empty()
   Sample at(double time_s) const;
   /// Time at which a distance along the plan is reached, s; zero if it is not positive, and the end
   /// if it exceeds the plan. No heap. @pre !empty()
@@ -63,6 +64,8 @@ class FlightTrajectory {
     Phase phase = Phase::kTransit;  ///< of rests and of vertical runs
     double start_m = 0.0;           ///< along the plan
   };
+  /// At a time, or at the end.
+  Sample find(double time_s) const;
   void add_rest(double duration_s, Phase phase);
   void add_run(int run, bool is_first, bool is_last, std::optional<double> next_yaw_rad,
                const FlightOptions& options);
@@ -77,6 +80,7 @@ class FlightTrajectory {
   bool has_flown_rows_ = false;
   double length_m_ = 0.0;
   double end_height_m_ = 0.0;
+  double landing_mps_ = 0.0;
 };
 
 }  // namespace vinerow::controllers

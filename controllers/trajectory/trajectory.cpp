@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "controllers/parts/ground_drive/plan_speed.h"
@@ -31,7 +32,8 @@ class Trajectory final : public Guidance {
 
   void connect(Ports& ports) override {
     estimate_ = ports.read<Odometry>("estimate");
-    if (!params_.hover_m) plan_ = ports.read<PlannedPath>("plan");
+    plan_ = params_.hover_m ? ports.read_optional<PlannedPath>("plan")
+                            : ports.read<PlannedPath>("plan");
     authority_ = ports.read_optional<MovementAuthority>("authority");
     out_ = ports.write<ReferenceTrajectory>("reference");
     event_writer_ = ports.write<Event>("guidance_event");
@@ -47,6 +49,10 @@ class Trajectory final : public Guidance {
     } else if (!has_landed_) {
       take_authority();
       advance(now, dt_s);
+    }
+    if (params_.hover_m && !ignores_plan_ && plan_.has_value()) {
+      ignores_plan_ = true;
+      report_event(now, Event::Level::kWarning, "ignores the plan, since hover_m is given");
     }
     write(now);
   }
@@ -71,15 +77,27 @@ class Trajectory final : public Guidance {
     if (flight_.empty()) return;
     const std::string warning = params_.hover_m ? "" : describe_plan();
     report_event(now, warning.empty() ? Event::Level::kInfo : Event::Level::kWarning,
-                 fmt::format("takes off for {:.1f} m in {:.1f} s{}", flight_.length_m(),
-                             flight_.duration_s(), warning));
+                 fmt::format("takes off for {:.1f} m{}{}", flight_.length_m(),
+                             std::isfinite(flight_.duration_s())
+                                 ? fmt::format(" in {:.1f} s", flight_.duration_s())
+                                 : "",
+                             warning));
   }
 
   /// What a plan wants that the flight does not give; empty: nothing.
   std::string describe_plan() const {
-    std::string text =
-        describe_too_fast_plan(plan_.value(), params_.flight.limits.row_speed_mps, "row_speed_mps");
-    if (!text.empty()) text.insert(0, "; ");
+    const TrajectoryLimits& limits = params_.flight.limits;
+    std::string text;
+    for (const std::string& too_fast :
+         {describe_too_fast_plan(plan_.value(), limits.transit_speed_mps, "transit_speed_mps",
+                                 [](PathKind kind) { return kind == PathKind::kTransit; }),
+          describe_too_fast_plan(
+              plan_.value(), limits.row_speed_mps, "row_speed_mps",
+              [](PathKind kind) { return kind == PathKind::kLeg || kind == PathKind::kTurn; }),
+          describe_too_fast_plan(plan_.value(), limits.return_speed_mps, "return_speed_mps",
+                                 [](PathKind kind) { return kind == PathKind::kReturn; })}) {
+      if (!too_fast.empty()) text += "; " + too_fast;
+    }
     if (flight_.at(flight_.duration_s()).phase != Phase::kLand) {
       text += "; its plan has no landing: it hovers at the end and does not finish";
     }
@@ -116,8 +134,9 @@ class Trajectory final : public Guidance {
     rest_.p_W = estimate.X_WB.p;
     rest_.yaw_rad = present.point.yaw_rad;
     report_event(now, Event::Level::kInfo,
-                 fmt::format("landed at ({:.2f}, {:.2f}), {:.2f} m above the end of its plan",
-                             rest_.p_W.x(), rest_.p_W.y(), observation.above_end_m));
+                 fmt::format("landed at ({:.2f}, {:.2f}), {:.2f} m {} the end of its plan",
+                             rest_.p_W.x(), rest_.p_W.y(), std::abs(observation.above_end_m),
+                             observation.above_end_m < 0.0 ? "below" : "above"));
   }
 
   void write(Time now) {
@@ -184,6 +203,7 @@ class Trajectory final : public Guidance {
   LandingWatch watch_;
   bool has_landed_ = false;
   bool is_waiting_ = false;
+  bool ignores_plan_ = false;
   TrajectoryPoint rest_;  // before and after the flight
   ReferenceTrajectory reference_;
   Time last_;

@@ -94,7 +94,7 @@ ALLOWED = {
     "controllers/estimation/row_camera": BASE + [NETS, ESTIMATION_PARTS, "controllers/estimation/row_localisation"],
     SEARCH: BASE + [PATHS],
     SURVEY: BASE + [PATHS, GEO, "engine/io/missions"],  # parcels and missions of ground stations
-    ROUTES: BASE + [PATHS, SEARCH, "engine/io/missions"],
+    ROUTES: BASE + [PATHS, SEARCH, GEO, "engine/io/missions"],  # points and missions from files
     "controllers/planning/flight": BASE + [PATHS, SEARCH, ROUTES, SURVEY],
     # Tools: each may include those below it, in this order.
     "tools": ["engine", "vehicles", "worlds", "controllers", "tools", "vinerow"],

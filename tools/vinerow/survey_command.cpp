@@ -84,9 +84,8 @@ void print_survey(const SurveyTask& task, const controllers::SurveyPlan& plan) {
     fmt::print("turns            {:.1f} m radius; {:.0f} pass over lanes, {:.0f} swing wide\n",
                n("turn_radius_m"), n("skipping_turns"), n("wide_turns"));
   }
-  fmt::print(
-      "waypoints        {:.0f}, of which {:.0f} are lane corners and {:.0f} follow the terrain\n",
-      n("waypoints"), n("corners"), n("ramp_points"));
+  fmt::print("waypoints        {:.0f}: lane corners {:.0f}, for the terrain {:.0f}\n",
+             n("waypoints"), n("corners"), n("ramp_points"));
   fmt::print("ramps            at most {:.2f} m off the requested height, slope up to {:.1f} %\n",
              n("ramp_error_m"), 100.0 * n("slope_max"));
   if (plan.rotorcraft) {

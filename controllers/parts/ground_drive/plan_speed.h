@@ -14,10 +14,14 @@ namespace vinerow::controllers {
 
 /// "the plan wants up to 5 m/s, the limit is 1.94 m/s (speed_mps)"; empty if it does not.
 /// @param key  of the follower's own limit
-inline std::string describe_too_fast_plan(const PlannedPath& plan, double own_mps,
-                                          const char* key) {
+/// @param counts  (PathKind): whether the limit applies there
+inline std::string describe_too_fast_plan(
+    const PlannedPath& plan, double own_mps, const char* key,
+    bool (*counts)(PathKind) = [](PathKind) { return true; }) {
   double max_mps = 0.0;
-  for (const PathPoint& point : plan.points) max_mps = std::max(max_mps, point.speed_mps);
+  for (const PathPoint& point : plan.points) {
+    if (counts(point.kind)) max_mps = std::max(max_mps, point.speed_mps);
+  }
   constexpr double kRounding = 1e-9;
   if (max_mps <= own_mps * (1.0 + kRounding)) return "";
   return fmt::format("the plan wants up to {:.3g} m/s, the limit is {:.3g} m/s ({})", max_mps,

@@ -88,6 +88,9 @@ class ClosedFormPath final : public RowPathPlanner {
       : params_(params), reach_m_(reach_m), map_(*context.map), scene_(context.scene) {
     turn_.kind = turns;
     turn_.radius_m = params.turning_radius_m;
+    turn_.radius_key = "turning_radius_m";
+    turn_.kind_key = "turns";
+    turn_.other = "";
     turn_.speed_mps = params.turn_speed_mps;
   }
 

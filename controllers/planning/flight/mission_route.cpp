@@ -263,8 +263,9 @@ class MissionRoute final : public Planner {
     for (std::size_t i = 0; i + 1 < path_.points.size(); ++i) {
       const PathPoint &a = path_.points[i], &b = path_.points[i + 1];
       const std::string leg =
-          i == 0 ? fmt::format("the path to item {}", items_[1])
-                 : fmt::format("the path from item {} to item {}", items_[i], items_[i + 1]);
+          i == 0 || items_[i] == items_[i + 1]
+              ? fmt::format("the path to item {}", items_[i + 1])
+              : fmt::format("the path from item {} to item {}", items_[i], items_[i + 1]);
       if (keeps_fences_) {
         if (const auto fence =
                 find_broken_fence(mission_, origin_, a.p_W.head<2>(), b.p_W.head<2>())) {

@@ -129,6 +129,13 @@ class RowFlight final : public Planner {
       PathPoint point = rows.points[i];
       point.p_W.z() = heights.at(distances_m[i]);
       flight.points.push_back(point);
+      const double sunk_m = ground_m->at(distances_m[i]) + params_.rest_height_m - point.p_W.z();
+      if (sunk_m > 0.0) {
+        return fmt::format(
+            "with heights smoothed over smooth_m = {:g} m the vehicle would be {:.2g} m in the "
+            "ground at ({:.2f}, {:.2f})",
+            params_.smooth_m, sunk_m, point.p_W.x(), point.p_W.y());
+      }
       if (point.kind != PathKind::kLeg) continue;
       const double wanted_m = ground_m->at(distances_m[i]) + params_.height_m;
       error_m = std::max(error_m, std::abs(point.p_W.z() - wanted_m));

@@ -26,10 +26,10 @@ const ParameterTable<RowFlightParams>& row_flight_table() {
   using P = RowFlightParams;
   static const ParameterTable<P> table =
       ParameterTable<P>()
-          .number("height_m", "m", &P::height_m, kPositive,
+          .number("height_m", "m", &P::height_m, above(0.0, 1e4),
                   "height of the vehicle's centre of mass above the map's ground, in rows and "
                   "turns and on the path to the first row")
-          .number("return_height_m", "m", &P::return_height_m, kPositive,
+          .number("return_height_m", "m", &P::return_height_m, above(0.0, 1e4),
                   "minimum height of the centre of mass above ground and canopies on the way home")
           .choice("turns", &P::turns,
                   {{"grid", std::nullopt},

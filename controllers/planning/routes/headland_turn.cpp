@@ -16,8 +16,9 @@ Result<std::vector<PathSegment>> make_three_point_arc(const Pose2& exit, const P
                                                       const TurnParams& params) {
   const Eigen::Vector2d out = direction(exit.yaw_rad), in = direction(entry.yaw_rad);
   if (out.dot(in) > -0.5) {
-    return Failure{
-        "a three-point arc joins alleys that are driven in opposite directions; use turn: dubins"};
+    return Failure{fmt::format(
+        "a three-point arc joins alleys that are driven in opposite directions; use {}: dubins",
+        params.kind_key)};
   }
   // If one alley ends before the other, its straight is extended, so that the arc starts and ends
   // level and meets both legs smoothly.
@@ -33,8 +34,9 @@ Result<std::vector<PathSegment>> make_three_point_arc(const Pose2& exit, const P
   if (arc->radius_m() < params.radius_m * (1.0 - 1e-9)) {
     return Failure{fmt::format(
         "the three-point arc between alleys {:.3g} m apart has a radius of {:.3g} m, below "
-        "turn_radius_m = {:.3g} m; use turn: dubins, whose loop fits any spacing, or order: skip",
-        2.0 * half_spacing, arc->radius_m(), params.radius_m)};
+        "{} = {:.3g} m; use {}: dubins, whose loop fits any spacing{}",
+        2.0 * half_spacing, arc->radius_m(), params.radius_key, params.radius_m, params.kind_key,
+        params.other)};
   }
   std::vector<PathSegment> pieces;
   const auto add_straight = [&](const Eigen::Vector2d& from, const Eigen::Vector2d& to) {

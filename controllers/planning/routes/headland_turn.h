@@ -21,6 +21,10 @@ struct TurnParams {
   std::optional<double>
       apex_m;  ///< of the three-point arc, beyond the alley ends; absent: semicircle
   double speed_mps = 0.0;
+  /// For messages: the planner's keys of the radius and of the kind, and what else it offers.
+  const char* radius_key = "turn_radius_m";
+  const char* kind_key = "turn";
+  const char* other = ", or order: skip";
 };
 
 /// @param exit   end of the alley just driven, heading out

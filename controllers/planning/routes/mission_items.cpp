@@ -141,8 +141,8 @@ MissionPlaces place_mission(const io::MissionFile& mission, const GeoOrigin& ori
     result.first_speed_mps = result.places.front().speed_mps;
   }
   if (flown == 0) {
-    throw ConfigError(fmt::format("{}: '{}' has {} items but no waypoint: there is nothing to fly",
-                                  who, mission.file.string(), mission.items.size()));
+    throw ConfigError(fmt::format("{}: '{}' has no waypoint: there is nowhere to go", who,
+                                  mission.file.string()));
   }
   return result;
 }

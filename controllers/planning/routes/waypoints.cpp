@@ -3,46 +3,21 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <optional>
-#include <sstream>
 
 #include "controllers/parts/paths/lift.h"
 #include "controllers/parts/paths/path_pieces.h"
+#include "controllers/parts/paths/verticals.h"
 #include "controllers/planning/routes/corner_rounding.h"
 #include "controllers/planning/routes/row_check.h"
 #include "engine/api/file_shelf.h"
 #include "engine/api/map.h"
 #include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
+#include "engine/io/geo/point_csv.h"
 
 namespace vinerow::controllers {
 namespace {
-
-/// Reads lines "x,y" in metres. Skips a first line of names, empty lines and lines that start with
-/// '#'.
-std::vector<Eigen::Vector2d> read_csv(const std::string& file) {
-  std::ifstream stream(file);
-  if (!stream) throw ConfigError(fmt::format("{}: cannot be read", file));
-  std::vector<Eigen::Vector2d> points;
-  std::string line;
-  for (int number = 1; std::getline(stream, line); ++number) {
-    if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (line.empty() || line.front() == '#') continue;
-    std::string fields = line;
-    for (char& c : fields) c = (c == ',' || c == ';') ? ' ' : c;
-    std::istringstream parser(fields);
-    parser.imbue(std::locale::classic());
-    Eigen::Vector2d p;
-    if (parser >> p.x() >> p.y() && std::isfinite(p.x()) && std::isfinite(p.y())) {
-      points.push_back(p);
-    } else if (number > 1) {
-      throw ConfigError(
-          fmt::format("{}:{}: '{}' must be two numbers, x and y in metres", file, number, line));
-    }
-  }
-  return points;
-}
 
 struct WaypointsParams {
   std::vector<double> x_m, y_m;
@@ -76,7 +51,10 @@ const ParameterTable<WaypointsParams>& waypoints_table() {
               "radius of rounded corners on the ground; 0 = not rounded; default: 1.1 times the "
               "minimum of a vehicle with axle steering, else 0: the follower turns it on the spot")
           .rule([](const P& p) -> std::string {
-            if (!p.file.empty() || p.x_m.size() == p.y_m.size()) return "";
+            if (!p.file.empty()) {
+              return p.x_m.empty() && p.y_m.empty() ? "" : "has both a file and x_m or y_m";
+            }
+            if (p.x_m.size() == p.y_m.size()) return "";
             return fmt::format("x_m has {} numbers and y_m {}, must be as many", p.x_m.size(),
                                p.y_m.size());
           });
@@ -94,8 +72,8 @@ class Waypoints final : public Planner {
         scene_(context.scene),
         vehicle_(*context.vehicle_description) {
     if (!params.file.empty()) {
-      points_ = *keep<std::vector<Eigen::Vector2d>>(context.shelf, file_mark(params.file),
-                                                    [&] { return read_csv(params.file); });
+      points_ = *keep<std::vector<Eigen::Vector2d>>(
+          context.shelf, file_mark(params.file), [&] { return io::read_points_csv(params.file); });
     } else {
       for (std::size_t i = 0; i < params.x_m.size(); ++i) {
         points_.emplace_back(params.x_m[i], params.y_m[i]);
@@ -125,7 +103,7 @@ class Waypoints final : public Planner {
 
   Result<PlannedPath> plan(const Pose& start) override {
     report_ = {};
-    if (!heights_m_.empty()) return plan_flight();
+    if (!heights_m_.empty()) return plan_flight(start);
     PlannedPath path = make_planned_path(lay_path(), pitch_m_ > 0.0 ? pitch_m_ : kNotSplit_m);
     if (map_ != nullptr) {
       if (const auto fault = find_path_into_row(path, *map_, clearance_m_, &vehicle_))
@@ -159,7 +137,7 @@ class Waypoints final : public Planner {
   }
 
   /// Straights from point to point in space; the ground below is ignored.
-  PlannedPath plan_flight() const {
+  PlannedPath plan_flight(const Pose& start) const {
     PlannedPath path;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       PathPoint point;
@@ -172,6 +150,7 @@ class Waypoints final : public Planner {
       path.points[i - 1].yaw_rad = path.points[i].yaw_rad =
           std::atan2(displacement_W.y(), displacement_W.x());
     }
+    if (vehicle_.rotorcraft) add_take_off(start.p, path);
     return path;
   }
 

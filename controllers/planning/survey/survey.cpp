@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "controllers/parts/paths/verticals.h"
 #include "controllers/planning/survey/survey_params.h"
 #include "controllers/planning/survey/survey_plan.h"
 #include "engine/core/error.h"
@@ -21,7 +22,12 @@ class Survey final : public Planner {
     auto plan = plan_survey(request_, start, make_ground(scene_, start.p.z() - rest_height_m_));
     if (!plan) return Failure{plan.reason()};
     report_.numbers = plan->numbers;
-    return plan->path;
+    PlannedPath path = plan->path;
+    if (request_.rotorcraft) {
+      add_take_off(start.p, path);
+      if (request_.returns) add_landing(start.p.z(), path);
+    }
+    return path;
   }
 
   const PlanReport* report() const override { return &report_; }

@@ -76,9 +76,9 @@ const ParameterTable<SurveyFlightParams>& survey_flight_table() {
   const auto request = [](auto member) { return inside(&P::request, member); };
   static const ParameterTable<P> table =
       ParameterTable<P>()
-          .number("height_m", "m", &P::height_m, kPositive,
+          .number("height_m", "m", &P::height_m, above(0.0, 1e4),
                   "height above the ground; 150 m if gsd_m is not given either")
-          .number("gsd_m", "m", &P::gsd_m, kPositive,
+          .number("gsd_m", "m", &P::gsd_m, above(0.0, 10.0),
                   "ground sampling distance, which determines the height instead")
           .number("forward_overlap", "", request(&R::forward_overlap), between(0.0, 0.98),
                   "overlap of consecutive pictures of a lane; fraction, 0 to 1")

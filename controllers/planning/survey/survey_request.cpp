@@ -71,8 +71,8 @@ std::optional<std::string> find_survey_fault(const SurveyRequest& request, doubl
   const auto up_mps = calc_ground_speed_mps(request.speed_mps, request.wind_W, along);
   const auto down_mps = calc_ground_speed_mps(request.speed_mps, request.wind_W, -along);
   if (!up_mps || !down_mps || request.wind_W.norm() >= request.speed_mps) {
-    return fmt::format("speed_mps = {:.1f} m/s must be above the wind's {:.1f} m/s",
-                       request.speed_mps, request.wind_W.norm());
+    return fmt::format("speed_mps = {:g} m/s must be above the wind's {:g} m/s", request.speed_mps,
+                       request.wind_W.norm());
   }
   const double ground_mps = std::max(*up_mps, *down_mps);
   const SurveyCamera& camera = request.camera;

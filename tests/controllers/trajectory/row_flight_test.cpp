@@ -125,6 +125,20 @@ TEST(RowFlight, SmoothsRoughGround) {
   EXPECT_LT(steepest, 0.21);
 }
 
+TEST(RowFlight, RefusesToSmoothHillsAway) {
+  FlightBench bench({.alleys = 1}, PlainScene([](double, double y) {
+                      return 5.0 * std::exp(-0.02 * (y - 20.0) * (y - 20.0));
+                    }));
+  bench.values = {{"turns", std::string("dubins")}, {"smooth_m", 50.0}};
+  const auto plan = bench.plan(1.25, -5.0);
+  ASSERT_FALSE(plan.ok());
+  EXPECT_THAT(plan.reason(), HasSubstr("with heights smoothed over smooth_m = 50 m the vehicle "
+                                       "would be "));
+  EXPECT_THAT(plan.reason(), HasSubstr(" m in the ground at (1.25, "));
+  bench.values.back().second = 2.0;
+  EXPECT_TRUE(bench.plan(1.25, -5.0).ok());
+}
+
 /// Heights above ground and canopies along the way home, canopies as boxes on the rows' lines.
 TEST(RowFlight, GoesHomeAboveGroundAndCanopies) {
   for (const int alleys : {3, 7, 15}) {
@@ -284,7 +298,8 @@ TEST(RowFlight, TellsWhyThereIsNoPlan) {
   arcs.values = {{"turns", std::string("three_point_arc")}};
   EXPECT_THAT(failure_of(arcs, 1.25, -1.0),
               HasSubstr("turn from alley 0 to alley 1: the three-point arc between alleys 2.5 m "
-                        "apart has a radius of 1.25 m"));
+                        "apart has a radius of 1.25 m, below turning_radius_m = 1.77 m; use "
+                        "turns: dubins, whose loop fits any spacing"));
   FlightBench high({.alleys = 1, .row_length_m = 20.0});
   high.hill = PlainScene([](double, double y) { return y > -3.0 ? 0.0 : 4.0; });
   high.vehicle.height_above_ground_m = -3.0;  // stands in a hollow that the map does not have

@@ -231,7 +231,8 @@ TEST(Trajectory, TurnsToTheFirstRowWhileItClimbs) {
 }
 
 TEST(Trajectory, LandsWhereTheGroundIsNotWhereTheMapSays) {
-  for (const double floor_m : {-0.4, 0.0, 0.4}) {
+  // It sinks on beyond its reserve of 1 m: a vehicle in the air is not on the ground.
+  for (const double floor_m : {-3.0, -0.4, 0.0, 0.4}) {
     const std::vector<Tick> ticks = fly(flat_plan(), {}, floor_m);
     ASSERT_EQ(ticks.back().phase, Phase::kDone);
     const double end_m = flat_plan().points.back().p_W.z();
@@ -269,7 +270,8 @@ TEST(Trajectory, IsTheSameTrajectoryOneTickLater) {
   GuideBench bench;
   bench.give_plan(slope_plan());
   ReferenceTrajectory before;
-  bench.fly(slope_plan().points.front().p_W, 1000.0, -1e9,
+  // Ground below the landing's reserve.
+  bench.fly(slope_plan().points.front().p_W, 1000.0, slope_plan().points.back().p_W.z() - 1.5,
             [&](double, const ReferenceTrajectory& now) {
               ASSERT_EQ(now.points.size(), 21u);
               if (!before.points.empty() && now.phase != Phase::kDone) {
@@ -283,7 +285,7 @@ TEST(Trajectory, IsTheSameTrajectoryOneTickLater) {
               }
               before = now;
             });
-  EXPECT_EQ(before.phase, Phase::kDone);  // comes to its end, 1 m below the map's ground
+  EXPECT_EQ(before.phase, Phase::kDone);
 }
 
 TEST(Trajectory, WaitsForAVehicleThatFallsBehind) {
@@ -351,6 +353,11 @@ TEST(Trajectory, AllocatesOnlyToTakeThePlanAndToTell) {
     if (bench.events().size() == event_count) allocations += counter.count();
     estimate.X_WB.p = reference.points[1].p_W;
     estimate.v_WB_B = reference.points[1].v_W;
+    const double ground_m = flat_plan().points.back().p_W.z();
+    if (estimate.X_WB.p.z() < ground_m) {
+      estimate.X_WB.p.z() = ground_m;
+      estimate.v_WB_B.setZero();
+    }
   }
   EXPECT_EQ(allocations, 0u);
   EXPECT_THAT(bench.events().back().text, HasSubstr("landed at (1.25, -6.00)"));
@@ -502,12 +509,60 @@ TEST(Trajectory, HoldsAPlaceWithoutAPlan) {
                                   Phase::kDone));
   EXPECT_NEAR(held_s, 5.0, 0.1);
   EXPECT_NEAR((end.p_W - Vec3(4, 3, 10.2)).norm(), 0.0, 1e-6);
+  EXPECT_THAT(bench.events().front().text, testing::ContainsRegex("for 8\\.6 m in [0-9.]+ s$"));
   // Hovers endlessly.
   GuideBench still({{"hover_m", std::vector<double>{0.0, 0.0, 2.0}}});
   Phase last = Phase::kWait;
   still.fly({0, 0, 0.2}, 300.0, 0.2,
             [&](double, const ReferenceTrajectory& reference) { last = reference.phase; });
   EXPECT_EQ(last, Phase::kHover);
+  EXPECT_EQ(still.events().front().text, "takes off for 3.6 m");
+}
+
+TEST(Trajectory, ToldToHoverItSaysThatItIgnoresAPlan) {
+  GuideBench bench({{"hover_m", std::vector<double>{0.0, 0.0, 2.0}}});
+  bench.give_plan(make_corner());
+  bench.fly({0, 0, 0.2}, 1.0, 0.2, [](double, const ReferenceTrajectory&) {});
+  const auto warnings =
+      std::count_if(bench.events().begin(), bench.events().end(), [](const Event& event) {
+        return event.level == Event::Level::kWarning &&
+               event.text == "ignores the plan, since hover_m is given";
+      });
+  EXPECT_EQ(warnings, 1);
+}
+
+TEST(Trajectory, NamesTheLimitOfEachStretchThatAPlanWantsFaster) {
+  const auto told = [](double row_mps, double return_mps) {
+    PlannedPath plan = flat_plan();
+    for (PathPoint& point : plan.points) {
+      if (point.kind == PathKind::kLeg) point.speed_mps = row_mps;
+      if (point.kind == PathKind::kReturn) point.speed_mps = return_mps;
+    }
+    GuideBench bench({{"row_speed_mps", 3.0}, {"return_speed_mps", 6.0}});
+    bench.give_plan(plan);
+    bench.fly(plan.points.front().p_W, 1.0, 0.0, [](double, const ReferenceTrajectory&) {});
+    return bench.events().front().text;
+  };
+  EXPECT_THAT(told(3.0, 6.0), testing::Not(HasSubstr("wants")));
+  EXPECT_THAT(told(4.0, 6.0),
+              HasSubstr("; the plan wants up to 4 m/s, the limit is 3 m/s (row_speed_mps)"));
+  EXPECT_THAT(told(3.0, 7.0),
+              HasSubstr("; the plan wants up to 7 m/s, the limit is 6 m/s (return_speed_mps)"));
+}
+
+TEST(Trajectory, RefusesAPlanToTheEdgeOfSpace) {
+  PlannedPath plan = flat_plan();
+  for (PathPoint& point : plan.points) point.p_W.z() += 1.5e5;
+  plan.points.front().p_W.z() = 0.2;
+  GuideBench bench;
+  bench.give_plan(plan);
+  try {
+    bench.step({});
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("of the plan is too long for a flight, must be at most "
+                                        "100 km: lower its heights, or bring its places nearer"));
+  }
 }
 
 std::string refusal_of(const Values& values,

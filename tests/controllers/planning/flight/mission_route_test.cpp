@@ -267,8 +267,7 @@ TEST(MissionRoute, RefusesWhatFencesPart) {
 
 TEST(MissionRoute, RefusesWhatHasNothingToFly) {
   VINEROW_OUTSIDE_DATA(file, kSamples + "qgroundcontrol_sample_with_digicam_control.plan");
-  EXPECT_NE(refusal({file}).find("has 1 items but no waypoint: there is nothing to fly"),
-            std::string::npos);
+  EXPECT_NE(refusal({file}).find("has no waypoint: there is nowhere to go"), std::string::npos);
 }
 
 TEST(MissionRoute, FramesTellWhatHeightsAreMeasuredFrom) {

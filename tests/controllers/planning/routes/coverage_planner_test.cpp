@@ -288,6 +288,20 @@ TEST(Waypoints, GoStraightThroughTheAirWhereTheyHaveHeights) {
   EXPECT_DOUBLE_EQ(path->length_m, 5.0 + 4.0);
   EXPECT_EQ(path->points[1].p_W, Eigen::Vector3d(3, 0, 54));
   EXPECT_DOUBLE_EQ(path->points[1].yaw_rad, 0.5 * kPi);
+  // A rotorcraft takes off to them.
+  VehicleDescription drone;
+  drone.type = "quadrotor";
+  drone.rotorcraft.emplace();
+  Pose start;
+  start.p = {-4, 3, 20};
+  const auto flight = make_planner({"waypoints", values}, make_narrow_map(2), &drone)->plan(start);
+  ASSERT_TRUE(flight.ok()) << flight.reason();
+  ASSERT_EQ(flight->points.size(), 5u);
+  EXPECT_EQ(flight->points[0].p_W, start.p);
+  EXPECT_EQ(flight->points[0].kind, PathKind::kVertical);
+  EXPECT_EQ(flight->points[1].p_W, Eigen::Vector3d(-4, 3, 50));
+  EXPECT_EQ(flight->points[2].p_W, Eigen::Vector3d(0, 0, 50));
+  EXPECT_DOUBLE_EQ(flight->length_m, 30.0 + 5.0 + 5.0 + 4.0);
   values.back().second = std::vector<double>{50};
   expect_config_error(kNoRows, {"waypoints", values},
                       "rover.planner (waypoints): z_m has 1 numbers for 3 points, must be as many");
@@ -304,6 +318,8 @@ TEST(Waypoints, ReadsACsvFileAndNamesItsFaults) {
                       file + ":2: '1,north' must be two numbers, x and y in metres");
   expect_config_error(kNoRows, {"waypoints", {{"file", Text("/no/such.csv")}}},
                       "/no/such.csv: cannot be read");
+  expect_config_error(kNoRows, {"waypoints", {{"file", file}, {"x_m", std::vector<double>{1}}}},
+                      "rover.planner (waypoints): has both a file and x_m or y_m");
 }
 
 TEST(Waypoints, RefusesUnequalListsAndTooFewPoints) {

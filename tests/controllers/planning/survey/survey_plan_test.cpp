@@ -281,7 +281,7 @@ TEST(SurveyPlan, ATailWindCounts) {
   EXPECT_NEAR(plan->numbers.at("turn_radius_m"),
               15.5 * 15.5 / (9.80665 * std::tan(request.bank_rad)), 1e-9);
   request.wind_W = {0.0, 13.0};
-  EXPECT_EQ(fault_of(request), "speed_mps = 12.0 m/s must be above the wind's 13.0 m/s");
+  EXPECT_EQ(fault_of(request), "speed_mps = 12 m/s must be above the wind's 13 m/s");
   request = make_request();
   request.speed_mps = 8.0;
   EXPECT_EQ(fault_of(request), "speed_mps = 8.0 m/s must be above the stall speed of 8.4 m/s");

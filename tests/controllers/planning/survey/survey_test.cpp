@@ -80,6 +80,16 @@ TEST(SurveyPart, PlansForRotorsWhereTheVehicleHasThem) {
   const Outcome by_vehicle = run({}, drone);
   EXPECT_EQ(by_vehicle.fault, "none");
   EXPECT_EQ(by_vehicle.numbers.at("turn_radius_m"), 0.0);
+  // Straight up from the start, and down to it.
+  const std::vector<PathPoint>& points = by_vehicle.path.points;
+  const Eigen::Vector3d start_W(-300, -100, 150);
+  EXPECT_EQ(points.front().p_W, start_W);
+  EXPECT_EQ(points.front().kind, PathKind::kVertical);
+  EXPECT_NEAR((points[1].p_W - start_W).head<2>().norm(), 0.0, 1e-9);
+  EXPECT_NEAR(points[1].p_W.z(), 300.0, 1e-9);  // 150 m above the flat ground that it stands on
+  EXPECT_EQ(points[points.size() - 2].kind, PathKind::kVertical);
+  EXPECT_NEAR((points.back().p_W - start_W).norm(), 0.0, 1e-9);
+  EXPECT_NE(run({{"return_home", false}}, drone).path.points.back().kind, PathKind::kVertical);
   EXPECT_EQ(run({{"rotorcraft", true}}, drone).path.length_m, by_vehicle.path.length_m);
   EXPECT_GT(run({{"rotorcraft", false}}, drone).numbers.at("turn_radius_m"), 1.0);
   EXPECT_EQ(run({{"rotorcraft", true}}).numbers.at("turn_radius_m"), 0.0);

@@ -172,8 +172,11 @@ class FourWheelSteering final : public Controller, public MayFail {
     const bool is_driven = local_.has_value() && local_.value().mode == LocalCommand::Mode::kDrive;
     watch_.update({X_WB.p.head<2>(), path.pose_at(state_.distance_m, state_.waypoint).p,
                    state_.distance_m, path.length_m(),
-                   is_driven ? 0.0 : std::max(speed_mps_, 0.0) * params_.cycle_s});
-    if (watch_.is_lost()) return {axles_.wanted(), 0.0};
+                   is_driven ? 0.0 : std::max(speed_mps_, 0.0) * params_.cycle_s, state_.finished});
+    if (watch_.is_lost()) {
+      state_.finished = false;
+      return {axles_.wanted(), 0.0};
+    }
     stop_.set_place(read_stop_at_m(authority_));
     max_mps_ = stop_.update(state_.distance_m);
     if (state_.finished) return {axles_.wanted(), 0.0};

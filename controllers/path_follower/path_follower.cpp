@@ -140,8 +140,9 @@ class PathFollower final : public Controller, public MayFail {
                    period_s_);
       overspeed_mps_ += overspeed_share_ * (estimate.v_WB_B.x() - commanded_mps_ - overspeed_mps_);
       law_.set_stop(ports_.stop_at_m());
+      const bool was_finished = law_.finished();
       command = law_.step(ports_.pose(), slip_.slide(), overspeed_mps_);
-      if (law_.has_path() && !law_.finished()) watch(command.v_mps);
+      if (law_.has_path() && !was_finished) watch(command.v_mps);
     }
     // The wheels turn harder than the vehicle should, to compensate for slip.
     commanded_mps_ = command.v_mps;
@@ -151,10 +152,12 @@ class PathFollower final : public Controller, public MayFail {
     wheels_.yaw_rate_radps = std::clamp(command.yaw_rate_radps / slip_.effectiveness(),
                                         -wheel_yaw_max_radps_, wheel_yaw_max_radps_);
     wheels_ = ports_.drive().limit(wheels_);
-    ports_.write(now, command, wheels_, law_.state());
+    FollowerState state = law_.state();
+    state.finished = finished();
+    ports_.write(now, command, wheels_, state);
   }
 
-  bool finished() const override { return law_.finished(); }
+  bool finished() const override { return law_.finished() && !watch_.is_lost(); }
   std::string_view failure() const override {
     return fault_.empty() ? watch_.failure() : std::string_view(fault_);
   }
@@ -163,7 +166,8 @@ class PathFollower final : public Controller, public MayFail {
   void watch(double speed_mps) {
     const FollowerState state = law_.state();
     watch_.update({ports_.pose().p, law_.path().pose_at(state.distance_m, state.waypoint).p,
-                   state.distance_m, law_.path().length_m(), speed_mps * period_s_});
+                   state.distance_m, law_.path().length_m(), speed_mps * period_s_,
+                   law_.finished()});
   }
 
   DrivePorts ports_;

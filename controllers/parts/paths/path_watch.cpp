@@ -12,6 +12,10 @@ namespace {
 /// Distance allowed for the curve from a start beside the path to the path, per distance from it.
 constexpr double kBow = 3.0;
 
+/// A path passes by no faster than this share of the distance that is driven, on the inside of its
+/// bends, but for this many times `lost_m`.
+constexpr double kPassing = 3.0, kPassingShare = 2.0;
+
 }  // namespace
 
 const ParameterTable<PathWatchParams>& path_watch_table() {
@@ -37,7 +41,19 @@ void PathWatch::update(const Cycle& cycle) {
     return fmt::format("at ({:.2f}, {:.2f}), {:.1f} m along its path of {:.1f} m", cycle.p_W.x(),
                        cycle.p_W.y(), cycle.distance_m, cycle.length_m);
   };
-  if (gap_m > nearest_m_ + params_.lost_m) {
+  if (!last_W_) first_m_ = cycle.distance_m;
+  const double step_m = last_W_ ? (cycle.p_W - *last_W_).norm() : 0.0;
+  last_W_ = cycle.p_W;
+  moved_m_ += std::max(cycle.travel_m, step_m);
+  const double passed_m = cycle.distance_m - first_m_;
+  if (cycle.is_finished && gap_m > params_.lost_m) {
+    failure_ = fmt::format("lost its path: {:.1f} m away from its end {}", gap_m, where());
+  } else if (passed_m > kPassing * moved_m_ + kPassingShare * params_.lost_m) {
+    failure_ = fmt::format(
+        "lost its path: {:.1f} m of it passed by while the vehicle moved by {:.1f} m {}; a path "
+        "begins where the vehicle is",
+        passed_m, moved_m_, where());
+  } else if (gap_m > nearest_m_ + params_.lost_m) {
     failure_ = fmt::format("lost its path: {:.1f} m away from it {}", gap_m, where());
   } else if (distance_m_ > allowed_m_) {
     failure_ =

@@ -1,6 +1,7 @@
 #pragma once
 /// Detector for a ground vehicle that has lost its path: it is too far from it, or drives on
-/// without progress along it (a circle around a waypoint, wheels that spin at a trunk).
+/// without progress along it (a circle around a waypoint, wheels that spin at a trunk), or the path
+/// passes by while it hardly drives, as one does that begins far away.
 ///
 /// A vehicle may start far from its path. The allowed distance is therefore counted from the
 /// smallest distance so far: it may return from anywhere, but not depart again. Distance driven is
@@ -9,6 +10,7 @@
 
 #include <Eigen/Core>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "engine/api/parameter_table_fwd.h"
@@ -38,6 +40,7 @@ class PathWatch {
     double distance_m = 0.0;  ///< along the path
     double length_m = 0.0;    ///< of the path
     double travel_m = 0.0;    ///< commanded in this cycle, >= 0
+    bool is_finished = false;
   };
   /// Once per cycle while following. No heap except for the sentence.
   void update(const Cycle& cycle);
@@ -50,7 +53,10 @@ class PathWatch {
   double nearest_m_ = std::numeric_limits<double>::infinity();    ///< smallest distance so far
   double farthest_m_ = -std::numeric_limits<double>::infinity();  ///< along the path
   double distance_m_ = 0.0;                                       ///< driven since farthest_m_
-  double allowed_m_ = 0.0;  ///< distance that may be driven without progress
+  double allowed_m_ = 0.0;                 ///< distance that may be driven without progress
+  std::optional<Eigen::Vector2d> last_W_;  ///< position in the cycle before
+  double first_m_ = 0.0;                   ///< along the path in the first cycle
+  double moved_m_ = 0.0;                   ///< since then, commanded or estimated
   std::string failure_;
 };
 

@@ -112,6 +112,25 @@ TEST_P(EveryFollower, DrivesASquareAndThereAndBack) {
   }
 }
 
+/// It drives there, or has lost its path: it has never finished one without having driven it.
+TEST_P(EveryFollower, DoesNotFinishAPathThatBeginsElsewhere) {
+  // A metre far away, and a way that comes by.
+  const std::vector<std::vector<Vec>> paths = {{{24, 3}, {23, 3}}, {{24, 3}, {-1, 0}}};
+  for (const std::vector<Vec>& points : paths) {
+    MissionSetup setup = make_setup(GetParam(), points);
+    setup.start = {Vec::Zero(), 0.0};
+    const MissionResult result = run_mission(setup);
+    double driven_m = 0.0;
+    for (std::size_t i = 1; i < result.poses.size(); ++i) {
+      driven_m += (result.poses[i].p - result.poses[i - 1].p).norm();
+    }
+    if (result.finished) {
+      EXPECT_GT(driven_m, 20.0);
+    }
+    EXPECT_EQ(result.finished, GetParam() == "pure_pursuit");
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Parts, EveryFollower,
                          ::testing::Values("path_follower", "pure_pursuit", "four_wheel_steering"),
                          [](const auto& each) { return each.param; });
@@ -191,6 +210,30 @@ TEST(PathWatch, TellsWhoGoesAwayAndWhoDoesNotGetOn) {
             "lost its path: its wheels were commanded to roll 53 m without progress at (10.00, "
             "1.00), 10.0 m along "
             "its path of 100.0 m");
+
+  // A path that begins far away must not pass by a vehicle that stands.
+  controllers::PathWatch passing({5.0});
+  for (int i = 0; i <= 100; ++i) passing.update(at(10.0, 1.0, 0.1 * i, 0.0));
+  EXPECT_FALSE(passing.is_lost());
+  { passing.update(at(10.0, 1.0, 10.1, 0.0)); }
+  EXPECT_EQ(passing.failure(),
+            "lost its path: 10.1 m of it passed by while the vehicle moved by 0.0 m at (10.00, "
+            "1.00), 10.1 m along its path of 100.0 m; a path begins where the vehicle is");
+  // A third of the path's length is enough, by the wheels or by the estimate.
+  for (const double travel_m : {0.0, 0.1}) {
+    controllers::PathWatch inside({5.0});
+    for (int i = 0; i <= 300; ++i) {
+      inside.update(at(travel_m > 0.0 ? 0.0 : 0.1 * i, 1.0, 0.3 * i, travel_m));
+    }
+    EXPECT_FALSE(inside.is_lost()) << inside.failure();
+  }
+  controllers::PathWatch beside({5.0});
+  controllers::PathWatch::Cycle end = at(10.0, 20.0, 100.0, 0.0);
+  end.is_finished = true;
+  beside.update(end);
+  EXPECT_EQ(beside.failure(),
+            "lost its path: 20.0 m away from its end at (10.00, 20.00), 100.0 m along its path of "
+            "100.0 m");
 
   // A stationary vehicle is never lost.
   controllers::PathWatch stationary({5.0});

@@ -62,7 +62,7 @@ void demand_upright(double gravity_mps2, const WheeledPlatformParams& params) {
   throw ConfigError(fmt::format(
       "{}: its springs cannot keep it upright: they resist a tilt by {:.3g} Nm/rad, and {:g} kg "
       "with the centre of mass {:.3g} m above the ground tip it by {:.3g} Nm/rad; take springs "
-      "more than {:.4g} times as stiff",
+      "(suspension_stiffness_N_per_m) more than {:.4g} times as stiff",
       params.name, holds_Nm, params.mass_kg, height_m, tips_Nm, tips_Nm / holds_Nm));
 }
 

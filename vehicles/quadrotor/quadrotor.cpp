@@ -8,6 +8,7 @@
 #include "engine/api/height_field.h"
 #include "engine/api/world_model.h"
 #include "engine/core/check.h"
+#include "engine/core/constants.h"
 #include "vehicles/parts/step_validity.h"
 #include "vehicles/quadrotor/crash_watch.h"
 #include "vehicles/quadrotor/quadrotor_shapes.h"
@@ -39,6 +40,29 @@ void demand_flat_start(const Pose& X_WB, const QuadrotorParams& params) {
       "{}: the ground of its start slopes by {:.1f} deg, must be at most landing_tilt_limit_deg = "
       "{:.1f} deg",
       params.name, deg_from_rad(tilt_rad), deg_from_rad(params.landing_tilt_limit_rad)));
+}
+
+/// Heave and tilt on the four legs. With A^2 the stiffness and D the damping over the inertia,
+/// times the step squared and the step, a semi-implicit step is stable for D + A^2 / 2 < 2.
+void demand_step_for_gear(Duration step, const QuadrotorParams& params) {
+  constexpr double kMost = 1.6;
+  const double r2_m2 = params.gear_radius_m * params.gear_radius_m;
+  const double inertia_kgm2 = params.inertia_kgm2.head<2>().minCoeff();
+  double longest_s = kInfinity;
+  for (const double legs_per_kg :
+       {kRotors / params.mass_kg, 0.5 * kRotors * r2_m2 / inertia_kgm2}) {
+    const double a = params.foot.stiffness_N_per_m * legs_per_kg;
+    const double d = params.foot.damping_Ns_per_m * legs_per_kg;
+    longest_s = std::min(longest_s, 2.0 * kMost / (d + std::sqrt(d * d + 2.0 * kMost * a)));
+  }
+  if (step.s() <= longest_s) return;
+  throw ConfigError(
+      fmt::format("{}: physics.step_s = {:g} s is too long for its landing gear, which with "
+                  "gear_stiffness_N_per_m = {:g}, gear_damping_Ns_per_m = {:g} and its mass and "
+                  "inertia is valid "
+                  "to {:.2g} s",
+                  params.name, step.s(), params.foot.stiffness_N_per_m,
+                  params.foot.damping_Ns_per_m, longest_s));
 }
 
 }  // namespace
@@ -73,6 +97,7 @@ Quadrotor::Quadrotor(const QuadrotorParams& params, const VehicleContext& contex
 
 void Quadrotor::spawn(physics::PhysicsWorld& world, const Pose& X_WB) {
   demand_step(world.settings().step, kMaxFlightStep, params_.name, "its rotors");
+  demand_step_for_gear(world.settings().step, params_);
   demand_flat_start(X_WB, params_);
   world_ = &world;
   physics::BodySpec spec;

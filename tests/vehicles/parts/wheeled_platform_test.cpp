@@ -268,7 +268,7 @@ TEST(WheeledPlatform, RefusesSpringsThatCannotKeepItUpright) {
       fault_of(10.0),
       "rover: its springs cannot keep it upright: they resist a tilt by 10 Nm/rad, and 180 kg "
       "with the centre of mass 0.38 m above the ground tip it by 671 Nm/rad; take springs "
-      "more than 67.08 times as stiff");
+      "(suspension_stiffness_N_per_m) more than 67.08 times as stiff");
 }
 
 TEST(WheeledPlatform, BrakingMovesLoadToTheFront) {

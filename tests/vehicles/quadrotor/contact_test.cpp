@@ -1,5 +1,6 @@
 /// Standing, landing, and what wrecks a quadrotor.
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "engine/core/error.h"
@@ -54,6 +55,35 @@ TEST(QuadrotorGear, IsNotPutOnASlopeOnWhichItCrashes) {
                  "drone: the ground of its start slopes by 21.0 deg, must be at most "
                  "landing_tilt_limit_deg = 20.0 deg");
   }
+}
+
+/// Heave with four dampers: a semi-implicit step is stable for 4 c / m dt + 4 k / m dt^2 / 2 < 2,
+/// of which 1.6 are used.
+TEST(QuadrotorGear, IsRefusedWhereTheStepIsTooLongForIt) {
+  QuadrotorParams params;
+  const double limit_Ns_per_m =
+      (1.6 - 0.5 * 4.0 * params.foot.stiffness_N_per_m / params.mass_kg * 1e-6) * params.mass_kg /
+      4.0 / 1e-3;
+  params.foot.damping_Ns_per_m = 0.999 * limit_Ns_per_m;
+  QuadrotorRig stands(params);
+  stands.run(1.0);
+  EXPECT_NEAR(stands.body().X_WB.p.z(), 0.22, 1e-3);  // it trembles, but it stands
+  EXPECT_EQ(stands.crash(), "");
+  params.foot.damping_Ns_per_m = 1.001 * limit_Ns_per_m;
+  try {
+    QuadrotorRig{params};
+    FAIL() << "accepted";
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(),
+                testing::ContainsRegex("^drone: physics.step_s = 0.001 s is too long for its "
+                                       "landing gear, which with gear_stiffness_N_per_m = 5000, "
+                                       "gear_damping_Ns_per_m = 798.[0-9]+ and its mass and "
+                                       "inertia is valid to 0.001 s$"));
+  }
+  // Little inertia: tilt.
+  params.foot.damping_Ns_per_m = 50.0;
+  params.inertia_kgm2 = {0.001, 0.001, 0.001};
+  EXPECT_THROW(QuadrotorRig{params}, ConfigError);
 }
 
 /// Coulomb: rubber of 0.8 holds up to 38.66 deg, then slides with g (sin - mu cos).

@@ -185,6 +185,23 @@ TEST(MeshStore, FilesKeepTheThingsOfAMesh) {
   EXPECT_EQ(read->triangles, written->triangles);
 }
 
+TEST(MeshStore, RefusesAPlantThatWouldTakeAllMemory) {
+  const auto mesh_of = [](std::size_t triangles) {
+    TriangleMesh mesh;
+    mesh.vertices.assign(3, Eigen::Vector3f::Zero());
+    mesh.triangles.assign(triangles, {0, 1, 2});
+    return mesh;
+  };
+  MemoryMeshStore store;
+  EXPECT_EQ(store.get("most", [&] { return mesh_of(MeshStore::kMostTriangles); })->triangles.size(),
+            MeshStore::kMostTriangles);
+  EXPECT_EQ(
+      test::config_error_of([&] { store.get("bunches/3", [&] { return mesh_of(4'000'000); }); }),
+      "'bunches/3' has 4.0 million triangles, must be at most 3.0 million: take fewer organs "
+      "(of vines berries, bunches_per_shoot, shoots_per_m, lateral_share; of trees "
+      "leaf_area_per_m3, fruits, tree_height_m, row_width_m)");
+}
+
 TEST(Soil, KnownByName) {
   for (const std::string& name : soil_names()) {
     const Soil soil = find_soil(name);

@@ -49,12 +49,27 @@ std::string file_name_of(std::string name) {
   return name + ".ply";
 }
 
+/// Plants of very many organs would take all memory.
+void check_size(const std::string& name, const TriangleMesh& mesh) {
+  if (mesh.triangles.size() <= MeshStore::kMostTriangles) return;
+  throw ConfigError(fmt::format(
+      "'{}' has {:.1f} million triangles, must be at most {:.1f} million: take fewer organs (of "
+      "vines "
+      "berries, bunches_per_shoot, shoots_per_m, lateral_share; of trees leaf_area_per_m3, fruits, "
+      "tree_height_m, row_width_m)",
+      name, 1e-6 * static_cast<double>(mesh.triangles.size()),
+      1e-6 * static_cast<double>(MeshStore::kMostTriangles)));
+}
+
 }  // namespace
 
 std::shared_ptr<const TriangleMesh> MemoryMeshStore::get(
     const std::string& name, const std::function<TriangleMesh()>& make) {
   auto& mesh = meshes_[name];
-  if (!mesh) mesh = std::make_shared<const TriangleMesh>(make());
+  if (!mesh) {
+    mesh = std::make_shared<const TriangleMesh>(make());
+    check_size(name, *mesh);
+  }
   return mesh;
 }
 
@@ -76,6 +91,7 @@ std::shared_ptr<const TriangleMesh> FileMeshStore::get(const std::string& name,
     return known = std::make_shared<const TriangleMesh>(*std::move(stored));
   }
   TriangleMesh fresh = make();
+  check_size(name, fresh);
   drop_degenerate(fresh);
   const std::filesystem::path partial = folder_ / partial_name_of(file_name_of(name));
   io::write_ply(fresh, partial);

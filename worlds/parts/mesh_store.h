@@ -16,8 +16,12 @@ namespace vinerow::worlds {
 
 class MeshStore {
  public:
+  /// Of one mesh, which is a stretch of a row or a tree; in full leaf they have a twentieth.
+  static constexpr std::size_t kMostTriangles = 3'000'000;
+
   virtual ~MeshStore() = default;
   /// Mesh of this name, made at the first call and shared by all callers.
+  /// @throws ConfigError if it has more than kMostTriangles
   virtual std::shared_ptr<const TriangleMesh> get(const std::string& name,
                                                   const std::function<TriangleMesh()>& make) = 0;
 };

@@ -24,7 +24,7 @@ std::size_t find_key(std::string_view sentence, const std::string& key) {
     if (key.find('_') != std::string::npos) return at;
     const bool has_field = rest.size() > 1 && rest[0] == '.' && is_of_word(rest[1]);
     if (has_field || rest.starts_with(" = ") || rest.starts_with(": ") || rest.starts_with("[") ||
-        rest.starts_with("'")) {
+        rest.starts_with("'") || rest.starts_with(" has ") || rest.starts_with(" names ")) {
       return at;
     }
   }

@@ -115,18 +115,20 @@ struct Turn {
   }
 };
 
-Turn make_turn(const UltrasoundParams& params, Duration period) {
+Turn make_turn(const UltrasoundParams& params, const std::string& who, Duration period) {
   const double cycle_s = params.cycle_s, phase_s = params.phase_s;
   const Turn turn{duration_from_s(cycle_s), duration_from_s(phase_s), period};
   const auto check_ticks = [&](const char* name, Duration value, double value_s) {
     if (value.ns % period.ns == 0) return;
-    throw ConfigError(fmt::format("{} = {} s, must be a multiple of the sensor's period of {} s",
-                                  name, value_s, period.s()));
+    throw ConfigError(
+        fmt::format("{}: {} = {} s, must be a multiple of the sensor's period of {} s", who, name,
+                    value_s, period.s()));
   };
   check_ticks("cycle_s", turn.cycle, cycle_s);
   check_ticks("phase_s", turn.phase, phase_s);
   if (turn.phase.ns > 0 && turn.phase.ns >= turn.cycle.ns) {
-    throw ConfigError(fmt::format("phase_s = {} s, must be < cycle_s = {} s", phase_s, cycle_s));
+    throw ConfigError(
+        fmt::format("{}: phase_s = {} s, must be < cycle_s = {} s", who, phase_s, cycle_s));
   }
   return turn;
 }
@@ -139,7 +141,7 @@ class Ultrasound final : public MountedSensor<RangeSample> {
              const SensorContext& context)
       : MountedSensor(parameters, context),
         scene_(context.scene),
-        turn_(make_turn(params, context.period)),
+        turn_(make_turn(params, context.part, context.period)),
         noise_(context.random()),
         faults_(context.random("faults")),
         half_angle_rad_(params.half_angle_rad),

@@ -192,7 +192,7 @@ void refuse_start_in_contact(const scenario::SpawnConfig& spawn, const StartBox&
     const MeshInstance* touched = find_touched(world, clearance_box, mask);
     const bool is_deck = surface == SurfaceClass::kObstacle;
     refuse(touched ? fmt::format("the {} '{}'", to_string(surface), touched->name) : "the ground",
-           name_free_places(world) +
+           (spawn.alley ? "; change its offset_m" : name_free_places(world)) +
                (is_deck ? " (ground on which vehicles start must be of surface terrain)" : ""));
   }
 }

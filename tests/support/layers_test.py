@@ -70,7 +70,7 @@ ALLOWED = {
     PIPELINE: BASE + [MODEL, ROWS, HULLS, GRID],
     f"{MAPPING}/photogrammetry": BASE + [IO, MODEL, FOLDER],
     f"{MAPPING}/from_truth": BASE + [IO, MODEL, FOLDER, GRID],
-    f"{MAPPING}/jobs": BASE + [MAPPING],
+    f"{MAPPING}/jobs": BASE + [MAPPING, GEO],
     # One folder for each controller.
     "controllers": BASE + CONTROLLER_PARTS,
     "controllers/autopilot/link": [CORE, MAVLINK],

@@ -93,6 +93,16 @@ TEST(Orchard, ATreeHasOneTrunkAndItsTwigsAreWood) {
   EXPECT_EQ(twigs, trees);
 }
 
+TEST(Orchard, BoundsTheMatrixOfTheMapOnlyWhereItIsWanted) {
+  ParameterSet parameters = test::world_parameters("orchard");
+  for (const char* name : {"field_width_m", "field_length_m"}) parameters.set(name, 6000.0);
+  parameters.set("terrain_cell_m", 100.0).set("occupancy_cell_m", 0.0);
+  EXPECT_EQ(test::config_error_of([&] { test::make_world("orchard", parameters); }), "no error");
+  parameters.set("refinement_per_m2", 4.0);
+  EXPECT_EQ(test::config_error_of([&] { test::make_world("orchard", parameters); }),
+            "refinement_per_m2 = 4 1/m2 gives 144 million elements, must be at most 100 million");
+}
+
 TEST(Orchard, RefusesRowsThatDoNotFit) {
   const auto error = [](const char* name, double value) {
     return test::config_error_of([&] {

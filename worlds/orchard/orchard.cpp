@@ -195,15 +195,15 @@ void validate(const OrchardLayout& layout) {
                     "alley is free",
                     layout.row_width_m, layout.step_m()));
   }
-  const double elements = layout.field_width_m * layout.field_length_m * layout.refinement_per_m2;
-  if (elements > 1e8) {
-    throw ConfigError(fmt::format(
-        "refinement_per_m2 = {} 1/m2 gives {:.0f} million elements, must be at most 100",
-        layout.refinement_per_m2, elements / 1e6));
-  }
 }
 
 OccupancyGrid make_occupancy(const OrchardLayout& layout) {
+  const double elements = layout.field_width_m * layout.field_length_m * layout.refinement_per_m2;
+  if (elements > 1e8) {
+    throw ConfigError(fmt::format(
+        "refinement_per_m2 = {} 1/m2 gives {:.0f} million elements, must be at most 100 million",
+        layout.refinement_per_m2, elements / 1e6));
+  }
   OccupancyGrid grid;
   grid.cell_m = 1.0 / std::sqrt(layout.refinement_per_m2);
   grid.columns = static_cast<int>(std::ceil(layout.field_width_m / grid.cell_m - 1e-9));

@@ -27,6 +27,9 @@ std::vector<RangeSensorModel> find_range_sensors(const std::vector<std::string>&
     return found;
   }
   for (const std::string& name : names) {
+    if (std::count(names.begin(), names.end(), name) > 1) {
+      throw ConfigError(fmt::format("{}: {} names '{}' twice", who, key, name));
+    }
     const auto mounting =
         std::find_if(context.sensors.begin(), context.sensors.end(),
                      [&](const SensorMounting& sensor) { return sensor.name == name; });

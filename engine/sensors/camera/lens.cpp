@@ -19,8 +19,9 @@ std::string fault_of(const LensParams& p) {
   const bool is_fisheye = p.lens == CameraInfo::Lens::kFisheye;
   const std::size_t count = is_fisheye ? kFisheyeCoefficients : kBrownCoefficients;
   if (!p.distortion.empty() && p.distortion.size() != count) {
-    return fmt::format("distortion has {} coefficients, must have {} for lens {} ({}) or none",
-                       p.distortion.size(), count, is_fisheye ? "fisheye" : "brown_conrady",
+    return fmt::format("distortion has {} coefficient{}, must have {} for lens {} ({}) or none",
+                       p.distortion.size(), p.distortion.size() == 1 ? "" : "s", count,
+                       is_fisheye ? "fisheye" : "brown_conrady",
                        is_fisheye ? "k1, k2, k3, k4" : "k1, k2, p1, p2, k3");
   }
   if (static_cast<double>(p.width_px) * p.height_px > kMostPixels) {

@@ -43,7 +43,9 @@ const ParameterTable<Field>& field_table() {
             return fmt::format("near_m = {} m, must be < far_m = {} m", f.near_m, f.far_m);
           })
           .rule([](const Field& f) -> std::string {
-            return f.fence == "none" ? "a field needs a fence" : "";
+            return f.fence == "none"     ? "a field needs a fence"
+                   : f.fence == "barbed" ? "fence has barbs"
+                                         : "";
           });
   return table;
 }
@@ -118,6 +120,7 @@ TEST(PlaceOfRule, IsThatOfTheFieldInAGroup) {
 }
 
 TEST(PlaceOfRule, IsThatOfThePartWhereItNamesNoKey) {
+  EXPECT_EQ(fault_with(with_world(",\n  fence: barbed")), "scenario:4: world.fence has barbs");
   // "fence" is a word of the sentence here, not the key.
   EXPECT_EQ(fault_with(with_world(",\n  fence: none")), "scenario:3: world: a field needs a fence");
 }

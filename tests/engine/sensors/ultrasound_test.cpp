@@ -257,13 +257,16 @@ TEST(Ultrasound, RefusesBadInputInOneSentence) {
   const auto error_of = [&](const test::SensorValues& values) {
     return test::refusal_of([&] { Bench bench("ultrasound", values, scene); });
   };
-  EXPECT_EQ(error_of({{"cycle_s", 0.12}}),
-            "cycle_s = 0.12 s, must be a multiple of the sensor's period of 0.05 s");
-  EXPECT_EQ(error_of({{"cycle_s", 0.2}, {"phase_s", 0.03}}),
-            "phase_s = 0.03 s, must be a multiple of the sensor's period of 0.05 s");
+  EXPECT_EQ(
+      error_of({{"cycle_s", 0.12}}),
+      "rover.sensors.s: cycle_s = 0.12 s, must be a multiple of the sensor's period of 0.05 s");
+  EXPECT_EQ(
+      error_of({{"cycle_s", 0.2}, {"phase_s", 0.03}}),
+      "rover.sensors.s: phase_s = 0.03 s, must be a multiple of the sensor's period of 0.05 s");
   EXPECT_EQ(error_of({{"cycle_s", 0.2}, {"phase_s", 0.2}}),
-            "phase_s = 0.2 s, must be < cycle_s = 0.2 s");
-  EXPECT_EQ(error_of({{"phase_s", 0.05}}), "phase_s = 0.05 s, must be < cycle_s = 0 s");
+            "rover.sensors.s: phase_s = 0.2 s, must be < cycle_s = 0.2 s");
+  EXPECT_EQ(error_of({{"phase_s", 0.05}}),
+            "rover.sensors.s: phase_s = 0.05 s, must be < cycle_s = 0 s");
   EXPECT_EQ(error_of({{"min_range_m", 5.0}}), "min_range_m = 5 m, must be < max_range_m = 4 m");
 }
 

@@ -9,6 +9,7 @@
 #include "engine/api/parameter_table.h"
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
+#include "engine/io/geo/local_to_crs.h"
 #include "worlds/mapping/folder/map_folder.h"
 #include "worlds/mapping/folder/map_gis.h"
 #include "worlds/mapping/folder/map_points.h"
@@ -55,6 +56,9 @@ CloudMapOptions options_in(const WorldModel& world, const CloudMapJobParams& par
 
 CloudReadOptions reading_in(const WorldModel& world, const CloudMapJobParams& params) {
   CloudReadOptions reading = params.reading;
+  if (!reading.crs.empty() && reading.crs != "none") {
+    io::LocalToCrs(reading.crs, world.origin);  // before the flight, not after it
+  }
   reading.origin = world.origin;
   reading.with_colours = false;
   return reading;

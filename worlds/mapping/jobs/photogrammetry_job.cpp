@@ -6,6 +6,7 @@
 
 #include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
+#include "engine/io/geo/local_to_crs.h"
 #include "worlds/mapping/jobs/photogrammetry_job_params.h"
 #include "worlds/mapping/photogrammetry/hidden_rows.h"
 #include "worlds/mapping/photogrammetry/write_cloud.h"
@@ -18,6 +19,7 @@ PhotogrammetryJobParams read_photogrammetry_job(const ParameterSet& parameters,
   PhotogrammetryJobParams params = photogrammetry_job_table().read(parameters, "");
   params.options.seed = seed;
   check_options(params.options);
+  if (!params.file.crs.empty()) io::LocalToCrs(params.file.crs, GeoOrigin{});
   return params;
 }
 

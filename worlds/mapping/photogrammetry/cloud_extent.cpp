@@ -14,8 +14,8 @@ namespace vinerow::mapping {
 SurveyArea::SurveyArea(Polygon polygon_W, double margin_m)
     : polygon_(std::move(polygon_W)), margin_m_(margin_m) {
   if (polygon_.size() < 3) {
-    throw ConfigError(
-        fmt::format("the cloud's area has {} corners, must have at least three", polygon_.size()));
+    throw ConfigError(fmt::format("area_m has {} corner{}, must have at least three",
+                                  polygon_.size(), polygon_.size() == 1 ? "" : "s"));
   }
   for (const Eigen::Vector2d& p : polygon_) {
     if (!p.allFinite()) throw ConfigError("the cloud's area has a corner that is not finite");

@@ -285,10 +285,8 @@ void check_options(const PhotogrammetryOptions& options) {
                     options.min_views));
   }
   if (options.max_views < options.min_views) {
-    refuse(
-        fmt::format("a point is fixed by {} pictures at most, must not be fewer than the {} "
-                    "that must see it",
-                    options.max_views, options.min_views));
+    refuse(fmt::format("min_views = {}, must be <= max_views = {}", options.min_views,
+                       options.max_views));
   }
   if (!(options.max_incidence_rad > 0.0 && options.max_incidence_rad < 1.5707)) {
     refuse(

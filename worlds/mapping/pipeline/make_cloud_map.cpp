@@ -409,8 +409,8 @@ void check_options(const CloudMapOptions& options) {
   not_negative(options.budget_MB, "budget");
   not_negative(options.occupancy.cell_m, "grid cell");
   if (!(options.spacing_low_m < options.spacing_high_m)) {
-    throw ConfigError(fmt::format("smallest row spacing = {:g} m, must be < the largest, {:g} m",
-                                  options.spacing_low_m, options.spacing_high_m));
+    throw ConfigError(fmt::format("row_spacing_m = [{:g}, {:g}], must rise", options.spacing_low_m,
+                                  options.spacing_high_m));
   }
 }
 

@@ -426,6 +426,9 @@ TEST(DistanceFilter, RefusesAnEmptyMapAndSensorsThatAreNotThere) {
   expect_refused({{"ranges", std::vector<Text>{"range0", "sonar"}}}, &vines().map(),
                  "ranges names 'sonar', but the vehicle's mounted sensors are: range0, range1, "
                  "range2, range3");
+  // Each reading would count twice.
+  expect_refused({{"ranges", std::vector<Text>{"range0", "range1", "range0"}}}, &vines().map(),
+                 "ranges names 'range0' twice");
 }
 
 }  // namespace

@@ -35,8 +35,9 @@ TEST_F(JobFailures, PhotogrammetryIsRefusedWhileLoading) {
     return parameters;
   };
   EXPECT_EQ(refused("photogrammetry", with("max_views", std::int64_t(2))),
-            "a point is fixed by 2 pictures at most, must not be fewer than the 3 that must see "
-            "it");
+            "min_views = 3, must be <= max_views = 2");
+  EXPECT_THAT(refused("photogrammetry", with("crs", std::string("foo"))),
+              HasSubstr("crs = 'foo' is not a coordinate reference system"));
   EXPECT_EQ(refused("photogrammetry", with("missing_rows", std::vector<double>{1, 4})),
             "world 'vineyard' has no row 4, its rows are 0 to 3");
   EXPECT_EQ(refused("photogrammetry", with("missing_rows", std::vector<double>{1.5})),
@@ -68,8 +69,20 @@ TEST_F(JobFailures, PhotogrammetryFailsWithoutPicturesOfTheParcel) {
 TEST_F(JobFailures, CloudMapIsRefusedWhileLoading) {
   ParameterSet parameters = job_parameters("cloud_map");
   parameters.set("row_spacing_m", std::vector<double>{3, 2});
-  EXPECT_EQ(refused("cloud_map", parameters),
-            "smallest row spacing = 3 m, must be < the largest, 2 m");
+  EXPECT_EQ(refused("cloud_map", parameters), "row_spacing_m = [3, 2], must rise");
+  for (const char* crs : {"", "none", "EPSG:25832"}) {
+    ParameterSet known = job_parameters("cloud_map");
+    known.set("crs", std::string(crs));
+    EXPECT_EQ(test::config_error_of([&] {
+                test::all_parts().make_job("cloud_map", known, test::job_context(folder_.path()));
+              }),
+              "no error")
+        << crs;
+  }
+  ParameterSet unknown = job_parameters("cloud_map");
+  unknown.set("crs", std::string("EPSG:99999"));
+  EXPECT_THAT(refused("cloud_map", unknown),
+              HasSubstr("crs = 'EPSG:99999' is not a coordinate reference system"));
   WorldModel field;
   field.name = "field";
   JobContext context = test::job_context(folder_.path());

@@ -426,7 +426,7 @@ TEST(MakeCloudMap, RefusesOptionsThatDoNotFit) {
   CloudMapOptions options;
   options.spacing_low_m = 3.0;
   options.spacing_high_m = 2.0;
-  EXPECT_EQ(refusal(cloud, options), "smallest row spacing = 3 m, must be < the largest, 2 m");
+  EXPECT_EQ(refusal(cloud, options), "row_spacing_m = [3, 2], must rise");
   options = {};
   options.terrain_cell_m = 0.0;
   EXPECT_EQ(refusal(cloud, options), "terrain cell = 0, must be > 0");

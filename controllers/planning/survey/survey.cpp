@@ -15,7 +15,8 @@ class Survey final : public Planner {
   Survey(SurveyRequest request, const PlannerContext& context)
       : request_(std::move(request)),
         scene_(context.scene),
-        rest_height_m_(context.vehicle_description->height_above_ground_m) {}
+        rest_height_m_(context.vehicle_description->height_above_ground_m),
+        takes_off_(context.vehicle_description->rotorcraft.has_value()) {}
 
   Result<PlannedPath> plan(const Pose& start) override {
     report_ = {};
@@ -23,7 +24,8 @@ class Survey final : public Planner {
     if (!plan) return Failure{plan.reason()};
     report_.numbers = plan->numbers;
     PlannedPath path = plan->path;
-    if (request_.rotorcraft) {
+    // `rotorcraft` of the request may differ: it sets how corners are flown.
+    if (takes_off_) {
       add_take_off(start.p, path);
       if (request_.returns) add_landing(start.p.z(), path);
     }
@@ -36,6 +38,7 @@ class Survey final : public Planner {
   SurveyRequest request_;
   const SceneQuery* scene_;
   double rest_height_m_;
+  bool takes_off_;
   PlanReport report_;
 };
 

@@ -137,6 +137,13 @@ TEST(RowFlight, RefusesToSmoothHillsAway) {
   EXPECT_THAT(plan.reason(), HasSubstr(" m in the ground at (1.25, "));
   bench.values.back().second = 2.0;
   EXPECT_TRUE(bench.plan(1.25, -5.0).ok());
+  // Its legs are 0.2 m long: a flight of 0.21 m has 1 cm to spare above bumps of 0.1 m.
+  FlightBench low({.alleys = 1},
+                  PlainScene([](double, double y) { return 0.05 * std::sin(2.0 * y); }));
+  low.values = {{"turns", std::string("dubins")}, {"height_m", 0.21}, {"smooth_m", 4.0}};
+  const auto scraping = low.plan(1.25, -5.0);
+  ASSERT_FALSE(scraping.ok());
+  EXPECT_THAT(scraping.reason(), HasSubstr("smooth_m = 4 m the vehicle would be "));
 }
 
 /// Heights above ground and canopies along the way home, canopies as boxes on the rows' lines.

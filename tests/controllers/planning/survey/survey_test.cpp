@@ -92,7 +92,9 @@ TEST(SurveyPart, PlansForRotorsWhereTheVehicleHasThem) {
   EXPECT_NE(run({{"return_home", false}}, drone).path.points.back().kind, PathKind::kVertical);
   EXPECT_EQ(run({{"rotorcraft", true}}, drone).path.length_m, by_vehicle.path.length_m);
   EXPECT_GT(run({{"rotorcraft", false}}, drone).numbers.at("turn_radius_m"), 1.0);
+  EXPECT_EQ(run({{"rotorcraft", false}}, drone).path.points.front().kind, PathKind::kVertical);
   EXPECT_EQ(run({{"rotorcraft", true}}).numbers.at("turn_radius_m"), 0.0);
+  EXPECT_NE(run({{"rotorcraft", true}}).path.points.front().kind, PathKind::kVertical);
 }
 
 TEST(SurveyPart, RefusesWhileLoading) {

@@ -48,8 +48,7 @@ void check_length(double run_m) {
   if (run_m <= kLongest_m) return;
   throw ConfigError(
       fmt::format("a stretch of {:.0f} m of the plan is too long for a flight, must be at most "
-                  "{:.0f} km: lower "
-                  "its heights, or bring its places nearer",
+                  "{:.0f} km: lower its heights, or bring its places nearer",
                   run_m, kLongest_m / 1e3));
 }
 

@@ -5,6 +5,7 @@
 #include "controllers/parts/paths/verticals.h"
 
 namespace vinerow::controllers {
+
 bool has_vertical(const PlannedPath& plan) {
   return std::any_of(plan.points.begin(), plan.points.end(),
                      [](const PathPoint& point) { return point.kind == PathKind::kVertical; });
@@ -21,12 +22,10 @@ PlannedPath lift_plan(const PlannedPath& plan, const Eigen::Vector3d& start_W, d
 }
 
 PlannedPath make_hover_plan(const Eigen::Vector3d& start_W, const Eigen::Vector3d& hover_W) {
-  // A vehicle nearer than this is at a place.
-  constexpr double kAt_m = 0.05;
   PathPoint place;
   place.p_W = hover_W;
   place.kind = PathKind::kTransit;
-  if ((hover_W - start_W).head<2>().norm() <= kAt_m) place.p_W.head<2>() = start_W.head<2>();
+  if ((hover_W - start_W).head<2>().norm() <= kAtPlace_m) place.p_W.head<2>() = start_W.head<2>();
   PlannedPath flight;
   flight.points.push_back(place);
   add_take_off(start_W, flight);

@@ -54,9 +54,8 @@ void check_size(const std::string& name, const TriangleMesh& mesh) {
   if (mesh.triangles.size() <= MeshStore::kMostTriangles) return;
   throw ConfigError(fmt::format(
       "'{}' has {:.1f} million triangles, must be at most {:.1f} million: take fewer organs (of "
-      "vines "
-      "berries, bunches_per_shoot, shoots_per_m, lateral_share; of trees leaf_area_per_m3, fruits, "
-      "tree_height_m, row_width_m)",
+      "vines berries, bunches_per_shoot, shoots_per_m, lateral_share; of trees leaf_area_per_m3, "
+      "fruits, tree_height_m, row_width_m)",
       name, 1e-6 * static_cast<double>(mesh.triangles.size()),
       1e-6 * static_cast<double>(MeshStore::kMostTriangles)));
 }

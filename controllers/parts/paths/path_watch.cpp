@@ -12,8 +12,8 @@ namespace {
 /// Distance allowed for the curve from a start beside the path to the path, per distance from it.
 constexpr double kBow = 3.0;
 
-/// A path passes by no faster than this share of the distance that is driven, on the inside of its
-/// bends, but for this many times `lost_m`.
+/// Path that may pass by: per distance moved, since a vehicle inside of a bend moves less than its
+/// place on the path, and beyond that, per `lost_m`. Chosen.
 constexpr double kPassing = 3.0, kPassingShare = 2.0;
 
 }  // namespace

@@ -6,9 +6,6 @@
 namespace vinerow::controllers {
 namespace {
 
-// A vehicle nearer than this is at a place.
-constexpr double kAt_m = 0.05;
-
 PathPoint make_point(const Eigen::Vector3d& p_W, PathKind kind) {
   PathPoint point;
   point.p_W = p_W;
@@ -22,7 +19,7 @@ void add_take_off(const Eigen::Vector3d& start_W, PlannedPath& plan) {
   const Eigen::Vector3d first_W = plan.points.front().p_W;
   std::vector<PathPoint> points = {make_point(start_W, PathKind::kVertical)};
   const double across_m = (first_W - start_W).head<2>().norm();
-  if (across_m > kAt_m) {
+  if (across_m > kAtPlace_m) {
     points.push_back(make_point({start_W.x(), start_W.y(), first_W.z()}, PathKind::kTransit));
   }
   plan.points.insert(plan.points.begin(), points.begin(), points.end());

@@ -8,6 +8,9 @@
 
 namespace vinerow::controllers {
 
+/// A vehicle nearer than this, seen from above, is at a place.
+inline constexpr double kAtPlace_m = 0.05;
+
 /// Begins the plan on the ground: up from start_W to the height of its first point, and over to it.
 void add_take_off(const Eigen::Vector3d& start_W, PlannedPath& plan);
 /// Ends the plan on the ground. @param rest_z_m  height of the vehicle's origin there, in W

@@ -57,7 +57,7 @@ CloudMapOptions options_in(const WorldModel& world, const CloudMapJobParams& par
 CloudReadOptions reading_in(const WorldModel& world, const CloudMapJobParams& params) {
   CloudReadOptions reading = params.reading;
   if (!reading.crs.empty() && reading.crs != "none") {
-    io::LocalToCrs(reading.crs, world.origin);  // before the flight, not after it
+    io::LocalToCrs(reading.crs, world.origin);  // an unknown one is refused before the flight
   }
   reading.origin = world.origin;
   reading.with_colours = false;

@@ -19,6 +19,7 @@ PhotogrammetryJobParams read_photogrammetry_job(const ParameterSet& parameters,
   PhotogrammetryJobParams params = photogrammetry_job_table().read(parameters, "");
   params.options.seed = seed;
   check_options(params.options);
+  // An unknown system is refused now, not after the flight.
   if (!params.file.crs.empty()) io::LocalToCrs(params.file.crs, GeoOrigin{});
   return params;
 }

@@ -21,6 +21,8 @@ std::string describe(const ControllerContext& context) {
 
 QuadrotorMpcParams read_params(const ParameterSet& parameters, const ControllerContext& context) {
   QuadrotorMpcParams params = quadrotor_mpc_table().read(parameters, describe(context));
+  const Rotorcraft& craft = context.vehicle_description->need_rotorcraft(describe(context));
+  params.limits.tilt_rad = std::min(params.limits.tilt_rad, craft.max_tilt_rad);
   params.period_s = context.period.s();
   return params;
 }

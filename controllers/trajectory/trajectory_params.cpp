@@ -67,7 +67,7 @@ const ParameterTable<TrajectoryParams>& trajectory_table() {
                   "length over which curvature builds up; corners are rounded over it")
           .degrees("sharp_deg", flight(&FlightOptions::sharp_rad), between(0.0, 180.0),
                    "at sharper bends of the plan the vehicle stops and turns on the spot")
-          .number("wait_m", "m", &P::wait_m, between(1e-3, 1e4),
+          .number("wait_m", "m", &P::wait_m, between(0.05, 1e4),
                   "distance between vehicle and reference from which the reference slows down; at "
                   "twice this it waits")
           .number("spin_up_s", "s", flight(&FlightOptions::spin_up_s), between(0.0, 60.0),
@@ -90,7 +90,7 @@ TrajectoryParams read_trajectory_params(const ParameterSet& parameters,
                                         const ControllerContext& context) {
   const std::string who = context.part + " (trajectory)";
   const VehicleDescription& vehicle = *context.vehicle_description;
-  vehicle.need_rotorcraft(who);
+  const Rotorcraft& craft = vehicle.need_rotorcraft(who);
   TrajectoryParams params = trajectory_table().read(parameters, who);
   const TrajectoryLimits& limits = params.flight.limits;
   params.landing.landing_speed_mps = limits.landing_speed_mps;
@@ -103,6 +103,12 @@ TrajectoryParams read_trajectory_params(const ParameterSet& parameters,
         fmt::format("{}: height_m = {:.2f} m is not above the {:.2f} m at which the "
                     "centre of mass of vehicle type '{}' is on the ground",
                     who, params.height_m, min_m, vehicle.type));
+  }
+  if (limits.landing_speed_mps >= craft.landing_speed_limit_mps) {
+    throw ConfigError(
+        fmt::format("{}: landing_speed_mps = {:.2f} m/s, must be less than the {:.2f} m/s at which "
+                    "touching the ground is a crash for vehicle type '{}'",
+                    who, limits.landing_speed_mps, craft.landing_speed_limit_mps, vehicle.type));
   }
   if (vehicle.max_speed_mps) {
     const std::pair<const char*, double> speeds[] = {

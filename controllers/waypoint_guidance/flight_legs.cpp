@@ -46,7 +46,9 @@ void warn_of_turns(const FlightLegsOptions& options, FlightLegs& result) {
         deg_from_rad(options.turn.bank_rad));
   }
   if (count == 0) return;
-  if (count > 1) text += fmt::format(", and {} more are too near", count - 1);
+  if (count > 1) {
+    text += fmt::format(", and {} more {} too near", count - 1, count == 2 ? "is" : "are");
+  }
   result.warnings.push_back(text + ": overshoots there");
 }
 

@@ -43,9 +43,10 @@ std::string find_fault_in_trigger(const CameraTriggerParams& p) {
   const double shortest_s = 1.0 / camera.max_rate_Hz;
   if (!p.interval_s || *p.interval_s >= shortest_s - 1e-9) return "";
   return fmt::format(
-      "interval_s = {} s, must be at least {:.4g} s: camera '{}' takes at most {} pictures per "
+      "interval_s = {} s, must be at least {:.4g} s: camera '{}' takes at most {} picture{} per "
       "second",
-      *p.interval_s, shortest_s, camera.name, camera.max_rate_Hz);
+      *p.interval_s, shortest_s, camera.name, camera.max_rate_Hz,
+      camera.max_rate_Hz == 1.0 ? "" : "s");
 }
 
 const ParameterTable<CameraTriggerParams>& camera_trigger_table() {

@@ -53,7 +53,8 @@ const ParameterTable<LidarParams>& lidar_table() {
           .number("angle_step_deg", "deg", &P::angle_step_deg, kPositive,
                   "angle between neighbouring beams")
           .include(&P::ranging, laser_ranging_table())
-          .degrees("divergence_deg", &P::divergence_rad, between(0.0, 5.0), "full width of a beam")
+          .degrees("divergence_deg", &P::divergence_rad, between(0.0, 5.0),
+                   "full width of a beam, which takes sub_rays > 1")
           .integer("sub_rays", &P::sub_rays, between(1, kMaxSubRays),
                    "rays across a beam's width, an odd number")
           .choice("edge", &P::is_mixed, {{"nearest", false}, {"mixed", true}},

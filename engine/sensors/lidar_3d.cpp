@@ -61,7 +61,8 @@ const ParameterTable<Lidar3dParams>& lidar_3d_table() {
                                "into whole physics steps",
                                kSlices))
           .include(&P::ranging, laser_ranging_table())
-          .degrees("divergence_deg", &P::divergence_rad, between(0.0, 5.0), "full width of a beam")
+          .degrees("divergence_deg", &P::divergence_rad, between(0.0, 5.0),
+                   "full width of a beam, which takes sub_rays > 1")
           .integer("sub_rays", &P::sub_rays, between(1, kMaxSubRays3d),
                    "rays of a beam: the middle, and the others on a circle about it")
           .number("pulse_m", "m", &P::pulse_m, kPositive,

@@ -13,6 +13,7 @@
 #include "engine/math/angles.h"
 #include "engine/physics/box_distance.h"
 #include "engine/physics/mesh_distance.h"
+#include "engine/physics/winding.h"
 #include "engine/sim/placement_ground.h"
 
 namespace vinerow {
@@ -82,6 +83,23 @@ const MeshInstance* find_touched(const WorldModel& world, const StartBox& box, S
     if (physics::MeshDistance(alone).to_box_m(box.X_WC, box.half_m, 1.0, mask) == 0.0) {
       return &instance;
     }
+  }
+  return nullptr;
+}
+
+/// Mesh of the classes in `mask` that contains a point: a ray upwards leaves it. Half a closed mesh
+/// contains nothing: a vehicle may stand in a barn whose door is open.
+const MeshInstance* find_around(const WorldModel& world, const SceneQuery& scene,
+                                const Eigen::Vector3d& p_W, SurfaceMask mask) {
+  constexpr double kClosed = 0.999, kHigh_m = 1000.0, kPast_m = 1e-6;
+  const Eigen::Vector3d up_W = Eigen::Vector3d::UnitZ();
+  double from_m = 0.0;
+  while (const auto hit = scene.cast_ray(p_W + from_m * up_W, up_W, kHigh_m - from_m, mask)) {
+    from_m += hit->distance_m + kPast_m;
+    if (from_m >= kHigh_m) break;
+    const MeshInstance& instance = world.meshes[static_cast<std::size_t>(hit->mesh)];
+    const Eigen::Vector3d p_M = instance.X_WM.inverse() * p_W;
+    if (std::abs(physics::calc_winding(*instance.mesh, p_M)) > kClosed) return &instance;
   }
   return nullptr;
 }
@@ -194,6 +212,13 @@ void refuse_start_in_contact(const scenario::SpawnConfig& spawn, const StartBox&
     refuse(touched ? fmt::format("the {} '{}'", to_string(surface), touched->name) : "the ground",
            (spawn.alley ? "; change its offset_m" : name_free_places(world)) +
                (is_deck ? " (ground on which vehicles start must be of surface terrain)" : ""));
+  }
+  // Distances are to surfaces.
+  constexpr SurfaceMask kSolid = mask_of(SurfaceClass::kCanopy) | mask_of(SurfaceClass::kPost) |
+                                 mask_of(SurfaceClass::kTrunk) | mask_of(SurfaceClass::kObstacle);
+  if (const MeshInstance* around = find_around(world, scene, box.X_WC.p, kSolid)) {
+    refuse(fmt::format("the {} '{}'", to_string(around->surface), around->name),
+           spawn.alley ? "; change its offset_m" : name_free_places(world));
   }
 }
 

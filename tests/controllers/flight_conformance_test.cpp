@@ -80,6 +80,22 @@ TEST_P(EveryFlightController, StepsAMetreToAnySideWithoutLeavingLimits) {
   }
 }
 
+TEST_P(EveryFlightController, TiltsNoMoreThanItsVehicleMay) {
+  const auto calc_tilt_rad = [&](double max_rad) {
+    QuadrotorNumbers numbers = make_q4t();
+    numbers.max_tilt_rad = max_rad;
+    QuadrotorSetup setup = make_setup(numbers);
+    setup.path = hover_at(setup.start.p + Eigen::Vector3d(3, 0, 0));
+    QuadrotorLoop loop(setup);
+    double tilt_rad = 0.0;
+    loop.run_until(6.0, [&] { tilt_rad = std::max(tilt_rad, loop.sim().tilt_rad()); });
+    return tilt_rad;
+  };
+  const double low_rad = rad_from_deg(8.0);
+  EXPECT_LT(calc_tilt_rad(low_rad), low_rad + kTiltSwing_rad);
+  EXPECT_GT(calc_tilt_rad(kTiltLimit_rad), low_rad + 2.0 * kTiltSwing_rad);
+}
+
 TEST_P(EveryFlightController, TurnsOnTheSpot) {
   for (const QuadrotorNumbers& numbers : all_vehicles()) {
     for (const double yaw : {0.5 * kPi, -0.5 * kPi}) {

@@ -280,7 +280,8 @@ TEST(Vineyard, RefusesBadInputInOneSentence) {
   EXPECT_EQ(error("pitch_m", std::nan("")), "pitch_m = nan, must be a finite number");
   EXPECT_EQ(error("canopy_base_m", 3.0), "canopy_base_m = 3 m, must be < canopy_top_m = 2 m");
   EXPECT_EQ(error("dem_file", std::string("/none.tif")), "raster '/none.tif' does not exist");
-  EXPECT_EQ(error("terrain_cell_m", 0.01), "terrain_cell_m = 0.01 m, must be >= 0.05 m");
+  EXPECT_EQ(error("terrain_cell_m", 0.01),
+            "terrain_cell_m = 0.01 m, must be >= 0.05 m and <= 100 m");
   EXPECT_NE(error("soil", std::string("dry_gras")).find("did you mean 'dry_grass'?"),
             std::string::npos);
   EXPECT_NE(error("headland_m", 3.0).find("must be >= 8 m"), std::string::npos);

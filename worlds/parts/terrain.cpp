@@ -89,7 +89,7 @@ const ParameterTable<TerrainParams>& terrain_table() {
   using P = TerrainParams;
   static const ParameterTable<P> table =
       ParameterTable<P>()
-          .number("terrain_cell_m", "m", &P::cell_m, {.min = 0.05},
+          .number("terrain_cell_m", "m", &P::cell_m, between(0.05, 100.0),
                   "distance between samples of the height field")
           .number("waves_m", "m", &P::waves_m, between(0.0, 20.0),
                   "height of the gentle undulation")

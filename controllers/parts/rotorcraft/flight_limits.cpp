@@ -11,7 +11,7 @@ const ParameterTable<FlightLimitParams>& flight_limit_table() {
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .degrees("tilt_limit_deg", &P::tilt_rad, between(1.0, 60.0),
-                   "largest wanted tilt (paper A, section 4.2: 25)")
+                   "largest wanted tilt, clamped to that of the vehicle (paper A, section 4.2: 25)")
           .number("min_thrust", "weights", &P::min_thrust, between(0.0, 0.95),
                   "smallest wanted thrust; stopped rotors cannot right the vehicle")
           .number("max_thrust", "weights", &P::max_thrust, between(1.05, 20.0),
@@ -32,7 +32,7 @@ FlightLimits make_flight_limits(const FlightLimitParams& params, const Rotorcraf
                                 const RotorMixer& mixer) {
   const double weight_N = craft.mass_kg * craft.gravity_mps2;
   FlightLimits limits;
-  limits.tilt_rad = params.tilt_rad;
+  limits.tilt_rad = std::min(params.tilt_rad, craft.max_tilt_rad);
   limits.min_thrust_N = params.min_thrust * weight_N;
   limits.max_thrust_N = std::min(params.max_thrust * weight_N, craft.max_thrust_N());
   limits.torque_Nm = params.torque_share * mixer.torque_limits_at_hover();

@@ -33,7 +33,8 @@ struct FlightLimitParams {
 /// `climb_correction_mps`, `yaw_rate_limit_degps`.
 const ParameterTable<FlightLimitParams>& flight_limit_table();
 
-/// max_thrust is clamped to that of the rotors. The parameters' ranges enclose the weight.
+/// Tilt and max_thrust are clamped to those of the vehicle. The parameters' ranges enclose the
+/// weight.
 FlightLimits make_flight_limits(const FlightLimitParams& params, const RotorcraftModel& craft,
                                 const RotorMixer& mixer);
 

@@ -57,7 +57,7 @@ const ParameterTable<PlaceRouteParams>& place_route_table() {
               "minimum turning radius; default the vehicle's own, 0.5 m if it turns on the spot")
           .number("margin_m", "m", &P::margin_m, between(0.0, 5.0),
                   "clearance of every planned pose around the vehicle's outline")
-          .number("waypoint_pitch_m", "m", &P::pitch_m, kPositive,
+          .number("waypoint_pitch_m", "m", &P::pitch_m, between(0.01, 1e3),
                   "straights and arcs are split into round(length / pitch) parts")
           .number("speed_mps", "m/s", &P::speed_mps, between(0.0, 100.0),
                   "wanted speed; 0 = the follower's own")

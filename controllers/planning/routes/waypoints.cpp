@@ -136,12 +136,24 @@ class Waypoints final : public Planner {
                        who);
   }
 
-  /// Straights from point to point in space; the ground below is ignored.
-  PlannedPath plan_flight(const Pose& start) const {
+  /// Of a point below the ground; negative above it.
+  double calc_depth_m(const Eigen::Vector3d& p_W) const {
+    if (scene_ == nullptr) return -1.0;
+    const auto ground_m = scene_->ground_height_m(p_W.x(), p_W.y(), kAboveEverything_m);
+    return ground_m ? *ground_m - p_W.z() : -1.0;
+  }
+
+  /// Straights from point to point in space; the ground between them is ignored.
+  Result<PlannedPath> plan_flight(const Pose& start) const {
     PlannedPath path;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       PathPoint point;
       point.p_W << points_[i], heights_m_[i];
+      const double below_m = calc_depth_m(point.p_W);
+      if (below_m > 0.0) {
+        return Failure{fmt::format("point {} of {} is {:.2f} m below the ground: z_m = {:g}", i + 1,
+                                   points_.size(), below_m, heights_m_[i])};
+      }
       point.speed_mps = speed_mps_;
       path.points.push_back(point);
       if (i == 0) continue;

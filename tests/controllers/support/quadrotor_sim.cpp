@@ -76,7 +76,8 @@ VehicleDescription describe(const QuadrotorNumbers& numbers) {
   craft.rotor_drag_Ns_per_m = numbers.rotor_drag_Ns_per_m;
   craft.rotor_radius_m = 0.19;
   craft.tip_radius_m = 0.50;
-  craft.max_tilt_rad = 25.0 * M_PI / 180.0;
+  craft.max_tilt_rad = numbers.max_tilt_rad;
+  craft.landing_speed_limit_mps = 1.0;
   return description;
 }
 

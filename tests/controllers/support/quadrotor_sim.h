@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/api/vehicle.h"
+#include "engine/math/angles.h"
 #include "tests/controllers/support/plant.h"
 
 namespace vinerow::test {
@@ -30,6 +31,7 @@ struct QuadrotorNumbers {
   double rotor_drag_Ns_per_m = 0.30;
   double body_drag_area_m2 = 0.04;  ///< C_d A
   double air_density_kgm3 = 1.225;
+  double max_tilt_rad = rad_from_deg(25.0);
   double gravity_mps2 = 9.80665;
 };
 

@@ -65,6 +65,7 @@ VehicleDescription make_quadrotor_description() {
   craft.rotor_radius_m = 0.19;
   craft.tip_radius_m = 0.50;
   craft.max_tilt_rad = rad_from_deg(25.0);
+  craft.landing_speed_limit_mps = 1.0;
   return description;
 }
 

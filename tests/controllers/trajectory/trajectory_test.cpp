@@ -579,6 +579,9 @@ TEST(Trajectory, TellsWhatIsWrongWithItsParameters) {
   EXPECT_EQ(refusal_of({{"row_speed_mps", 12.0}}),
             "drone.guidance (trajectory): row_speed_mps = 12.00 m/s is more than the 10.00 m/s "
             "that vehicle type 'quadrotor' can fly");
+  EXPECT_EQ(refusal_of({{"landing_speed_mps", 1.0}}),
+            "drone.guidance (trajectory): landing_speed_mps = 1.00 m/s, must be less than the 1.00 "
+            "m/s at which touching the ground is a crash for vehicle type 'quadrotor'");
   EXPECT_EQ(
       refusal_of({{"hover_s", 5.0}}),
       "drone.guidance (trajectory): hover_yaw_deg and hover_s describe how to hold a place: add "

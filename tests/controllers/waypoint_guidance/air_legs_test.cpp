@@ -264,6 +264,8 @@ TEST(FlightLegs, WarnOfLanesNearerThanTheTurnsTake) {
               ElementsAre("waypoint 2 is 40.0 m after its predecessor and the turns there take "
                           "41.9 m (radius 21.0 m at 12.0 m/s and 35 deg of bank), and 2 more are "
                           "too near: overshoots there"));
+  EXPECT_THAT(controllers::make_flight_legs(make_lanes(3, 200, 40.0, 50), make_options())->warnings,
+              ElementsAre(::testing::HasSubstr(", and 1 more is too near: overshoots there")));
 }
 
 TEST(FlightLegs, WarnOfSlopesAndSpeedsThatAreNotFlown) {

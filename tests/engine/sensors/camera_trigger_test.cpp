@@ -282,7 +282,7 @@ TEST_F(CameraBench, RefusesWhatTheCameraCannotDo) {
   refuse(
       {{"interval_s", 0.5}},
       "rover.sensors.s: interval_s = 0.5 s, must be at least 1 s: camera 'rededge' takes at most "
-      "1 pictures per second");
+      "1 picture per second");
   refuse({{"interval_s", 2.0}, {"distance_m", 10.0}},
          "rover.sensors.s: interval_s = 2 s and distance_m = 10 m are both given, must be one of "
          "them");

@@ -150,6 +150,22 @@ TEST(Spawn, StandsBelowARoofThatIsNoTerrain) {
   EXPECT_EQ(unnamed.fault(), "none");
 }
 
+TEST(Spawn, RefusesAStartWithinASolidThatItDoesNotTouch) {
+  Start start;
+  start.world.meshes.push_back(instance_of("ground", sheet(0.0f, 0.0f), SurfaceClass::kTerrain));
+  const TriangleMesh house = block({-5.0f, -4.0f, -1.0f}, {5.0f, 4.0f, 3.0f});
+  start.world.meshes.push_back(instance_of("house", house, SurfaceClass::kObstacle));
+  // Above it is a roof, which does not contain it.
+  start.world.meshes.push_back(instance_of("roof", sheet(2.0f, 0.0f), SurfaceClass::kCanopy));
+  EXPECT_EQ(start.fault(),
+            "s.yaml:7: vehicles.rover.spawn: at x = 0.000 m, y = 0.000 m the vehicle would stand "
+            "in the obstacle 'house'; move it");
+  TriangleMesh open = house;
+  open.triangles.erase(open.triangles.begin() + 4);
+  start.world.meshes[1].mesh = std::make_shared<TriangleMesh>(open);
+  EXPECT_EQ(start.fault(), "none");
+}
+
 TEST(Spawn, RefusesAStartInContactByName) {
   const auto fault_with = [](const MeshInstance& thing) {
     Start start;

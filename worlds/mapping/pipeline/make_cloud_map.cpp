@@ -122,6 +122,7 @@ FoundRows find_rows(const ParcelCloud& cloud, const HeightField& terrain, double
   }
   std::vector<RowCurve> lines;
   std::vector<double> spacing_m;
+  double too_short_m = 0.0;  // longest line of a group without rows
   TakenSquares taken;
   for (const std::vector<RowPatch>& group : groups) {
     if (group.empty()) continue;
@@ -133,13 +134,25 @@ FoundRows find_rows(const ParcelCloud& cloud, const HeightField& terrain, double
     RowLineOptions line_options = options.thresholds.lines;
     line_options.spacing_m = tracking.spacing_m;
     line_options.length_low_m = options.row_length_low_m;
-    const std::vector<RowCurve> found_here =
-        fit_row_lines(raster, track_rows(raster, group, tracking, taken), line_options);
+    const auto tracks = track_rows(raster, group, tracking, taken);
+    const std::vector<RowCurve> found_here = fit_row_lines(raster, tracks, line_options);
+    if (found_here.empty()) {
+      line_options.length_low_m = 0.0;
+      for (const RowCurve& line : fit_row_lines(raster, tracks, line_options)) {
+        too_short_m = std::max(too_short_m, line.length_m());
+      }
+    }
     take_rows(raster, found_here, tracking, taken);
     lines.insert(lines.end(), found_here.begin(), found_here.end());
     spacing_m.resize(lines.size(), tracking.spacing_m);
   }
   found.blocks = split_blocks(lines, spacing_m).blocks;
+  if (found.blocks.empty() && too_short_m > 0.0) {
+    throw ConfigError(
+        fmt::format("no rows found: the longest line of canopy is {:.1f} m long, min_row_length_m "
+                    "is {:g} m",
+                    too_short_m, options.row_length_low_m));
+  }
   if (found.blocks.empty()) {
     throw ConfigError(fmt::format(
         "no rows found: {}", describe_canopy(raster, found.body_cut_m, patches, patch_options)));

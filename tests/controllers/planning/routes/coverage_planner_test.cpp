@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "controllers/planning/routes/alley_order.h"
+#include "controllers/planning/routes/waypoints.h"
 #include "engine/api/map.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
@@ -302,6 +303,17 @@ TEST(Waypoints, GoStraightThroughTheAirWhereTheyHaveHeights) {
   EXPECT_EQ(flight->points[1].p_W, Eigen::Vector3d(-4, 3, 50));
   EXPECT_EQ(flight->points[2].p_W, Eigen::Vector3d(0, 0, 50));
   EXPECT_DOUBLE_EQ(flight->length_m, 30.0 + 5.0 + 5.0 + 4.0);
+  // The ground there is at 0.1 x + 0.2 y; beyond it any height will do.
+  const PlainScene slope = make_slope(3.5);
+  PlannerContext context;
+  context.scene = &slope;
+  context.vehicle_description = &drone;
+  values.back().second = std::vector<double>{0, 0.1, -9};
+  const auto dive =
+      controllers::make_waypoints(make_parameters(controllers::waypoints_spec(), values), context)
+          ->plan(Pose{});
+  ASSERT_FALSE(dive.ok());
+  EXPECT_EQ(dive.reason(), "point 2 of 3 is 0.20 m below the ground: z_m = 0.1");
   values.back().second = std::vector<double>{50};
   expect_config_error(kNoRows, {"waypoints", values},
                       "rover.planner (waypoints): z_m has 1 numbers for 3 points, must be as many");

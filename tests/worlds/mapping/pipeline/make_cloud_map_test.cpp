@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <map>
 
 #include "engine/core/error.h"
@@ -393,6 +394,22 @@ TEST(MakeCloudMap, SaysWhatStandsThereWhereThereAreNoRows) {
             std::string::npos)
       << refusal(bare);
   EXPECT_EQ(refusal(ParcelCloud{}), "no rows found: the cloud has no points");
+}
+
+TEST(MakeCloudMap, SaysHowLongTheLinesAreIfAllAreTooShort) {
+  const ParcelCloud cloud = test::make_synthetic_cloud(small_parcel()).cloud;
+  CloudMapOptions options;
+  options.row_length_low_m = 60.0;
+  const std::string text = refusal(cloud, options);
+  double longest_m = 0.0, least_m = 0.0;
+  ASSERT_EQ(std::sscanf(text.c_str(),
+                        "no rows found: the longest line of canopy is %lf m long, "
+                        "min_row_length_m is %lf m",
+                        &longest_m, &least_m),
+            2)
+      << text;
+  EXPECT_NEAR(longest_m, small_parcel().length_m, 1.0);
+  EXPECT_EQ(least_m, 60.0);
 }
 
 TEST(MakeCloudMap, SurvivesPointsThatAreNoParcel) {

@@ -71,7 +71,7 @@ std::string encode_picture(const Picture& picture) {
   if (size == 0 || picture.data.size() != size) return {};
   PngForm form{static_cast<int>(picture.width), static_cast<int>(picture.height)};
   form.channels = picture.format == Picture::Format::kRgb8 ? 3 : 1;
-  form.bytes_per_channel = picture.format == Picture::Format::kMono16 ? 2 : 1;
+  form.bytes_per_channel = Picture::bytes_per_pixel(picture.format) == 2 ? 2 : 1;
   form.differences = picture.format != Picture::Format::kMono8;
   return encode_png_rows(form, picture.data);
 }

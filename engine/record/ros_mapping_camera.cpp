@@ -20,8 +20,10 @@ std::string_view format_text(Picture::Format format) {
       return "rgb8; png compressed bgr8";
     case Picture::Format::kMono8:
       return "mono8; png compressed mono8";
-    case Picture::Format::kMono16:
+    case Picture::Format::kDepth16:
       return "16UC1; png compressed 16UC1";
+    case Picture::Format::kMono16:
+      return "mono16; png compressed mono16";
   }
   return "";
 }
@@ -43,12 +45,19 @@ bool RosMapping<Picture>::read(CdrReader& in, const FrameNames&, Picture& value)
   skip_header(in);
   value = {};
   const std::string_view text = in.read_text();
-  for (const auto format : {Picture::Format::kMono8, Picture::Format::kMono16}) {
+  using Format = Picture::Format;
+  const bool is_depth = text == format_text(Format::kDepth16);
+  for (const auto format : {Format::kMono8, Format::kMono16}) {
     if (text == format_text(format)) value.format = format;
   }
   std::string bytes(in.read_count(1), '\0');
   in.read_octets(reinterpret_cast<std::uint8_t*>(bytes.data()), bytes.size());
-  return in.ok() && (bytes.empty() || imaging::decode_picture(bytes, value));
+  const bool is_read = in.ok() && (bytes.empty() || imaging::decode_picture(bytes, value));
+  // A PNG file does not know what its 16 bits are.
+  if (is_depth && (bytes.empty() || value.format == Format::kMono16)) {
+    value.format = Format::kDepth16;
+  }
+  return is_read;
 }
 
 void RosMapping<CameraInfo>::write(CdrWriter& out, const WriteContext& to,

@@ -41,6 +41,13 @@ struct OrganisedPoint {
 };
 static_assert(sizeof(OrganisedPoint) == 36);
 
+/// Follows a point of a cloud with labels.
+struct PointLabel {
+  std::uint32_t instance;
+  std::uint8_t label, unused[3];
+};
+static_assert(sizeof(PointLabel) == 8);
+
 struct PackedField {
   const char* name;
   std::uint32_t offset;
@@ -108,46 +115,73 @@ OrganisedPoint pack_organised(const PointCloud& cloud, std::size_t i) {
   return point;
 }
 
+/// Fields of a point, with those of its label.
+template <class Point>
+std::vector<PackedField> fields_of(bool has_labels) {
+  constexpr auto kFields = fields_of<Point>();
+  std::vector<PackedField> fields(kFields.begin(), kFields.end());
+  if (has_labels) {
+    fields.push_back({"label", sizeof(Point) + offsetof(PointLabel, label), kUint8});
+    fields.push_back({"instance", sizeof(Point) + offsetof(PointLabel, instance), kUint32});
+  }
+  return fields;
+}
+
+template <class Point>
+std::size_t size_of_point(bool has_labels) {
+  return sizeof(Point) + (has_labels ? sizeof(PointLabel) : 0);
+}
+
 /// Fields and points, after height and width.
 template <class Point, class Pack>
-void write_points(CdrWriter& out, std::size_t count, std::size_t width, Pack&& pack) {
-  constexpr auto kFields = fields_of<Point>();
-  out.add_count(kFields.size());
-  for (const PackedField& field : kFields) {
+void write_points(CdrWriter& out, const PointCloud& value, std::size_t count, std::size_t width,
+                  Pack&& pack) {
+  const bool has_labels =
+      count > 0 && value.label.size() >= count && value.instance.size() >= count;
+  const std::vector<PackedField> fields = fields_of<Point>(has_labels);
+  out.add_count(fields.size());
+  for (const PackedField& field : fields) {
     out.add(std::string_view(field.name));
     out.add(field.offset);
     out.add(field.type);
     out.add(std::uint32_t{1});
   }
+  const std::size_t size = size_of_point<Point>(has_labels);
   out.add(false);  // is_bigendian
-  out.add(static_cast<std::uint32_t>(sizeof(Point)));
-  out.add(static_cast<std::uint32_t>(width * sizeof(Point)));
-  out.add_count(count * sizeof(Point));
-  std::uint8_t* bytes = out.extend_octets(count * sizeof(Point));
-  for (std::size_t i = 0; i < count; ++i) {
-    const Point point = pack(i);
-    std::memcpy(bytes + i * sizeof point, &point, sizeof point);
+  out.add(static_cast<std::uint32_t>(size));
+  out.add(static_cast<std::uint32_t>(width * size));
+  out.add_count(count * size);
+  std::uint8_t* bytes = out.extend_octets(count * size);
+  for (std::size_t i = 0; i < count; ++i, bytes += size) {
+    const Point point = pack(value, i);
+    std::memcpy(bytes, &point, sizeof point);
+    if (!has_labels) continue;
+    const PointLabel label{value.instance[i], value.label[i], {}};
+    std::memcpy(bytes + sizeof point, &label, sizeof label);
   }
 }
 
 /// What follows the field count. Only clouds as write() makes them are read: those of our own logs.
 template <class Point>
-bool read_points(CdrReader& in, std::size_t count, PointCloud& value) {
+bool read_points(CdrReader& in, std::size_t count, bool has_labels, PointCloud& value) {
   bool is_ours = true;
-  for (const PackedField& field : fields_of<Point>()) {
+  for (const PackedField& field : fields_of<Point>(has_labels)) {
     is_ours = is_ours && in.read_text() == field.name && in.read<std::uint32_t>() == field.offset &&
               in.read<std::uint8_t>() == field.type && in.read<std::uint32_t>() == 1;
   }
-  is_ours = is_ours && !in.read_bool() && in.read<std::uint32_t>() == sizeof(Point);
+  const std::size_t size = size_of_point<Point>(has_labels);
+  is_ours = is_ours && !in.read_bool() && in.read<std::uint32_t>() == size;
   if (!is_ours) return false;
   in.read<std::uint32_t>();  // row_step
   const std::size_t bytes = in.read_count(1);
-  if (!in.ok() || bytes % sizeof(Point) != 0 || bytes / sizeof(Point) != count) return false;
+  if (!in.ok() || bytes % size != 0 || bytes / size != count) return false;
   for (std::vector<float>* list : {&value.x, &value.y, &value.z, &value.intensity, &value.time_s}) {
     list->resize(count);
   }
   value.ring.resize(count);
   value.return_number.resize(count);
+  value.label.resize(has_labels ? count : 0);
+  value.instance.resize(has_labels ? count : 0);
   for (std::size_t i = 0; i < count; ++i) {
     std::array<std::uint8_t, sizeof(Point)> raw{};
     in.read_octets(raw.data(), raw.size());
@@ -161,6 +195,13 @@ bool read_points(CdrReader& in, std::size_t count, PointCloud& value) {
     value.time_s[i] = point.time;
     value.ring[i] = point.ring;
     value.return_number[i] = point.return_number;
+    if (!has_labels) continue;
+    std::array<std::uint8_t, sizeof(PointLabel)> raw_label{};
+    in.read_octets(raw_label.data(), raw_label.size());
+    PointLabel label{};
+    std::memcpy(&label, raw_label.data(), sizeof label);
+    value.label[i] = label.label;
+    value.instance[i] = label.instance;
   }
   in.read_bool();
   return in.ok();
@@ -180,13 +221,11 @@ void RosMapping<PointCloud>::write(CdrWriter& out, const WriteContext& to,
   out.add(static_cast<std::uint32_t>(rows));
   out.add(static_cast<std::uint32_t>(count / rows));
   if (!is_organised) {
-    write_points<PackedPoint>(out, count, count,
-                              [&](std::size_t i) { return pack_listed(value, i); });
+    write_points<PackedPoint>(out, value, count, count, pack_listed);
     out.add(true);  // is_dense: no point is invalid
     return;
   }
-  write_points<OrganisedPoint>(out, count, count / rows,
-                               [&](std::size_t i) { return pack_organised(value, i); });
+  write_points<OrganisedPoint>(out, value, count, count / rows, pack_organised);
   out.add(std::find(value.return_number.begin(), value.return_number.end(), 0) ==
           value.return_number.end());
 }
@@ -198,13 +237,15 @@ bool RosMapping<PointCloud>::read(CdrReader& in, const FrameNames&, PointCloud& 
   constexpr std::size_t kSmallestField = 16;
   const std::size_t fields = in.read_count(kSmallestField);
   const std::size_t count = std::size_t{height} * width;
-  if (fields == fields_of<OrganisedPoint>().size()) {
-    value.rows = height;
-    return height > 0 && read_points<OrganisedPoint>(in, count, value);
-  }
-  value.rows = 0;
-  return height == 1 && fields == fields_of<PackedPoint>().size() &&
-         read_points<PackedPoint>(in, count, value);
+  constexpr std::size_t kLabels = 2, kListed = fields_of<PackedPoint>().size(),
+                        kOrganised = fields_of<OrganisedPoint>().size();
+  static_assert(kListed + kLabels < kOrganised);
+  const bool is_organised = fields >= kOrganised;
+  const std::size_t more = fields - (is_organised ? kOrganised : kListed);
+  if (fields < kListed || height == 0 || (more != 0 && more != kLabels)) return false;
+  value.rows = is_organised ? height : 0;
+  if (is_organised) return read_points<OrganisedPoint>(in, count, more > 0, value);
+  return height == 1 && read_points<PackedPoint>(in, count, more > 0, value);
 }
 
 }  // namespace vinerow::record

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include "engine/api/messages/sensors.h"
@@ -14,6 +15,7 @@
 #include "engine/core/parallel.h"
 #include "engine/math/angles.h"
 #include "engine/sensors/blindness.h"
+#include "engine/sensors/camera/thing_numbers.h"
 #include "engine/sensors/laser_optics.h"
 #include "engine/sensors/mounted_sensor.h"
 #include "engine/sensors/resolution.h"
@@ -39,6 +41,7 @@ struct Lidar3dParams {
   Returns returns = Returns::kStrongest;
   double resolution_m = 0.0;
   bool organised = false;
+  bool labels = false;
 };
 
 std::string find_fault_in_grid(const Lidar3dParams& p) {
@@ -77,6 +80,9 @@ const ParameterTable<Lidar3dParams>& lidar_3d_table() {
           .boolean("organised", &P::organised,
                    "true: clouds have rows, the highest laser first, and columns of one azimuth, "
                    "with a point for each pulse, also where nothing was seen")
+          .boolean("labels", &P::labels,
+                   "true: points have the label and the number of what they are on, as pixels of "
+                   "cameras")
           .rule(find_fault_in_grid);
   return table;
 }
@@ -95,9 +101,17 @@ Duration sampling_of(const Lidar3dParams& params, const SensorContext& context) 
       context.physics_step.s()));
 }
 
+/// What a ray met, if points have labels.
+struct MetThing {
+  Label label = Label::kSky;
+  std::uint32_t number = ThingNumbers::kNothing;
+  bool operator==(const MetThing&) const = default;
+};
+
 struct Echo3d {
   double distance_m = 0.0;
   double power = 0.0;
+  MetThing thing;  ///< that returned most of it
 };
 
 class Lidar3d final : public MountedSensor<PointCloud>, public LooksOut {
@@ -115,6 +129,7 @@ class Lidar3d final : public MountedSensor<PointCloud>, public LooksOut {
         pattern_(make_scan_pattern(params.pattern, context.period.s(), context.part)),
         optics_(params.ranging, draw_offset_m(params.ranging, context)),
         random_(context.random()) {
+    if (params.labels) numbers_.emplace(world_->meshes);
     for (int ray = 1; ray < params.sub_rays; ++ray) {
       // Half of the beam's area lies inside of this circle.
       constexpr double kHalfArea = 0.7;
@@ -173,13 +188,16 @@ class Lidar3d final : public MountedSensor<PointCloud>, public LooksOut {
   }
 
  private:
-  static void resize(PointCloud& cloud, std::size_t count) {
+  void resize(PointCloud& cloud, std::size_t count) const {
     for (std::vector<float>* list :
          {&cloud.x, &cloud.y, &cloud.z, &cloud.intensity, &cloud.time_s}) {
       list->resize(count);
     }
     cloud.ring.resize(count);
     cloud.return_number.resize(count);
+    if (!numbers_) return;
+    cloud.label.resize(count);
+    cloud.instance.resize(count);
   }
 
   /// Rows of an organised cloud: of each ring its row, and a cloud in which nothing was seen. The
@@ -356,11 +374,19 @@ class Lidar3d final : public MountedSensor<PointCloud>, public LooksOut {
     const double reading_m = optics_.reading_m(echo.distance_m, noise);
     if (!std::isfinite(reading_m)) return;
     const double percent = 100.0 * optics_.apparent_reflectance(echo.power, echo.distance_m);
-    add(cloud_, pulse, round_to_step(reading_m, params_.resolution_m), percent, number);
+    add(cloud_, pulse, round_to_step(reading_m, params_.resolution_m), percent, number, echo.thing);
+  }
+
+  MetThing find_thing(const RayHit& hit) {
+    if (!numbers_) return {};
+    if (hit.surface == SurfaceClass::kVehicle) {
+      return {Label::kVehicle, numbers_->of_vehicle(links_->scene().vehicle_of(hit.mesh))};
+    }
+    return {numbers_->label(hit), numbers_->of(hit, last_thing_)};
   }
 
   void add(PointCloud& cloud, const LaserPulse& pulse, double range_m, double intensity,
-           std::uint8_t number) const {
+           std::uint8_t number, const MetThing& thing) const {
     const Eigen::Vector3d p_S = range_m * pulse.dir_S;
     if (params_.organised) {
       const std::size_t i = place_of(pulse);
@@ -369,6 +395,9 @@ class Lidar3d final : public MountedSensor<PointCloud>, public LooksOut {
       cloud.z[i] = static_cast<float>(p_S.z());
       cloud.intensity[i] = static_cast<float>(intensity);
       cloud.return_number[i] = number;
+      if (!numbers_) return;
+      cloud.label[i] = static_cast<std::uint8_t>(thing.label);
+      cloud.instance[i] = thing.number;
       return;
     }
     cloud.x.push_back(static_cast<float>(p_S.x()));
@@ -378,23 +407,44 @@ class Lidar3d final : public MountedSensor<PointCloud>, public LooksOut {
     cloud.time_s.push_back(static_cast<float>(pulse.time_s));
     cloud.ring.push_back(pulse.ring);
     cloud.return_number.push_back(number);
+    if (!numbers_) return;
+    cloud.label.push_back(static_cast<std::uint8_t>(thing.label));
+    cloud.instance.push_back(thing.number);
+  }
+
+  /// What a ray of a beam meets.
+  struct Met {
+    double distance_m, power;
+    MetThing thing;
+  };
+
+  /// The thing that returned most of an echo, by all of its rays.
+  static MetThing find_strongest(std::span<const Met> rays) {
+    MetThing strongest;
+    double most = -1.0;
+    for (const Met& ray : rays) {
+      double power = 0.0;
+      for (const Met& other : rays) power += other.thing == ray.thing ? other.power : 0.0;
+      if (power <= most) continue;
+      most = power;
+      strongest = ray.thing;
+    }
+    return strongest;
   }
 
   /// What the rays of a beam meet, in the order of distance. @returns number of echoes
   int find_echoes(const LaserPulse& pulse, std::size_t first) {
-    struct Met {
-      double distance_m, power;
-    };
     std::array<Met, kMaxSubRays3d> met;
     int hits = 0;
     for (int ray = 0; ray < params_.sub_rays; ++ray) {
       const std::optional<RayHit>& hit = hits_[first + static_cast<std::size_t>(ray)];
       if (!hit) continue;
       const double power = optics_.power(*hit, rays_[first + static_cast<std::size_t>(ray)].dir_W);
-      met[hits++] = {hit->distance_m, power / params_.sub_rays};
+      const MetThing thing = find_thing(*hit);
+      met[hits++] = {hit->distance_m, power / params_.sub_rays, thing};
       if (ray > 0) continue;
       add(true_cloud_, pulse, hit->distance_m,
-          100.0 * optics_.apparent_reflectance(power, hit->distance_m), 1);
+          100.0 * optics_.apparent_reflectance(power, hit->distance_m), 1, thing);
     }
     std::sort(met.begin(), met.begin() + hits,
               [](const Met& a, const Met& b) { return a.distance_m < b.distance_m; });
@@ -408,6 +458,7 @@ class Lidar3d final : public MountedSensor<PointCloud>, public LooksOut {
         weighted_m += met[i].power * met[i].distance_m;
         plain_m += met[i].distance_m;
       }
+      if (numbers_) echo.thing = find_strongest(std::span(met).subspan(nearest, i - nearest));
       echo.distance_m = echo.power > 0.0 ? weighted_m / echo.power : plain_m / (i - nearest);
       echoes_[count++] = echo;
     }
@@ -437,6 +488,8 @@ class Lidar3d final : public MountedSensor<PointCloud>, public LooksOut {
   std::vector<std::size_t> order_;      ///< in which the pulses of a slice are cast
   std::vector<std::size_t> first_ray_;  ///< of each pulse of a slice: the beam's middle
   std::array<Echo3d, kMaxSubRays3d> echoes_;
+  std::optional<ThingNumbers> numbers_;  ///< if points have labels
+  ThingNumbers::Found last_thing_;
   std::size_t columns_ = 0;  ///< of an organised cloud
   PointCloud empty_;         ///< an organised cloud in which nothing was seen
   PointCloud cloud_, true_cloud_;

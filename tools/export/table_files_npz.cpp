@@ -196,7 +196,7 @@ std::optional<std::string> pixel_array(const MessageTable& table, const TableCel
     if (data.empty()) {
       first = picture;
       zip.check(static_cast<std::uint64_t>(table.rows().size()) * first.data.size());
-      data = npy_head(first.format == Picture::Format::kMono16 ? "<u2" : "|u1",
+      data = npy_head(Picture::bytes_per_pixel(first.format) == 2 ? "<u2" : "|u1",
                       fmt::format("({}, {}, {}{})", table.rows().size(), first.height, first.width,
                                   first.format == Picture::Format::kRgb8 ? ", 3" : ""));
     }

@@ -17,9 +17,10 @@ struct Picture {
   static constexpr const char* kType = "Picture";
   static constexpr MessageFrame kFrame = MessageFrame::kOwn;
   enum class Format : std::uint8_t {
-    kRgb8 = 0,   ///< red, green, blue
-    kMono8 = 1,  ///< one byte a pixel
-    kMono16 = 2  ///< two bytes a pixel, the lower one first
+    kRgb8 = 0,     ///< red, green, blue
+    kMono8 = 1,    ///< one byte a pixel
+    kDepth16 = 2,  ///< distance in millimetres, 0: none; two bytes a pixel, the lower one first
+    kMono16 = 3    ///< two bytes a pixel, the lower one first
   };
   std::uint32_t width = 0;
   std::uint32_t height = 0;
@@ -42,6 +43,7 @@ struct Picture {
 inline std::span<const EnumName> enum_names(Picture::Format) {
   using enum Picture::Format;
   static constexpr EnumName kNames[] = {enum_name(kRgb8, "RGB8"), enum_name(kMono8, "MONO8"),
+                                        enum_name(kDepth16, "DEPTH16"),
                                         enum_name(kMono16, "MONO16")};
   return kNames;
 }

@@ -160,6 +160,10 @@ struct PointCloud {
   std::vector<std::uint16_t> ring;  ///< number of the laser
   /// 1: the strongest echo of its pulse, 2: the last one, 0: not seen
   std::vector<std::uint8_t> return_number;
+  /// Truth: what was met (Label), and the number of the thing. Empty: the sensor does not give
+  /// them.
+  std::vector<std::uint8_t> label;
+  std::vector<std::uint32_t> instance;
 
   template <class Self, class F>
   static void fields(Self& self, F&& f) {
@@ -172,6 +176,9 @@ struct PointCloud {
     f({"return_number", "", "1: strongest echo of its pulse, 2: last one, 0: not seen"},
       self.return_number);
     f({"rows", "", "of an organised cloud, one after the other; 0: a list"}, self.rows);
+    f({"label", "", "what was met, as cameras label it; empty: not given"}, self.label);
+    f({"instance", "", "number of the thing, as cameras number it; empty: not given"},
+      self.instance);
   }
 };
 

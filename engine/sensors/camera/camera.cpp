@@ -159,6 +159,7 @@ class Camera final : public MountedSensor<Picture>, public LooksOut {
       exposure_readings_->prefill(exposure_);
     }
     picture_ = make_picture(lens_, params.picture == Content::kColour ? Picture::Format::kRgb8
+                                   : is_depth_camera_                 ? Picture::Format::kDepth16
                                                                       : Picture::Format::kMono16);
     truth_ = picture_;
     readings_.prefill(picture_);
@@ -170,7 +171,7 @@ class Camera final : public MountedSensor<Picture>, public LooksOut {
                          fill});
       layers_.back().readings.prefill(layers_.back().picture);
     };
-    add(params.depth, "_depth", Picture::Format::kMono16, &Camera::fill_depth);
+    add(params.depth, "_depth", Picture::Format::kDepth16, &Camera::fill_depth);
     add(params.normals, "_normals", Picture::Format::kRgb8, &Camera::fill_normals);
     add(params.semantic, "_semantic", Picture::Format::kMono8, &Camera::fill_semantic);
     add(params.instance, "_instance", Picture::Format::kRgb8, &Camera::fill_instance);

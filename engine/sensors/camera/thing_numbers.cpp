@@ -28,6 +28,12 @@ ThingNumbers::Thing ThingNumbers::thing_of(std::size_t mesh, std::size_t k) cons
           k + 1 < things.size() ? things[k + 1] : all};
 }
 
+Label ThingNumbers::label(const RayHit& hit) const {
+  if (hit.mesh < 0) return label_of(hit.surface);
+  const MeshInstance& instance = meshes_[static_cast<std::size_t>(hit.mesh)];
+  return instance.label.value_or(label_of(instance.surface));
+}
+
 std::uint32_t ThingNumbers::of(const RayHit& hit, Found& last) const {
   if (hit.mesh < 0) return kTerrain;
   const auto triangle = static_cast<std::uint32_t>(hit.triangle);

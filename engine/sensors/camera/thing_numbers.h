@@ -36,6 +36,8 @@ class ThingNumbers {
   /// Number of what a ray met in the world. @param last  what the ray before met, often the same
   /// thing; then what this one met
   std::uint32_t of(const RayHit& hit, Found& last) const;
+  /// Class of what a ray met in the world.
+  Label label(const RayHit& hit) const;
   std::uint32_t of_vehicle(int vehicle) const { return end_ + static_cast<std::uint32_t>(vehicle); }
   /// First number that no thing of the world has.
   std::uint32_t end() const { return end_; }

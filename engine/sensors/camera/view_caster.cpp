@@ -48,12 +48,6 @@ std::vector<Vector3d> sample_offsets(int samples) {
   return offsets;
 }
 
-Label label_at(const WorldModel& world, const RayHit& hit) {
-  if (hit.mesh < 0) return label_of(hit.surface);
-  const MeshInstance& instance = world.meshes[static_cast<std::size_t>(hit.mesh)];
-  return instance.label.value_or(label_of(instance.surface));
-}
-
 }  // namespace
 
 /// Pixels that are cast together.
@@ -312,7 +306,7 @@ void ViewCaster::write_facts(const Tile& tile, const TileRays& r, View& view) co
       return;
     }
     view.thing[pixel] = numbers_.of(hit, last);
-    view.label[pixel] = label_at(world_, hit);
+    view.label[pixel] = numbers_.label(hit);
   });
 }
 

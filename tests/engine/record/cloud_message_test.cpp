@@ -146,6 +146,30 @@ TEST(CloudMessage, AnOrganisedOneHasTheFieldsOfOustersDriver) {
   EXPECT_NEAR(message.get<std::uint32_t>("t", 2), 25'000'000.0, 1.0);
 }
 
+TEST(CloudMessage, LabelsFollowTheOtherFields) {
+  PointCloud cloud = four_points();
+  cloud.label = {1, 2, 0, 10};
+  cloud.instance = {1, 70'000, 0, 0xfffffff0};
+  for (const std::uint32_t rows : {2u, 0u}) {
+    cloud.rows = rows;
+    if (rows == 0) cloud.return_number[2] = 1;
+    const std::vector<std::uint8_t> bytes = write(cloud);
+    const Message message = decode(bytes);
+    EXPECT_EQ(message.data.size(), 4u * message.point_step);
+    EXPECT_EQ(message.fields.at("label").type, kUint8);
+    EXPECT_EQ(message.fields.at("instance").type, kUint32);
+    EXPECT_EQ(message.get<std::uint8_t>("label", 3), 10);
+    EXPECT_EQ(message.get<std::uint32_t>("instance", 1), 70'000u);
+    EXPECT_EQ(message.get<std::uint32_t>("instance", 3), 0xfffffff0u);
+    EXPECT_EQ(message.get<float>("z", 0), 12.0F);
+    PointCloud back;
+    CdrReader in(bytes);
+    ASSERT_TRUE(RosMapping<PointCloud>::read(in, FrameNames::of_signal("rover/lidar"), back));
+    EXPECT_EQ(back.label, cloud.label);
+    EXPECT_EQ(back.instance, cloud.instance);
+  }
+}
+
 TEST(CloudMessage, AnOrganisedOneIsDenseWhereAllWasSeen) {
   PointCloud cloud = four_points();
   cloud.return_number[2] = 1;

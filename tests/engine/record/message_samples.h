@@ -80,6 +80,9 @@ void fill(RandomStream& random, T& value) {
     }
     value.ring.resize(size);
     value.return_number.resize(size);
+    const bool has_labels = random.uniform() < 0.5;
+    value.label.resize(has_labels ? size : 0);
+    value.instance.resize(has_labels ? size : 0);
   }
   if constexpr (std::is_same_v<T, NamedValues>) {
     value.names.resize(size);
@@ -103,7 +106,7 @@ void fill(RandomStream& random, T& value) {
     }
   }
   if constexpr (std::is_same_v<T, Picture>) {
-    value.format = static_cast<Picture::Format>(random.next_u64() % 3);
+    value.format = static_cast<Picture::Format>(random.next_u64() % 4);
     value.width = static_cast<std::uint32_t>(size);
     value.height = static_cast<std::uint32_t>(random.next_u64() % 5);
     if (value.width == 0 || value.height == 0) value.width = value.height = 0;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <thread>
 #include <tuple>
@@ -16,6 +17,8 @@
 #include "engine/core/constants.h"
 #include "engine/core/parallel.h"
 #include "engine/math/angles.h"
+#include "engine/physics/static_scene.h"
+#include "tests/engine/physics/small_worlds.h"
 #include "tests/engine/sensors/plate_and_wall.h"
 #include "tests/engine/sensors/scan_bench.h"
 #include "tests/support/no_alloc.h"
@@ -70,6 +73,58 @@ TEST(Lidar3d, EveryPointLiesOnTheWallsOfARoom) {
   EXPECT_EQ(bench.truth().x, cloud.x);
   // The stamp is the start of the frame, as drivers have it for LIO: points are not before it.
   EXPECT_NEAR(bench.reading().stamp().s(), bench.last().s() - 0.1, 1e-12);
+}
+
+TEST(Lidar3d, PointsHaveTheLabelsOfWhatTheyAreOn) {
+  WorldModel world;
+  world.terrain = physics::test::make_flat(-1.0);
+  world.meshes = {
+      physics::test::make_instance("wall", physics::test::make_box_mesh({0.5f, 3.0f, 2.0f}),
+                                   {5.0, 0.0, 1.0}, SurfaceClass::kObstacle),
+      physics::test::make_instance("worker", physics::test::make_box_mesh({0.3f, 0.3f, 0.9f}),
+                                   {0.0, 4.0, -0.1}, SurfaceClass::kObstacle)};
+  world.meshes[1].label = Label::kPerson;
+  const physics::StaticScene scene(std::make_shared<const WorldModel>(world));
+  for (const bool is_organised : {false, true}) {
+    const ParameterSet parameters =
+        test::sensor_parameters("lidar_3d", ideal({{"labels", true},
+                                                   {"organised", is_organised},
+                                                   {"sub_rays", std::int64_t{3}},
+                                                   {"divergence_deg", 0.01}}));
+    Bench bench("lidar_3d", parameters, scene.queries(), 10.0, 1, {}, &world);
+    bench.step();
+    bench.step();
+    for (const PointCloud* cloud : {&bench.reading().value(), &bench.truth()}) {
+      ASSERT_EQ(cloud->label.size(), cloud->x.size());
+      ASSERT_EQ(cloud->instance.size(), cloud->x.size());
+      std::map<std::pair<Label, std::uint32_t>, int> count;
+      for (std::size_t i = 0; i < cloud->x.size(); ++i) {
+        const Eigen::Vector3d p = point(*cloud, i);
+        // Numbers: 1 is the terrain, then the meshes. In S the ground is at z = -1.
+        std::pair expected(Label::kSky, 0u);
+        if (cloud->return_number[i] > 0) {
+          const double to_worker =
+              std::max(std::abs(p.x()), std::abs(p.y() - 4.0));  // horizontally, 0.3 m on it
+          if (std::abs(p.z() + 1.0) < 1e-3) {
+            expected = {Label::kGround, 1u};
+          } else if (to_worker < 0.301) {
+            expected = {Label::kPerson, 3u};
+          } else {
+            expected = {Label::kObstacle, 2u};
+          }
+        }
+        const std::pair found(static_cast<Label>(cloud->label[i]), cloud->instance[i]);
+        ASSERT_EQ(found, expected) << p.transpose();
+        ++count[found];
+      }
+      EXPECT_GT((count[{Label::kGround, 1u}]), 5000);
+      EXPECT_GT((count[{Label::kObstacle, 2u}]), 1000);
+      EXPECT_GT((count[{Label::kPerson, 3u}]), 100);
+    }
+  }
+  const PlainScene ground{test::GroundPlane{}};
+  Bench plain = make(ideal(), ground);
+  EXPECT_TRUE(plain.step().label.empty());
 }
 
 TEST(Lidar3d, AMovingScannerSkewsTheWallByItsTimes) {
@@ -170,6 +225,29 @@ TEST(Lidar3d, ReportsTheSecondStrongestEchoIfTheStrongestIsTheLast) {
   EXPECT_NEAR(both.x[1], 5.0, 1e-4);
   EXPECT_EQ(both.return_number[0], 1);
   EXPECT_EQ(both.return_number[1], 2);
+}
+
+TEST(Lidar3d, AnEchoFromTwoThingsHasTheLabelOfTheStronger) {
+  // As above, but the wall is near enough to make one echo with the twig. By power, of five rays:
+  // 4 x 0.35 / 5.5^2 > 1 x 0.45 / 5^2; each ray alone the other way about.
+  const auto label = [](double twig_half_m) {
+    PlainScene scene;
+    scene.panels.push_back({{5, 0.253, 0}, {-1, 0, 0}, SurfaceClass::kCanopy, twig_half_m, 1e-4});
+    scene.panels.push_back({{5.5, 0, 0}, {-1, 0, 0}, SurfaceClass::kPost});
+    Bench bench = make(ideal({{"elevations_deg", std::vector<double>{0.0}},
+                              {"columns", std::int64_t{2}},
+                              {"field_of_view_deg", 10.0},
+                              {"divergence_deg", 0.2},
+                              {"sub_rays", std::int64_t{5}},
+                              {"labels", true}}),
+                       scene);
+    const PointCloud& cloud = bench.step();
+    EXPECT_EQ(cloud.x.size(), 1u);
+    EXPECT_EQ(bench.truth().label.size(), 1u);
+    return static_cast<Label>(cloud.label.at(0));
+  };
+  EXPECT_EQ(label(0.25), Label::kPost);
+  EXPECT_EQ(label(0.26), Label::kLeaf);  // over the middle and two more
 }
 
 TEST(Lidar3d, TheOwnVehicleStandsStillInItsClouds) {

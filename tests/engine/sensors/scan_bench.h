@@ -20,8 +20,10 @@ class ScanBench {
   ScanBench(const scenario::PartConfig& part, const SceneQuery& scene, std::uint64_t seed = 1)
       : ScanBench(part.type, part.parameters, scene, part.rate_Hz, seed) {}
   ScanBench(const std::string& type, const ParameterSet& parameters, const SceneQuery& scene,
-            double rate_Hz = 10.0, std::uint64_t seed = 1, Vehicles vehicles = {}) {
+            double rate_Hz = 10.0, std::uint64_t seed = 1, Vehicles vehicles = {},
+            const WorldModel* world = nullptr) {
     SensorContext context = bench_.context(rate_Hz, seed);
+    if (world != nullptr) context.world = world;
     context.scene = &scene;
     context.light = [&scene]() -> const RayScene& { return scene; };
     context.vehicles = std::move(vehicles);

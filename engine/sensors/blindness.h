@@ -1,6 +1,8 @@
 #pragma once
 /// Whether a sensor that looks out is where it sees nothing.
 
+#include <Eigen/Core>
+#include <span>
 #include <string>
 
 #include "engine/api/scene_query.h"
@@ -10,9 +12,10 @@ namespace vinerow::sensors {
 
 /// @param light  surfaces of the world
 /// @param vehicles  null: there are none; they are moved to where they are now
+/// @param view_W  directions all over what a camera sees; empty: no camera
 /// @returns reason why a sensor here sees nothing: "is inside of rover/body". Empty: there is none.
 std::string find_blindness(const Pose& X_WS, const WorldModel& world, const RayScene& light,
-                           VehicleScene* vehicles);
+                           VehicleScene* vehicles, std::span<const Eigen::Vector3d> view_W = {});
 
 /// Sensor that looks out.
 class LooksOut {

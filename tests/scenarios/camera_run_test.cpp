@@ -180,5 +180,38 @@ vehicles:
       << inside.output;
 }
 
+/// A body that is open below, so that not all rays leave it: in it, and just ahead of it,
+/// looking back at nothing else.
+TEST(CameraRun, IsInsideOfARoverWhereverItLooks) {
+  const ScratchFolder folder("camera_rover");
+  const auto validate = [&](const std::string& place) {
+    return run_vinerow("validate " + folder.file("scenario.yaml", R"(
+vinerow: 1
+duration_s: 0.1
+world: {type: vineyard, row_count: 2, row_length_m: 10, relief_m: 0, leaf_cards_per_m: 10, plant_variants: 1}
+vehicles:
+  rover:
+    include: )" + std::string(VINEROW_SOURCE_DIR) + R"(/assets/vehicles/rover_paper_b.yaml
+    spawn: {alley: 0, offset_m: 3}
+    sensors:
+      eye: {type: camera, width_px: 16, height_px: 16, picture: depth, )" +
+                                                                      place + "}\n"));
+  };
+  for (const char* position : {"[0, 0, 0.2]", "[-0.5, 0, 0.2]", "[0.2, -0.2, 0.2]"}) {
+    for (const char* yaw_deg : {"-30", "0", "90", "180"}) {
+      const std::string place = std::string("position_m: ") + position +
+                                ", rotation_deg: [0, -5, " + yaw_deg + "], horizontal_fov_deg: 70";
+      const test::CommandResult inside = validate(place);
+      EXPECT_EQ(inside.status, 2) << place;
+      EXPECT_NE(inside.output.find("the camera is inside of rover/body"), std::string::npos)
+          << place << inside.output;
+    }
+  }
+  EXPECT_EQ(
+      validate("position_m: [0.8, 0, 0.15], rotation_deg: [0, 0, 180], horizontal_fov_deg: 20")
+          .status,
+      0);
+}
+
 }  // namespace
 }  // namespace vinerow::camera_run_test

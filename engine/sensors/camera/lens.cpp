@@ -36,13 +36,43 @@ std::string fault_of(const LensParams& p) {
         "wider",
         deg_from_rad(p.horizontal_fov_rad), deg_from_rad(kWidest_rad));
   }
-  const double shortest_px = 0.5 * p.width_px / std::tan(0.5 * kWidest_rad);
-  for (const auto& [key, f_px] : {std::pair("fx_px", p.fx_px), {"fy_px", p.fy_px}}) {
-    if (!f_px || *f_px >= shortest_px) continue;
+  // Along a row and across the rows, from the principal point to the farther border.
+  const double fx_px = p.fx_px.value_or(0.5 * p.width_px / std::tan(0.5 * p.horizontal_fov_rad));
+  const double fy_px = p.fy_px.value_or(fx_px);
+  struct Axis {
+    const char *size, *focal, *middle, *pixels;
+    double px, f_px;
+    bool has_f;
+    std::optional<double> c_px;
+  };
+  const Axis axes[] = {{"width_px", "fx_px", "cx_px", "pixels in a row", double{1} * p.width_px,
+                        fx_px, p.fx_px.has_value(), p.cx_px},
+                       {"height_px", "fy_px", "cy_px", "rows", double{1} * p.height_px, fy_px,
+                        p.fy_px.has_value(), p.cy_px}};
+  const double steepest = std::tan(0.5 * kWidest_rad);
+  for (const Axis& axis : axes) {
+    const double middle_px = 0.5 * (axis.px - 1.0), c_px = axis.c_px.value_or(middle_px);
+    const double reach_px = 0.5 + std::max(c_px, axis.px - 1.0 - c_px);
+    if (reach_px <= steepest * axis.f_px * (1.0 + 1e-9)) continue;
+    if (0.5 * axis.px <= steepest * axis.f_px) {
+      return fmt::format(
+          "{} = {:g} with {} {} and a focal length of {:.4g} pixels looks {:.1f} deg aside, must "
+          "be at most {:.0f} deg for lens brown_conrady",
+          axis.middle, c_px, axis.px, axis.pixels, axis.f_px,
+          deg_from_rad(std::atan(reach_px / axis.f_px)), deg_from_rad(0.5 * kWidest_rad));
+    }
+    if (axis.has_f) {
+      return fmt::format(
+          "{} = {:g}, must be at least {:.3g} for lens brown_conrady with {} {}, which is a view "
+          "of {:.0f} deg; lens fisheye is wider",
+          axis.focal, axis.f_px, 0.5 * axis.px / steepest, axis.px, axis.pixels,
+          deg_from_rad(kWidest_rad));
+    }
     return fmt::format(
-        "{} = {:g}, must be at least {:.3g} for lens brown_conrady with {} pixels in a row, which "
-        "is a view of {:.0f} deg; lens fisheye is wider",
-        key, *f_px, shortest_px, p.width_px, deg_from_rad(kWidest_rad));
+        "{} = {}, must be at most {:.0f} for lens brown_conrady with a focal length of {:.4g} "
+        "pixels, which is a view of {:.0f} deg; lens fisheye is wider",
+        axis.size, axis.px, std::floor(2.0 * steepest * axis.f_px), axis.f_px,
+        deg_from_rad(kWidest_rad));
   }
   return "";
 }

@@ -362,7 +362,19 @@ void ViewCaster::add_light(const Tile& tile, TileRays& r, View& view) const {
 }
 
 std::string ViewCaster::blindness(const Pose& X_WS) {
-  return find_blindness(X_WS, world_, light_, links_ ? &links_->scene() : nullptr);
+  // A grid of pixels from border to border.
+  constexpr int kGrid = 7;
+  const Eigen::Matrix3d R_WC = X_WS.q.toRotationMatrix() * R_SC();
+  std::vector<Vector3d> view_W;
+  for (int row = 0; row < kGrid; ++row) {
+    for (int column = 0; column < kGrid; ++column) {
+      const auto x = static_cast<std::size_t>(column * (lens_.width() - 1) / (kGrid - 1));
+      const auto y = static_cast<std::size_t>(row * (lens_.height() - 1) / (kGrid - 1));
+      const std::size_t pixel = y * static_cast<std::size_t>(lens_.width()) + x;
+      view_W.push_back((R_WC * direction_C_[pixel].cast<double>()).normalized());
+    }
+  }
+  return find_blindness(X_WS, world_, light_, links_ ? &links_->scene() : nullptr, view_W);
 }
 
 }  // namespace vinerow::sensors

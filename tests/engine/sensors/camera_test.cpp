@@ -285,6 +285,58 @@ TEST(Camera, SaysWhyItWouldSeeNothing) {
   outside.step(at(0.0, 0.0, 1.0));
 }
 
+/// A mesh of the walls of a room of 1 m x 1 m x 1 m about the origin, each 1 cm thick and 2 mm
+/// from the next: rays enter and leave each of them. @param walls  of six, x first
+std::shared_ptr<TriangleMesh> make_crate(std::size_t walls = 6) {
+  auto crate = std::make_shared<TriangleMesh>();
+  for (std::size_t wall = 0; wall < walls; ++wall) {
+    const auto axis = static_cast<int>(wall / 2);
+    Vector3f half = Vector3f::Constant(0.493f), middle = Vector3f::Zero();
+    half[axis] = 0.005f;
+    middle[axis] = wall % 2 == 0 ? 0.5f : -0.5f;
+    const auto board = small::make_box_mesh(half);
+    const auto first = static_cast<std::uint32_t>(crate->vertices.size());
+    for (const Vector3f& v : board->vertices) crate->vertices.push_back(v + middle);
+    for (const auto& [a, b, c] : board->triangles) {
+      crate->triangles.push_back({first + a, first + b, first + c});
+    }
+  }
+  return crate;
+}
+
+TEST(Camera, ACrateOfBoardsLeavesNoSight) {
+  const auto world = flat_world();
+  const auto refusal = [&](std::shared_ptr<TriangleMesh> mesh, const Pose& X_WS) {
+    world->meshes = {
+        small::make_instance("crate", std::move(mesh), {3.0, 0.0, 0.6}, SurfaceClass::kObstacle)};
+    CameraBench bench(world, kSmall);
+    return test::refusal_of([&] { bench.step(X_WS); });
+  };
+  for (const double x : {2.7, 3.0, 3.4}) {
+    for (const double z : {0.3, 0.9}) {
+      EXPECT_EQ(refusal(make_crate(), at(x, 0.2, z)),
+                "the camera is inside of crate: change its position_m");
+    }
+  }
+  // Looked at from outside, and out of one that lacks all but two walls.
+  EXPECT_EQ(refusal(make_crate(), at(2.3, 0.0, 0.6)), "no error");
+  EXPECT_EQ(refusal(make_crate(2), at(3.0, 0.2, 0.6)), "no error");
+}
+
+TEST(Camera, AWallThatFillsTheViewHasNoInside) {
+  // Of the directions all around, five of seven meet a wall that stands like this.
+  const Vector3d towards_W = Vector3d(0.556, 0.810, 0.184).normalized();
+  Pose X_WS;
+  X_WS.q.setFromTwoVectors(Vector3d::UnitX(), towards_W);
+  X_WS.p = {0.0, 0.0, 15.0};
+  const auto world = flat_world();
+  world->meshes = {small::make_instance("wall", small::make_box_mesh({0.05f, 12.0f, 12.0f}),
+                                        X_WS.p + 0.25 * towards_W, SurfaceClass::kObstacle)};
+  world->meshes[0].X_WM.q = X_WS.q;
+  CameraBench bench(world, kSmall);
+  EXPECT_EQ(test::refusal_of([&] { bench.step(X_WS); }), "no error");
+}
+
 TEST(Camera, ABoardHasNoInside) {
   const auto world = flat_world();
   auto board = std::make_shared<TriangleMesh>();

@@ -119,6 +119,20 @@ TEST(Lens, RefusesAbsurdParameters) {
   EXPECT_EQ(refusal({{"horizontal_fov_deg", 170.0}}),
             "rover.sensors.front: horizontal_fov_deg = 170, must be at most 160 for lens "
             "brown_conrady; lens fisheye is wider");
+  // Each focal length is measured by its own axis: 240 rows, 320 pixels in a row.
+  const std::int64_t columns = 320, rows = 240;
+  EXPECT_EQ(refusal({{"width_px", columns}, {"height_px", rows}, {"fy_px", 25.0}}), "no error");
+  EXPECT_EQ(refusal({{"width_px", columns}, {"height_px", rows}, {"fy_px", 20.0}}),
+            "rover.sensors.front: fy_px = 20, must be at least 20.7 for lens brown_conrady with "
+            "240 rows, which is a view of 160 deg; lens fisheye is wider");
+  EXPECT_EQ(
+      refusal({{"width_px", std::int64_t{16}}, {"height_px", std::int64_t{8192}}, {"fx_px", 10.0}}),
+      "rover.sensors.front: height_px = 8192, must be at most 115 for lens brown_conrady "
+      "with a focal length of 10 pixels, which is a view of 160 deg; lens fisheye is wider");
+  EXPECT_EQ(refusal({{"width_px", columns}, {"fx_px", 277.0}, {"cx_px", 9e4}}),
+            "rover.sensors.front: cx_px = 90000 with 320 pixels in a row and a focal length of 277 "
+            "pixels looks 89.8 deg aside, must be at most 80 deg for lens brown_conrady");
+  EXPECT_EQ(refusal({{"width_px", columns}, {"fx_px", 277.0}, {"cx_px", -300.0}}), "no error");
 }
 
 }  // namespace

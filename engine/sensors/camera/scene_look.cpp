@@ -24,25 +24,29 @@ constexpr float kRedEdgeAir = 0.75f, kNirAir = 0.40f;
 /// Leaves: PROSPECT-D (Feret et al., Remote Sens. Environ. 193, 2017) gives 0.28 and 0.46 for
 /// green, 0.41 to 0.44 and 0.47 to 0.50 for yellow, red and brown ones. Grass: 0.23 and 0.49 of a
 /// sample of ECOSTRESS, here with gaps. Dry soil (PROSAIL's): 0.32 red, 0.35, 0.40. Others are
-/// chosen.
+/// chosen, bark so that its NDVI is 0.2 to 0.3.
 struct Infrared {
   float red_edge, nir;
 };
 
 /// 1 for green plants, 0 for yellow and brown ones: from the colour, since chlorophyll takes red
-/// light.
-float greenness(const Vector3f& rgb) {
+/// light. @param full  difference of green and red, as a share of their sum, of a green plant
+float greenness(const Vector3f& rgb, float full) {
   const float sum = rgb.x() + rgb.y();
-  return sum > 0.0f ? std::clamp(3.0f * (rgb.y() - rgb.x()) / sum, 0.0f, 1.0f) : 0.0f;
+  return sum > 0.0f ? std::clamp((rgb.y() - rgb.x()) / (full * sum), 0.0f, 1.0f) : 0.0f;
 }
 
 Infrared infrared_of(const Vector3f& rgb, Label label) {
-  const float green = greenness(rgb);
+  // The ground's grass has soil and straw among it.
+  constexpr float kLeaf = 1.0f / 3.0f, kGrass = 1.0f / 6.0f;
+  const float green = greenness(rgb, label == Label::kGround ? kGrass : kLeaf);
   const auto blend = [&](float dead, float alive) { return dead + green * (alive - dead); };
   switch (label) {
     case Label::kLeaf:
     case Label::kWeed:
-      return {blend(0.42f, 0.28f), blend(0.48f, 0.46f)};
+      // No leaf is darker in the infrared than in red.
+      return {std::max(blend(0.42f, 0.28f), rgb.x()),
+              std::max(blend(0.48f, 0.46f), 1.08f * rgb.x())};
     case Label::kGround: {
       // Soil reflects more with the wavelength, and about evenly from red on; grass as leaves with
       // gaps.
@@ -53,7 +57,7 @@ Infrared infrared_of(const Vector3f& rgb, Label label) {
     case Label::kFruit:
       return {0.30f, 0.45f};
     case Label::kWood:
-      return {1.3f * rgb.x() + 0.05f, 1.6f * rgb.x() + 0.10f};
+      return {1.2f * rgb.x() + 0.01f, 1.5f * rgb.x() + 0.02f};
     default:
       return {rgb.x(), rgb.x()};
   }

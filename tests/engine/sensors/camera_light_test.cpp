@@ -89,44 +89,86 @@ double level(const Picture& picture, int x, int y) {
   return sum;
 }
 
-TEST(Camera, NdviIsThatOfLeavesAndOfSoil) {
-  const auto world = flat_world();
-  world->soil.name = "tilled_soil";
-  // A leaf in the open, and a panel of known reflectance, as field campaigns use it.
-  world->meshes = {box("leaf", {2.0, 1.0, 0.5}, {0.4f, 0.4f, 0.01f}, SurfaceClass::kCanopy,
-                       {0.05f, 0.12f, 0.03f}),
-                   box("panel", {2.0, -1.0, 0.5}, {0.4f, 0.4f, 0.01f}, SurfaceClass::kObstacle),
-                   box("red_leaf", {2.0, 2.2, 0.5}, {0.4f, 0.4f, 0.01f}, SurfaceClass::kCanopy,
-                       {0.35f, 0.10f, 0.04f})};
-  std::map<std::string, std::array<double, 3>> reflectance;  // leaf, soil, autumn leaf
+/// NDVI and NDRE of places beneath a camera 4 m above the ground, beside a panel of known
+/// reflectance, as field campaigns use it.
+struct PlantIndices {
+  double ndvi, ndre;
+};
+
+std::vector<PlantIndices> plant_indices(const std::shared_ptr<WorldModel>& world,
+                                        const std::vector<std::pair<double, double>>& y_depth_m) {
+  std::map<std::string, std::vector<double>> reflectance;
   for (const char* band : {"red", "red_edge", "nir"}) {
     CameraBench bench(world, with(kSmall, {{"picture", std::string(band)},
-                                           {"horizontal_fov_deg", 90.0},
+                                           {"horizontal_fov_deg", 120.0},
                                            {"rotation_deg", std::vector<double>{0.0, 90.0, 0.0}}}));
     bench.step(at(2.0, 0.0, 4.0));
     const auto& info = bench.value<CameraInfo>("rover/s_info");
-    const int row = 45;
-    const auto column = [&](double y, double depth_m) {
-      return static_cast<int>(std::lround(info.cx_px - y * info.fx_px / depth_m));
+    const auto level_at = [&](double y, double depth_m) {
+      const auto column = static_cast<int>(std::lround(info.cx_px - y * info.fx_px / depth_m));
+      return level(bench.picture(), column, 45);
     };
-    const double panel = level(bench.picture(), column(-1.0, 3.49), row) / 0.5;
-    reflectance[band] = {level(bench.picture(), column(1.0, 3.49), row) / panel,
-                         level(bench.picture(), column(0.0, 4.0), row) / panel,
-                         level(bench.picture(), column(2.2, 3.49), row) / panel};
+    const double panel = level_at(-1.0, 3.49) / 0.5;
+    for (const auto& [y, depth_m] : y_depth_m) {
+      reflectance[band].push_back(level_at(y, depth_m) / panel);
+    }
   }
-  const auto index = [&](std::size_t what, const char* low) {
-    const double nir = reflectance["nir"][what], other = reflectance[low][what];
-    return (nir - other) / (nir + other);
+  std::vector<PlantIndices> indices;
+  for (std::size_t i = 0; i < y_depth_m.size(); ++i) {
+    const double red = reflectance["red"][i], edge = reflectance["red_edge"][i];
+    const double nir = reflectance["nir"][i];
+    indices.push_back({(nir - red) / (nir + red), (nir - edge) / (nir + edge)});
+  }
+  return indices;
+}
+
+TEST(Camera, NdviIsThatOfLeavesBarkAndSoil) {
+  const auto world = flat_world();
+  world->soil.name = "tilled_soil";
+  // The leaves' and the trunks' own colours (vine_organs.cpp, trellis.cpp).
+  const auto plate = [](const char* name, double y, SurfaceClass surface, const Vector3f& colour) {
+    return box(name, {2.0, y, 0.5}, {0.4f, 0.4f, 0.01f}, surface, colour);
   };
-  std::printf("NDVI: leaf %.2f, autumn leaf %.2f, bare soil %.2f; NDRE of the leaf %.2f\n",
-              index(0, "red"), index(2, "red"), index(1, "red"), index(0, "red_edge"));
-  EXPECT_GT(index(0, "red"), 0.70);
-  EXPECT_LT(index(0, "red"), 0.95);
-  EXPECT_GT(index(1, "red"), 0.05);
-  EXPECT_LT(index(1, "red"), 0.25);
-  EXPECT_LT(index(2, "red"), 0.3);
-  EXPECT_GT(index(0, "red_edge"), 0.2);
-  EXPECT_LT(index(0, "red_edge"), 0.5);
+  world->meshes = {box("panel", {2.0, -1.0, 0.5}, {0.4f, 0.4f, 0.01f}, SurfaceClass::kObstacle),
+                   plate("leaf", 1.0, SurfaceClass::kCanopy, {0.055f, 0.135f, 0.032f}),
+                   plate("red_leaf", 2.2, SurfaceClass::kCanopy, {0.3f, 0.045f, 0.03f}),
+                   plate("yellow_leaf", 3.4, SurfaceClass::kCanopy, {0.55f, 0.38f, 0.042f}),
+                   plate("trunk", 4.6, SurfaceClass::kTrunk, {0.075f, 0.052f, 0.036f})};
+  const auto found =
+      plant_indices(world, {{1.0, 3.49}, {0.0, 4.0}, {2.2, 3.49}, {3.4, 3.49}, {4.6, 3.49}});
+  const PlantIndices &leaf = found[0], &soil = found[1], &red_leaf = found[2];
+  const PlantIndices &yellow_leaf = found[3], &bark = found[4];
+  std::printf(
+      "NDVI: leaf %.2f, red leaf %.2f, yellow leaf %.2f, bark %.2f, bare soil %.2f; NDRE of "
+      "the leaf %.2f\n",
+      leaf.ndvi, red_leaf.ndvi, yellow_leaf.ndvi, bark.ndvi, soil.ndvi, leaf.ndre);
+  EXPECT_NEAR(leaf.ndvi, 0.80, 0.10);
+  EXPECT_NEAR(leaf.ndre, 0.35, 0.15);
+  EXPECT_NEAR(soil.ndvi, 0.15, 0.10);
+  // The leaf alone: (0.48 - 0.30) / (0.48 + 0.30) = 0.23 and 0.04; bright grass shines through it.
+  EXPECT_NEAR(red_leaf.ndvi, 0.28, 0.08);
+  EXPECT_NEAR(yellow_leaf.ndvi, 0.12, 0.05);
+  EXPECT_NEAR(bark.ndvi, 0.25, 0.07);
+}
+
+TEST(Camera, NdviOfGrassIsBetweenSoilAndLeaves) {
+  const auto world = flat_world();
+  world->meshes = {box("panel", {2.0, -1.0, 0.5}, {0.4f, 0.4f, 0.01f}, SurfaceClass::kObstacle)};
+  double mean[2];
+  for (int i = 0; i < 2; ++i) {
+    world->soil.name = i == 0 ? "dry_grass" : "wet_grass";
+    mean[i] = 0.0;
+    std::vector<std::pair<double, double>> places;
+    for (double y = 0.5; y < 5.0; y += 0.25) places.emplace_back(y, 4.0);
+    for (const PlantIndices& place : plant_indices(world, places)) {
+      EXPECT_GT(place.ndvi, 0.05);
+      EXPECT_LT(place.ndvi, 0.85);
+      mean[i] += place.ndvi / static_cast<double>(places.size());
+    }
+  }
+  std::printf("NDVI: dry grass %.2f, wet grass %.2f\n", mean[0], mean[1]);
+  EXPECT_GT(mean[1], 0.35);
+  EXPECT_LT(mean[0], mean[1]);
 }
 
 /// A panel of 2 m x 2 m seen from 2 m ahead, with a texture.

@@ -7,7 +7,7 @@ namespace vinerow::worlds {
 namespace {
 
 /// Raised when the same parameters give other meshes, so that older files are not read.
-constexpr int kGeneratorVersion = 9;
+constexpr int kGeneratorVersion = 10;
 
 template <class T>
 void add_list(Hasher& hasher, const std::vector<T>& list) {

@@ -116,6 +116,7 @@ class VineGrower {
         name_(std::move(name)) {}
 
   void grow(double length_m, int vine_count) {
+    const bool is_cordon = growth_.pruning == Pruning::kCordon;
     const double spacing_m = length_m / vine_count;
     const double buds_per_vine = growth_.shoots_per_m * spacing_m / kOpenBuds;
     for (int vine = 0; vine < vine_count; ++vine) {
@@ -128,13 +129,20 @@ class VineGrower {
       for (int bud = 0; bud < buds; ++bud) {
         // All is drawn, whatever grows, so that each bud has numbers of its own. A cordon's shoots
         // grow in pairs from its spurs.
-        const int place = growth_.pruning == Pruning::kCordon ? bud / 2 * 2 : bud;
+        const int place = is_cordon ? bud / 2 * 2 : bud;
         const double along_m = (vine + (place + random.uniform(0.25, 0.75)) / buds) * spacing_m;
         const double vigour =
             own_vigour * std::max(0.3, 1.0 + growth_.vigour_std * cut(random.normal()));
         const double lean_along = 0.22 * cut(random.normal());
         const double lean_across = 0.16 * cut(random.normal());
         const bool is_open = random.uniform() < kOpenBuds;
+        if (stage_.is_pruned) {
+          // Canes are part of the trunks' meshes, as the cordon's arms.
+          if (is_cordon && !is_young && bud % 2 == 0) {
+            add_spur(along_m, Vector3d(lean_along, lean_across, 1.0), vigour);
+          }
+          continue;
+        }
         if (!is_open || (is_young && bud != buds / 2)) continue;
         grow_shoot_at(start_of(along_m, lean_along, lean_across, bud % 2 == 0 ? 1.0 : -1.0),
                       is_young ? kYoungVigour * vigour : vigour,
@@ -161,8 +169,18 @@ class VineGrower {
     return RandomStream(seed_, "", name_ + "." + part);
   }
 
+  /// Stump of last year's cane, with two buds.
+  void add_spur(double along_m, const Vector3d& dir, double vigour) {
+    constexpr double kLength_m = 0.055, kRadius_m = 0.0055;
+    ShootOrgan spur;
+    const Vector3d base(along_m, 0.0, space_.arm_height_m);
+    spur.points = {base, base + kLength_m * dir.normalized()};
+    spur.radius_m = kRadius_m * std::sqrt(vigour);
+    spur.is_brown = true;
+    organs.shoots.push_back(std::move(spur));
+  }
+
   void grow_shoot_at(const ShootStart& start, double vigour, RandomStream random) {
-    if (stage_.is_pruned) return;
     const std::vector<ShootNode> nodes = grow_shoot(growth_.variety, stage_, vigour);
     if (nodes.empty()) return;
     const double plane_rad = 0.5 * kPi + 0.6 * cut(random.normal());  // of its leaves, from x

@@ -342,5 +342,35 @@ TEST(VineTraining, YoungVinesAreSmallAndPergolasHaveARoof) {
               0.15 * leaf_area_m2(grow_at(75)));
 }
 
+TEST(VineGrowth, PrunedCordonsHaveSpursWhereTheirShootsGrow) {
+  VineGrowth growth;
+  growth.pruning = Pruning::kCordon;
+  growth.bbch = 0.0;
+  const VineOrgans winter = grow(growth);
+  EXPECT_TRUE(winter.leaves.empty());
+  ASSERT_FALSE(winter.shoots.empty());
+  for (const ShootOrgan& spur : winter.shoots) {
+    EXPECT_TRUE(spur.is_brown);
+    // Two buds of last year's cane: 4 to 8 cm.
+    EXPECT_NEAR((spur.points.back() - spur.points.front()).norm(), 0.06, 0.02);
+  }
+  growth.bbch = 55.0;
+  const VineOrgans spring = grow(growth);
+  EXPECT_GT(spring.shoots.size(), winter.shoots.size());
+  EXPECT_LE(spring.shoots.size(), 2 * winter.shoots.size());
+  for (const ShootOrgan& shoot : spring.shoots) {
+    double nearest_m = 1e9;
+    for (const ShootOrgan& spur : winter.shoots) {
+      nearest_m = std::min(nearest_m, std::abs(spur.points[0].x() - shoot.points[0].x()));
+    }
+    // Half the distance of two buds, 12 shoots to a metre.
+    EXPECT_LT(nearest_m, 0.5 / 12.0 + 1e-3);
+  }
+  // Canes are part of the trunks.
+  growth.pruning = Pruning::kGuyot;
+  growth.bbch = 0.0;
+  EXPECT_TRUE(grow(growth).shoots.empty());
+}
+
 }  // namespace
 }  // namespace vinerow::worlds::vine_growth_test

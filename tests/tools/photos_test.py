@@ -234,6 +234,63 @@ class Photos(unittest.TestCase):
             tilts.append([entry["pitch"], entry["roll"]])
         self.assertGreater(numpy.abs(tilts).max(axis=0).min(), 1.0)  # or the test above compares zeros
 
+    def test_bands_are_reflectances(self):
+        """TIFF files by Pillow: a grey panel, leaves after PROSPECT-D, and the fields that OpenDroneMap's photo.py asks for."""
+        bands = {"red": ("Red", 668, 10), "red_edge": ("Red edge", 717, 10), "nir": ("NIR", 840, 40)}
+        line = self.lines[0]
+        panel = line[0] + 12 * (line[0] - line[1]) / numpy.linalg.norm(line[0] - line[1])
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            half = 4.0
+            (folder / "panel.mtl").write_text("newmtl grey\nKd 0.8 0.8 0.8\n")
+            corners = [(x, y, z) for z in (0.0, 0.5) for x, y in ((-half, -half), (half, -half), (half, half), (-half, half))]
+            faces = ["5 6 7 8", "4 3 2 1", "1 2 6 5", "2 3 7 6", "3 4 8 7", "4 1 5 8"]
+            (folder / "panel.obj").write_text("mtllib panel.mtl\nusemtl grey\n" + "".join(f"v {x} {y} {z}\n" for x, y, z in corners) +
+                                              "".join(f"f {face}\n" for face in faces))
+            result = call("survey", SCENARIO, "--pictures", "--picture-width", WIDTH, "--bands", ",".join(bands), "--out", folder / "out",
+                          "--set", f"world.obstacles=[{{file: {folder}/panel.obj, x_m: {panel[0]}, y_m: {panel[1]}}}]")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn(f"of {WIDTH} x {HEIGHT} pixels in 3 bands", result.stdout)
+            pictures = folder / "out" / "pictures"
+            with (pictures / "truth.csv").open(newline="", encoding="utf-8") as file:
+                rows = list(csv.DictReader(file))
+            self.assertEqual(sorted(path.name for path in pictures.glob("*.tif")), sorted(row["photo"] for row in rows))
+            self.assertEqual(list(geo_entries(pictures / "geo.txt")), [row["photo"] for row in rows])
+            grey, ndvi = [], []
+            for first in range(0, len(rows), 3):
+                values = {}
+                for index, (row, (key, (name, wavelength, width))) in enumerate(zip(rows[first:first + 3], bands.items(), strict=True)):
+                    self.assertTrue(row["photo"].endswith(f"_{key}.tif"), row["photo"])
+                    with Image.open(pictures / row["photo"]) as photo:
+                        self.assertEqual((photo.mode, photo.size), ("I;16", (WIDTH, HEIGHT)))
+                        values[key] = numpy.asarray(photo).astype(float) / 32768
+                        exif, packet = photo.getexif(), bytes(photo.tag_v2[700])
+                    self.assertEqual(exif.get_ifd(0x8825)[1], "N")
+                    self.assertGreater(float(exif.get_ifd(0x8769)[0x829A]), 1e-6)  # ExposureTime
+                    facts = next(xml.etree.ElementTree.fromstring(re.search(rb"<x:xmpmeta.*</x:xmpmeta>", packet, re.S)[0]).iter(
+                        "{http://www.w3.org/1999/02/22-rdf-syntax-ns#}Description")).attrib
+                    self.assertEqual([facts[CAMERA + name] for name in ("BandName", "RigCameraIndex", "CaptureUUID")],
+                                     [name, str(index), row["photo"].split("_" + key)[0]])
+                    self.assertEqual([float(facts[CAMERA + name]) for name in ("CentralWavelength", "WavelengthFWHM")], [wavelength, width])
+                # Pictures as planned look straight down, with the upper edge to the yaw.
+                p, yaw = self.place(row), numpy.radians(float(row["yaw_deg"]))
+                d = panel + [0, 0, 0.5] - p
+                focal = WIDTH * 8.8 / 13.2
+                u = (WIDTH - 1) / 2 + focal * (d[0] * numpy.cos(yaw) - d[1] * numpy.sin(yaw)) / -d[2]
+                v = (HEIGHT - 1) / 2 - focal * (d[0] * numpy.sin(yaw) + d[1] * numpy.cos(yaw)) / -d[2]
+                if 3 <= u < WIDTH - 3 and 3 <= v < HEIGHT - 3:
+                    grey.append([values[key][round(v) - 1:round(v) + 2, round(u) - 1:round(u) + 2].mean() for key in bands])
+                index = (values["nir"] - values["red"]) / (values["nir"] + values["red"])
+                ndvi.append([*numpy.percentile(index, [50, 98])])
+        self.assertGreater(len(grey), 4)
+        numpy.testing.assert_allclose(grey, ((0.8 + 0.055) / 1.055) ** 2.4, atol=0.01)  # linear, from sRGB
+        # Dry grass with shadows; dense green leaves in the sun have 0.7 to 0.9.
+        middle, high = numpy.array(ndvi).T
+        self.assertGreater(middle.min(), 0.05)
+        self.assertLess(middle.max(), 0.7)
+        self.assertGreater(high.max(), 0.7)
+        self.assertLess(high.max(), 0.95)
+
     def test_accuracies_are_the_errors_of_the_estimate(self):
         entries = geo_entries(self.folder / "geo.txt")
         errors = numpy.array([local([entries[row["photo"]][key] for key in "yxz"], ORIGIN) -
@@ -268,6 +325,9 @@ class BadInput(unittest.TestCase):
             self.refuse(f"photographs of {size} pixels, must be from 16 to 8192 each way; change --picture-width", SCENARIO,
                         "--pictures", f"--picture-width={width}")
         self.refuse("--picture-width has no effect without --pictures", SCENARIO, "--picture-width", "640")
+        self.refuse("--bands has no effect without --pictures", SCENARIO, "--bands", "red")
+        self.refuse("--bands has 'red' twice", SCENARIO, "--pictures", "--bands", "red,nir,red")
+        self.refuse("--bands: uv not in {blue,green,red,red_edge,nir}", SCENARIO, "--pictures", "--bands", "uv")
         self.refuse("--sensor has no effect without --log", SCENARIO, "--pictures", "--sensor", "trigger")
         self.refuse("neither a scenario nor --polygon", SCENARIO, "--log", "runs/x", "--pictures")
 

@@ -67,9 +67,8 @@ std::string files(const scenario::DatasetConfig& config) {
   }
   text +=
       " |\n"
-      "| `instances/<part>/` | number of each pixel's thing: red + 256 green + 65536 blue; 0 sky, "
-      "1 "
-      "ground; the same in all pictures of a run |\n"
+      "| `instances/<part>/` | number of each pixel's thing: red + 256 green + 65536 blue; 0 sky "
+      "and land beyond the world, 1 ground; the same in all pictures of a run |\n"
       "| `depth/<part>/` | depth along the optical axis in mm, 16 bits; 0: nothing up to 65 m |\n"
       "| `pictures.csv` | pose of the optical frame (x right, y down, z forward) in east, north, "
       "up; latitude and longitude; lens (names and order of ROS CameraInfo); factors |\n";

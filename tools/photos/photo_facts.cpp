@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
+#include "engine/core/check.h"
 #include "engine/math/angles.h"
 
 namespace vinerow::tools {
@@ -142,8 +144,29 @@ Eigen::Vector3d photo_angles(const Eigen::Quaterniond& q_WS) {
           std::atan2(right.z(), axis.z()) + 0.0};
 }
 
-std::string exif_segment(const PhotoFacts& facts) {
+namespace {
+
+/// The three directories of Exif in a TIFF file.
+struct Directories {
   Directory main, exif, gps;
+
+  std::size_t end() const { return 8 + main.size() + exif.size() + gps.size(); }
+
+  /// Header and directories. The first one points to the others.
+  void write(std::string& out) {
+    const std::size_t exif_at = 8 + main.size(), gps_at = exif_at + exif.size();
+    main.set_number(0x8769, static_cast<std::uint32_t>(exif_at));
+    main.set_number(0x8825, static_cast<std::uint32_t>(gps_at));
+    out.append("II*\0\10\0\0\0", 8);
+    main.write(out, 8);
+    exif.write(out, exif_at);
+    gps.write(out, gps_at);
+  }
+};
+
+Directories make_directories(const PhotoFacts& facts) {
+  Directories directories;
+  auto& [main, exif, gps] = directories;
   main.add_text(0x010f, "Vinerow");                          // Make
   main.add_text(0x0110, facts.model);                        // Model
   main.add_number(0x0112, FieldType::kShort, 1);             // Orientation: upper left
@@ -151,14 +174,11 @@ std::string exif_segment(const PhotoFacts& facts) {
   main.add_fractions(0x011b, {72.0}, 1);                     // YResolution
   main.add_number(0x0128, FieldType::kShort, 2);             // ResolutionUnit: inch
   main.add_text(0x0131, "Vinerow " VINEROW_VERSION_STRING);  // Software
-  main.add_number(0x0213, FieldType::kShort, 1);             // YCbCrPositioning: centred
 
-  const double per_cm = 10.0 / pixel_mm(facts);                                    // pixels per cm
-  exif.add_bytes(0x9000, FieldType::kUndefined, "0232");                           // ExifVersion
-  exif.add_bytes(0x9101, FieldType::kUndefined, std::string_view("\1\2\3\0", 4));  // components
-  exif.add_fractions(0x920a, {facts.focal_length_mm}, 10'000);                     // FocalLength
-  exif.add_bytes(0xa000, FieldType::kUndefined, "0100");  // FlashpixVersion
-  exif.add_number(0xa001, FieldType::kShort, 1);          // ColorSpace: sRGB
+  const double per_cm = 10.0 / pixel_mm(facts);                 // pixels per cm
+  exif.add_bytes(0x9000, FieldType::kUndefined, "0232");        // ExifVersion
+  exif.add_fractions(0x920a, {facts.focal_length_mm}, 10'000);  // FocalLength
+  exif.add_bytes(0xa000, FieldType::kUndefined, "0100");        // FlashpixVersion
   exif.add_number(0xa002, FieldType::kLong, static_cast<std::uint32_t>(facts.columns));
   exif.add_number(0xa003, FieldType::kLong, static_cast<std::uint32_t>(facts.rows));
   exif.add_fractions(0xa20e, {per_cm}, 1000);     // FocalPlaneXResolution
@@ -178,34 +198,75 @@ std::string exif_segment(const PhotoFacts& facts) {
   gps.add_fractions(0x0011, {yaw_deg < 0.0 ? yaw_deg + 360.0 : yaw_deg}, 10'000);
   gps.add_text(0x0012, "WGS-84");
 
-  // A TIFF file: header, then the three directories, the first of which points to the others.
-  main.add_number(0x8769, FieldType::kLong, 0);
+  main.add_number(0x8769, FieldType::kLong, 0);  // where the others are
   main.add_number(0x8825, FieldType::kLong, 0);
-  const std::size_t exif_at = 8 + main.size(), gps_at = exif_at + exif.size();
-  main.set_number(0x8769, static_cast<std::uint32_t>(exif_at));
-  main.set_number(0x8825, static_cast<std::uint32_t>(gps_at));
-  std::string out("Exif\0\0II*\0\10\0\0\0", 14);
-  main.write(out, 8);
-  exif.write(out, exif_at);
-  gps.write(out, gps_at);
-  return out;
+  return directories;
 }
 
-std::string xmp_segment(const PhotoFacts& facts) {
+std::string xmp_packet(const PhotoFacts& facts) {
   const Eigen::Vector3d angles = photo_angles(facts.q_WS);
-  std::string out = "http://ns.adobe.com/xap/1.0/";
-  out += '\0';
-  out += fmt::format(
+  std::string band;
+  if (facts.band) {
+    band = fmt::format(
+        " Camera:BandName=\"{}\" Camera:CentralWavelength=\"{:g}\" "
+        "Camera:WavelengthFWHM=\"{:g}\"\n"
+        " Camera:RigName=\"{}\" Camera:RigCameraIndex=\"{}\" Camera:CaptureUUID=\"{}\"\n",
+        facts.band->name, facts.band->wavelength_nm, facts.band->width_nm, facts.model,
+        facts.band->index, facts.band->capture);
+  }
+  return fmt::format(
       "<?xpacket begin=\"\xef\xbb\xbf\" id=\"W5M0MpCehiHzreSzNTczkc9d\"?>\n"
       "<x:xmpmeta xmlns:x=\"adobe:ns:meta/\">\n"
       "<rdf:RDF xmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\">\n"
       "<rdf:Description rdf:about=\"\" xmlns:Camera=\"http://pix4d.com/camera/1.0/\"\n"
-      " Camera:ModelType=\"perspective\" Camera:PerspectiveFocalLength=\"{:.6f}\"\n"
+      "{} Camera:ModelType=\"perspective\" Camera:PerspectiveFocalLength=\"{:.6f}\"\n"
       " Camera:PrincipalPoint=\"{:.6f},{:.6f}\" Camera:PerspectiveDistortion=\"0,0,0,0,0\"\n"
       " Camera:Yaw=\"{:.5f}\" Camera:Pitch=\"{:.5f}\" Camera:Roll=\"{:.5f}\"/>\n"
       "</rdf:RDF>\n</x:xmpmeta>\n<?xpacket end=\"r\"?>",
-      facts.focal_length_mm, 0.5 * facts.sensor_width_mm, 0.5 * pixel_mm(facts) * facts.rows,
+      band, facts.focal_length_mm, 0.5 * facts.sensor_width_mm, 0.5 * pixel_mm(facts) * facts.rows,
       deg_from_rad(angles.x()), deg_from_rad(angles.y()), deg_from_rad(angles.z()));
+}
+
+}  // namespace
+
+std::string exif_segment(const PhotoFacts& facts) {
+  Directories directories = make_directories(facts);
+  directories.main.add_number(0x0213, FieldType::kShort, 1);  // YCbCrPositioning: centred
+  directories.exif.add_bytes(0x9101, FieldType::kUndefined,
+                             std::string_view("\1\2\3\0", 4));  // components
+  directories.exif.add_number(0xa001, FieldType::kShort, 1);    // ColorSpace: sRGB
+  std::string out("Exif\0\0", 6);
+  directories.write(out);
+  return out;
+}
+
+std::string xmp_segment(const PhotoFacts& facts) {
+  std::string out = "http://ns.adobe.com/xap/1.0/";
+  out += '\0';
+  return out + xmp_packet(facts);
+}
+
+std::string tiff_file(const PhotoFacts& facts, const Picture& band) {
+  VINEROW_DEMAND(band.format == Picture::Format::kMono16 && facts.band);
+  Directories directories = make_directories(facts);
+  Directory& main = directories.main;
+  main.add_number(0x0100, FieldType::kLong, band.width);
+  main.add_number(0x0101, FieldType::kLong, band.height);
+  main.add_number(0x0102, FieldType::kShort, 16);          // BitsPerSample
+  main.add_number(0x0103, FieldType::kShort, 1);           // Compression: none
+  main.add_number(0x0106, FieldType::kShort, 1);           // PhotometricInterpretation: 0 is black
+  main.add_number(0x0111, FieldType::kLong, 0);            // StripOffsets: one strip
+  main.add_number(0x0115, FieldType::kShort, 1);           // SamplesPerPixel
+  main.add_number(0x0116, FieldType::kLong, band.height);  // RowsPerStrip
+  main.add_number(0x0117, FieldType::kLong, static_cast<std::uint32_t>(band.data.size()));
+  main.add_bytes(0x02bc, FieldType::kByte, xmp_packet(facts));
+  // ExposureTime, from a microsecond on; FNumber.
+  directories.exif.add_fractions(0x829a, {facts.band->exposure_s}, 1'000'000'000);
+  directories.exif.add_fractions(0x829d, {facts.band->f_number}, 100);
+  main.set_number(0x0111, static_cast<std::uint32_t>(directories.end()));
+  std::string out;
+  directories.write(out);
+  out.append(reinterpret_cast<const char*>(band.data.data()), band.data.size());
   return out;
 }
 

@@ -1,11 +1,14 @@
 #pragma once
 /// Photographs of a survey as its camera takes them, for photogrammetry: JPEG files with camera and
-/// position, which COLMAP, OpenDroneMap, Metashape and Pix4D read.
+/// position, which COLMAP, OpenDroneMap, Metashape and Pix4D read, or TIFF files of a multispectral
+/// camera's bands.
 
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "engine/api/product.h"
 #include "engine/api/world_model.h"
@@ -16,10 +19,19 @@ struct SurveyPhotoOptions {
   /// Columns of the photographs, with the camera's shape and field of view; absent: the camera's.
   std::optional<int> columns;
   std::uint64_t seed = 1;  ///< of the noise
+  /// Names of photo_bands(), in the order of the camera's sensors; empty: colours.
+  std::vector<std::string> bands;
 };
 
+/// Bands that a survey can be photographed in: blue, green, red, red_edge, nir.
+std::vector<std::string> photo_bands();
+
+/// Number of a pixel of reflectance 1 in a band. MicaSense's software scales reflectances alike.
+constexpr int kPanel = 32768;
+
 /// The camera of these photographs.
-/// @throws ConfigError if a photograph would be too small or too large
+/// @throws ConfigError if a photograph would be too small or too large, or a band is unknown or
+/// twice
 SurveyCamera photo_camera(const SurveyCamera& camera, const SurveyPhotoOptions& options);
 
 /// Draws each picture by rays on the world as cameras see it, with an ideal lens, a global shutter
@@ -28,6 +40,10 @@ SurveyCamera photo_camera(const SurveyCamera& camera, const SurveyPhotoOptions& 
 ///
 ///   <folder>/photo_0001.jpg ...  Exif has the position that the vehicle estimated, or the true one
 ///                                without estimates
+///   <folder>/photo_0001_red.tif ...  instead, if bands are wanted: 16 bits, in which kPanel is
+///   what
+///                                a white panel on level ground would have; so they are
+///                                reflectances without further calibration
 ///   <folder>/geo.txt             the same positions for OpenDroneMap, with the angles of the XMP
 ///                                and the rms of the positions' errors
 ///   <folder>/truth.csv           true position and orientation, in W and in WGS84

@@ -67,6 +67,7 @@ constexpr std::array kHelpTexts = {
     HelpText{"survey", kSurvey,
              "survey assets/scenarios/survey_still.yaml --out plans\n"
              "survey --log runs/map_parcel --pictures --picture-width 1368 --out photos\n"
+             "survey assets/scenarios/survey_still.yaml --pictures --bands red,nir --out ndvi\n"
              "survey --polygon field.geojson --dem dem.tif --height_m 60 --rotorcraft",
              ""},
     HelpText{"cloud", kSurvey, "cloud assets/scenarios/map_parcel.yaml --out parcel.las", ""},

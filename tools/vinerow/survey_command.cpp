@@ -128,7 +128,7 @@ controllers::SurveyPlan plan_and_write(const SurveyTask& task, const std::filesy
 
 SurveyPhotoOptions photo_options(const SurveyArguments& arguments,
                                  const scenario::Scenario& scenario) {
-  return {arguments.picture_width, scenario.seed};
+  return {arguments.picture_width, scenario.seed, arguments.bands};
 }
 
 /// @returns exit status
@@ -151,8 +151,9 @@ int take_pictures(const SurveyArguments& arguments, const PictureSet& pictures,
     fmt::print(stderr, "vinerow: interrupted: no pictures are kept\n");
     return static_cast<int>(run::RunStatus::kBrokenOff);
   }
-  fmt::print("pictures         {}: {} of {} x {} pixels, with Exif positions ({})\n", out.string(),
-             count, camera.columns, camera.rows,
+  fmt::print("pictures         {}: {} of {} x {} pixels{}, with Exif positions ({})\n",
+             out.string(), count, camera.columns, camera.rows,
+             options.bands.empty() ? "" : fmt::format(" in {} bands", options.bands.size()),
              pictures.estimated_W.empty() ? "true" : "as the vehicle estimated them");
   return 0;
 }
@@ -181,7 +182,7 @@ void refuse_idle_options(const CLI::App& command, const SurveyArguments& argumen
       throw ConfigError(fmt::format("survey: {} has no effect without {}", name, needed));
     }
   };
-  if (!arguments.pictures) refuse({"--picture-width"}, "--pictures");
+  if (!arguments.pictures) refuse({"--picture-width", "--bands"}, "--pictures");
   if (arguments.log.empty()) refuse({"--sensor"}, "--log");
   if (arguments.polygon.empty()) {
     refuse({"--origin", "--dem", "--crs", "--start", "--heading"}, "--polygon");
@@ -253,6 +254,13 @@ void add_survey_command(CLI::App& app, int& exit_status) {
   command
       ->add_option("--picture-width", arguments->picture_width,
                    "columns of the pictures (default: the camera's)")
+      ->group(photographs);
+  command
+      ->add_option("--bands", arguments->bands,
+                   "16-bit TIFF files of these bands instead of colours: blue,green,red,red_edge,"
+                   "nir")
+      ->delimiter(',')
+      ->check(CLI::IsMember(photo_bands()))
       ->group(photographs);
   command->callback([arguments, command, &exit_status] {
     const bool has_scenario = !arguments->scenario.file.empty();

@@ -21,6 +21,7 @@ struct SurveyArguments {
   std::filesystem::path polygon, dem, out, log;
   bool pictures = false;
   std::optional<int> picture_width;
+  std::vector<std::string> bands;
   std::string sensor;
   std::string crs;
   std::vector<double> origin, start;

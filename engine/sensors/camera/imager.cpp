@@ -43,6 +43,12 @@ std::vector<float> make_quantiles() {
   return quantiles;
 }
 
+/// Electrons of a pixel per second, for radiance 1.
+double calc_electrons_per_s(const ImagerParams& params) {
+  return params.quantum_efficiency * params.pixel_um * params.pixel_um * kPi /
+         (4.0 * params.f_number * params.f_number) * kSun_lx * kPhotons_per_lx_s_um2;
+}
+
 const std::vector<float>& quantiles() {
   static const std::vector<float> table = make_quantiles();
   return table;
@@ -121,8 +127,7 @@ Imager::Imager(const ImagerParams& params, int width, int height, int channels,
       exposure_s_(params.exposure_s > 0.0 ? params.exposure_s : params.exposure_max_s) {
   // None is below 1: a full pixel stays white.
   for (int c = 0; c < 3; ++c) balance_[c] = white.maxCoeff() / white[c];
-  electrons_per_s_ = params.quantum_efficiency * params.pixel_um * params.pixel_um * kPi /
-                     (4.0 * params.f_number * params.f_number) * kSun_lx * kPhotons_per_lx_s_um2;
+  electrons_per_s_ = calc_electrons_per_s(params);
   const std::size_t pixels = static_cast<std::size_t>(width) * height;
   if (params.noise) draws_.resize(pixels * channels);
   QuickNormals draws(pattern);
@@ -150,6 +155,10 @@ Imager::Imager(const ImagerParams& params, int width, int height, int channels,
       values_[c].push_back(static_cast<std::uint16_t>(std::lround(value)));
     }
   }
+}
+
+double Imager::calc_exposure_s(const ImagerParams& params, double radiance, double share) {
+  return share * params.full_well_e / (calc_electrons_per_s(params) * radiance);
 }
 
 /// Chooses exposure and gain by the geometric mean, which a bright sky hardly moves. The camera is

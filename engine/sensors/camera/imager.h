@@ -72,6 +72,9 @@ class Imager {
   Imager(const ImagerParams& params, int width, int height, int channels,
          const Eigen::Vector3f& white, RandomStream pattern);
 
+  /// Exposure at which a pixel that gets all light takes a share of its range, without gain.
+  static double calc_exposure_s(const ImagerParams& params, double radiance, double share);
+
   /// Exposure time of the last picture, s; before the first the longest.
   double exposure_s() const { return exposure_s_; }
   /// Gain of the last picture; 1 before the first and with a fixed exposure.

@@ -24,8 +24,7 @@ const ParameterTable<QuadrotorMpcParams>& quadrotor_mpc_table() {
                    "R of thrust (1/N2) and torques about x, y, z (1/(N m)2)")
           .degrees("tilt_limit_deg", limits(&MpcLimits::tilt_rad), between(1.0, 60.0),
                    "limit of the tilt in the prediction, soft, clamped to that of the vehicle; an "
-                   "octagon "
-                   "inside it")
+                   "octagon inside it")
           .number("lateral_limit_m", "m", limits(&MpcLimits::lateral_m), kPositive,
                   "limit of the deviation to the side in the prediction, soft")
           .number("altitude_limit_m", "m", limits(&MpcLimits::altitude_m), kPositive,

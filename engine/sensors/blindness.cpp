@@ -96,6 +96,7 @@ bool is_in_box(const MeshInstance& instance, const Vector3d& p_W) {
 std::string find_body_in_sight(const Vector3d& p_W, std::span<const Vector3d> view_W,
                                const WorldModel& world, const RayScene& light,
                                VehicleScene* vehicles) {
+  // Chosen: what is left are gaps between boards.
   constexpr double kMost = 0.9;
   std::map<FirstMet, std::size_t> rays_of;
   for (const Vector3d& dir_W : view_W) {
@@ -104,7 +105,8 @@ std::string find_body_in_sight(const Vector3d& p_W, std::span<const Vector3d> vi
   }
   for (const auto& [met, rays] : rays_of) {
     if (static_cast<double>(rays) < kMost * static_cast<double>(view_W.size())) continue;
-    // Neither a wall nor a roof that the camera looks at, nor a vehicle seen from close up.
+    // Neither a wall nor a roof that the camera looks at, nor a vehicle seen from close up: at most
+    // five of the directions point to the same side.
     std::size_t around = 0;
     for (const Vector3d& direction : kAround) {
       around += find_first(p_W, direction.normalized(), light, vehicles) == met ? 1 : 0;

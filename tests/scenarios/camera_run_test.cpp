@@ -151,21 +151,27 @@ TEST(CameraRun, RefusesCamerasAndScannersInsideOfTheirVehicle) {
   for (const std::string& name : names) EXPECT_EQ(test::read_text(out / name), "earlier " + name);
 }
 
-/// Around and above the fixed wing, looking at it, and in its fuselage.
-TEST(CameraRun, IsInsideOfTheFixedWingInItsFuselageAlone) {
-  const ScratchFolder folder("camera_plane");
-  const auto validate = [&](const std::string& place) {
-    return run_vinerow("validate " + folder.file("scenario.yaml", R"(
+/// `vinerow validate` of a vehicle of the assets with a camera. @param camera  its further keys
+test::CommandResult validate_camera(const ScratchFolder& folder, const std::string& vehicle,
+                                    const std::string& asset, const std::string& camera) {
+  return run_vinerow("validate " + folder.file("scenario.yaml", R"(
 vinerow: 1
 duration_s: 0.1
 world: {type: vineyard, row_count: 2, row_length_m: 10, relief_m: 0, leaf_cards_per_m: 10, plant_variants: 1}
 vehicles:
-  plane:
-    include: )" + std::string(VINEROW_SOURCE_DIR) + R"(/assets/vehicles/mh900_like.yaml
+  )" + vehicle + ":\n    include: " + VINEROW_SOURCE_DIR + "/assets/vehicles/" +
+                                                                    asset + R"(
     spawn: {alley: 0, offset_m: 6}
     sensors:
       eye: {type: camera, width_px: 16, height_px: 16, picture: depth, )" +
-                                                                      place + "}\n"));
+                                                                    camera + "}\n"));
+}
+
+/// Around and above the fixed wing, looking at it, and in its fuselage.
+TEST(CameraRun, IsInsideOfTheFixedWingInItsFuselageAlone) {
+  const ScratchFolder folder("camera_plane");
+  const auto validate = [&](const std::string& camera) {
+    return validate_camera(folder, "plane", "mh900_like.yaml", camera);
   };
   for (const char* place : {"position_m: [-1.5, 0, 0.8], rotation_deg: [0, 28, 0]",
                             "position_m: [0, 0.3, 0.6], rotation_deg: [0, 90, 0]",
@@ -184,18 +190,8 @@ vehicles:
 /// looking back at nothing else.
 TEST(CameraRun, IsInsideOfARoverWhereverItLooks) {
   const ScratchFolder folder("camera_rover");
-  const auto validate = [&](const std::string& place) {
-    return run_vinerow("validate " + folder.file("scenario.yaml", R"(
-vinerow: 1
-duration_s: 0.1
-world: {type: vineyard, row_count: 2, row_length_m: 10, relief_m: 0, leaf_cards_per_m: 10, plant_variants: 1}
-vehicles:
-  rover:
-    include: )" + std::string(VINEROW_SOURCE_DIR) + R"(/assets/vehicles/rover_paper_b.yaml
-    spawn: {alley: 0, offset_m: 3}
-    sensors:
-      eye: {type: camera, width_px: 16, height_px: 16, picture: depth, )" +
-                                                                      place + "}\n"));
+  const auto validate = [&](const std::string& camera) {
+    return validate_camera(folder, "rover", "rover_paper_b.yaml", camera);
   };
   for (const char* position : {"[0, 0, 0.2]", "[-0.5, 0, 0.2]", "[0.2, -0.2, 0.2]"}) {
     for (const char* yaw_deg : {"-30", "0", "90", "180"}) {

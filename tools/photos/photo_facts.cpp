@@ -260,9 +260,8 @@ std::string tiff_file(const PhotoFacts& facts, const Picture& band) {
   main.add_number(0x0116, FieldType::kLong, band.height);  // RowsPerStrip
   main.add_number(0x0117, FieldType::kLong, static_cast<std::uint32_t>(band.data.size()));
   main.add_bytes(0x02bc, FieldType::kByte, xmp_packet(facts));
-  // ExposureTime, from a microsecond on; FNumber.
-  directories.exif.add_fractions(0x829a, {facts.band->exposure_s}, 1'000'000'000);
-  directories.exif.add_fractions(0x829d, {facts.band->f_number}, 100);
+  directories.exif.add_fractions(0x829a, {facts.band->exposure_s}, 1'000'000'000);  // ExposureTime
+  directories.exif.add_fractions(0x829d, {facts.band->f_number}, 100);              // FNumber
   main.set_number(0x0111, static_cast<std::uint32_t>(directories.end()));
   std::string out;
   directories.write(out);

@@ -59,9 +59,13 @@ const BandSpec& find_band(const std::string& key) {
       fmt::format("survey: --bands has '{}', must be of {}", key, fmt::join(photo_bands(), ", ")));
 }
 
+/// Of the photographs of one moment.
+std::string capture_name(std::size_t index) {
+  return fmt::format("photo_{:04}", index + 1);
+}
+
 std::string photo_name(std::size_t index, const std::string& band = "") {
-  return fmt::format("photo_{:04}{}{}", index + 1, band.empty() ? "" : "_",
-                     band.empty() ? ".jpg" : band + ".tif");
+  return capture_name(index) + (band.empty() ? ".jpg" : "_" + band + ".tif");
 }
 
 /// What all photographs share. Thread safe.
@@ -105,7 +109,7 @@ class Darkroom {
     }
     for (std::size_t b = 0; b < bands_.size(); ++b) {
       const std::string name = photo_name(index, bands_[b]->key);
-      write_whole_file(folder / name, tiff(name, b, X_WS, facts, photo_name(index)));
+      write_whole_file(folder / name, tiff(name, b, X_WS, facts, capture_name(index)));
     }
   }
 
@@ -164,13 +168,9 @@ class Darkroom {
     sensors::ImagerParams params = image_sensor();
     params.exposure_s =
         sensors::Imager::calc_exposure_s(params, double{1} * look.white().x(), kPanel / 65535.0);
-    facts.band = PhotoBand{band.name,
-                           static_cast<int>(index),
-                           band.wavelength_nm,
-                           band.width_nm,
-                           params.exposure_s,
-                           params.f_number,
-                           capture.substr(0, capture.find('.'))};
+    facts.band = PhotoBand{band.name,     static_cast<int>(index), band.wavelength_nm,
+                           band.width_nm, params.exposure_s,       params.f_number,
+                           capture};
     return tiff_file(facts, take(name, X_WS, look, params, 1));
   }
 

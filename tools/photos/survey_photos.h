@@ -40,10 +40,8 @@ SurveyCamera photo_camera(const SurveyCamera& camera, const SurveyPhotoOptions& 
 ///
 ///   <folder>/photo_0001.jpg ...  Exif has the position that the vehicle estimated, or the true one
 ///                                without estimates
-///   <folder>/photo_0001_red.tif ...  instead, if bands are wanted: 16 bits, in which kPanel is
-///   what
-///                                a white panel on level ground would have; so they are
-///                                reflectances without further calibration
+///   <folder>/photo_0001_red.tif ...  instead, if bands are wanted: 16-bit reflectances. A level
+///                                white panel would have kPanel
 ///   <folder>/geo.txt             the same positions for OpenDroneMap, with the angles of the XMP
 ///                                and the rms of the positions' errors
 ///   <folder>/truth.csv           true position and orientation, in W and in WGS84

@@ -15,6 +15,14 @@ namespace {
 constexpr std::size_t kBrownCoefficients = 5, kFisheyeCoefficients = 4;
 constexpr double kMostPixels = 4096.0 * 4096.0;
 
+/// As given, or by the width of view: a pinhole's pixels are even in the tangent, a fisheye's in
+/// the angle.
+double calc_fx_px(const LensParams& p) {
+  const double half_rad = 0.5 * p.horizontal_fov_rad;
+  const double half_width = p.lens == CameraInfo::Lens::kFisheye ? half_rad : std::tan(half_rad);
+  return p.fx_px.value_or(0.5 * p.width_px / half_width);
+}
+
 std::string fault_of(const LensParams& p) {
   const bool is_fisheye = p.lens == CameraInfo::Lens::kFisheye;
   const std::size_t count = is_fisheye ? kFisheyeCoefficients : kBrownCoefficients;
@@ -37,8 +45,7 @@ std::string fault_of(const LensParams& p) {
         deg_from_rad(p.horizontal_fov_rad), deg_from_rad(kWidest_rad));
   }
   // Along a row and across the rows, from the principal point to the farther border.
-  const double fx_px = p.fx_px.value_or(0.5 * p.width_px / std::tan(0.5 * p.horizontal_fov_rad));
-  const double fy_px = p.fy_px.value_or(fx_px);
+  const double fx_px = calc_fx_px(p), fy_px = p.fy_px.value_or(fx_px);
   struct Axis {
     const char *size, *focal, *middle, *pixels;
     double px, f_px;
@@ -110,10 +117,7 @@ Lens make_lens(const LensParams& params, const std::string& who) {
   info.height = static_cast<std::uint32_t>(params.height_px);
   info.lens = params.lens;
   std::copy(params.distortion.begin(), params.distortion.end(), info.distortion.begin());
-  const double half_rad = 0.5 * params.horizontal_fov_rad;
-  const double half_width =
-      params.lens == CameraInfo::Lens::kFisheye ? half_rad : std::tan(half_rad);
-  info.fx_px = params.fx_px.value_or(0.5 * params.width_px / half_width);
+  info.fx_px = calc_fx_px(params);
   info.fy_px = params.fy_px.value_or(info.fx_px);
   info.cx_px = params.cx_px.value_or(0.5 * (params.width_px - 1));
   info.cy_px = params.cy_px.value_or(0.5 * (params.height_px - 1));

@@ -42,6 +42,17 @@ SensorValues ideal(SensorValues more = {}) {
   return values;
 }
 
+/// A single beam ahead, of a ray in the middle and four about it.
+SensorValues one_wide_beam(SensorValues more) {
+  SensorValues values = {{"elevations_deg", std::vector<double>{0.0}},
+                         {"columns", std::int64_t{2}},
+                         {"field_of_view_deg", 10.0},
+                         {"divergence_deg", 0.2},
+                         {"sub_rays", std::int64_t{5}}};
+  values.insert(values.end(), more.begin(), more.end());
+  return ideal(values);
+}
+
 Bench make(const SensorValues& values, const PlainScene& scene, std::uint64_t seed = 1) {
   return Bench("lidar_3d", test::sensor_parameters("lidar_3d", values), scene, 10.0, seed);
 }
@@ -185,12 +196,7 @@ TEST(Lidar3d, ReportsTheStrongestAndTheLastEcho) {
   scene.panels.push_back({{8, 0, 0}, {-1, 0, 0}, SurfaceClass::kPost});
   // One pulse straight ahead in a frame.
   const auto beam = [&](const char* returns) {
-    return ideal({{"elevations_deg", std::vector<double>{0.0}},
-                  {"columns", std::int64_t{2}},
-                  {"field_of_view_deg", 10.0},
-                  {"divergence_deg", 0.2},
-                  {"sub_rays", std::int64_t{5}},
-                  {"returns", std::string(returns)}});
+    return one_wide_beam({{"returns", std::string(returns)}});
   };
   Bench dual = make(beam("dual"), scene);
   dual.step();
@@ -211,13 +217,7 @@ TEST(Lidar3d, ReportsTheSecondStrongestEchoIfTheStrongestIsTheLast) {
   PlainScene scene;
   scene.panels.push_back({{5, 0.253, 0}, {-1, 0, 0}, SurfaceClass::kCanopy, 0.25, 0.0001});
   scene.panels.push_back({{8, 0, 0}, {-1, 0, 0}, SurfaceClass::kPost});
-  Bench dual = make(ideal({{"elevations_deg", std::vector<double>{0.0}},
-                           {"columns", std::int64_t{2}},
-                           {"field_of_view_deg", 10.0},
-                           {"divergence_deg", 0.2},
-                           {"sub_rays", std::int64_t{5}},
-                           {"returns", std::string("dual")}}),
-                    scene);
+  Bench dual = make(one_wide_beam({{"returns", std::string("dual")}}), scene);
   const PointCloud& both = dual.step();
   ASSERT_EQ(both.x.size(), 2u);
   // By power: 0.8 x 0.35 / 8^2 > 0.2 x 0.45 / 5^2.
@@ -234,13 +234,7 @@ TEST(Lidar3d, AnEchoFromTwoThingsHasTheLabelOfTheStronger) {
     PlainScene scene;
     scene.panels.push_back({{5, 0.253, 0}, {-1, 0, 0}, SurfaceClass::kCanopy, twig_half_m, 1e-4});
     scene.panels.push_back({{5.5, 0, 0}, {-1, 0, 0}, SurfaceClass::kPost});
-    Bench bench = make(ideal({{"elevations_deg", std::vector<double>{0.0}},
-                              {"columns", std::int64_t{2}},
-                              {"field_of_view_deg", 10.0},
-                              {"divergence_deg", 0.2},
-                              {"sub_rays", std::int64_t{5}},
-                              {"labels", true}}),
-                       scene);
+    Bench bench = make(one_wide_beam({{"labels", true}}), scene);
     const PointCloud& cloud = bench.step();
     EXPECT_EQ(cloud.x.size(), 1u);
     EXPECT_EQ(bench.truth().label.size(), 1u);
